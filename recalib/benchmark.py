@@ -1,0 +1,73 @@
+"""What should one use today? Every learner on the same scenarios, in the unit that costs: robot moves."""
+
+import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from recalib import peers, tuned
+from recalib.controller import Controller
+from recalib.learners import Learner
+
+BLACK_BOX = "measured poses, two moves for each"
+
+
+class Entrant(NamedTuple):
+    """A learner in the benchmark: how it is made, and its iterations and moves."""
+
+    make: Callable[[int, Controller], Learner]
+    iterations: int
+    moves_per_iteration: int
+
+    def measure_at(self, budgets) -> list[int]:
+        """Iterations after which its moves meet one of the budgets."""
+        moves = self.moves_per_iteration
+        return [budget // moves for budget in budgets if budget % moves == 0 and budget <= self.iterations * moves]
+
+
+def entrant(name: str, config: Mapping) -> Entrant:
+    """The learner of this name: a peer, or a training of the paper's maps with the settings found for it.
+
+    Raises UnknownName and InvalidSetting.
+    """
+    if name in peers.NEEDS:
+        return Entrant(partial(peers.build, name), max(config["benchmark"]["moves"]), 1)
+    which = tuned.training(name, config["learners"])
+    tuned.settings(which, config["tuned"])
+    return Entrant(lambda runs, _: tuned.build(which, runs, config["learners"], config["tuned"]), which.iterations, 2)
+
+
+class Timed:
+    """A learner whose own time is taken, without that of the robot's moves.
+
+    Attributes:
+        seconds: spent in learning so far.
+    """
+
+    def __init__(self, learner: Learner):
+        self._learner, self.seconds = learner, 0.0
+        self.command = learner.command
+
+    def learn(self, desired: np.ndarray, execute, fraction: float) -> None:
+        """As the learner's own."""
+        moving = 0.0
+
+        def timed(commands):
+            nonlocal moving
+            start = time.perf_counter()
+            outcome = execute(commands)
+            moving += time.perf_counter() - start
+            return outcome
+
+        start = time.perf_counter()
+        self._learner.learn(desired, timed, fraction)
+        self.seconds += time.perf_counter() - start - moving
+
+
+def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
+    """For each seed (seed,), the moves of the first measurement within the threshold; infinity where there is none."""
+    within = history[history[error] <= threshold].groupby("seed")["moves"].min()
+    return within.astype(float).reindex(np.sort(history["seed"].unique()), fill_value=np.inf).to_numpy()

@@ -1,0 +1,135 @@
+"""A calibrated arm: what it does, and the joint angles that it needs to do what is desired."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel, JointTerms
+from recalib.identification import LEAST_NOISE, Estimate, displacements, identify
+from recalib.kinematics import Arm
+from recalib.processes import Process, is_time_to_search
+
+STEPS = 10
+TOLERANCE = 1e-9  # m, rad
+LONGEST_STEP = 0.5  # rad
+FEWEST = 16  # measurements to see a pattern in what a model leaves
+CONVINCING = 2.5  # the gain in log evidence over the root of the number of further parameters, below which it may be chance
+DOUBTFUL = 0.3  # weight of a measurement below which it is none to learn a pattern from
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """An error model with its parameters identified, and what it leaves as a Gaussian process of the joint angles.
+
+    Attributes:
+        model: the error model.
+        estimate: what is known of its parameters.
+        residual: from joint angles [rad] to displacements over the estimate's noise; None where nothing is left but noise.
+    """
+
+    model: ErrorModel
+    estimate: Estimate
+    residual: Process | None = None
+
+    def forward(self, angles: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
+        return self._moved(self.model.predict(self.estimate.parameters, angles), angles)
+
+    def angles_for(self, poses: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Joint angles (n, 6) [rad] for the controller to believe in so that the tool gets to the poses (n, 4, 4) [m].
+
+        Newton's method from `start` (n, 6) [rad], with the Jacobian of the arm alone: joint errors and the residual change
+        slowly with the angles. Where nothing reaches the pose, the best angles that were met.
+        """
+        parameters = self.estimate.parameters
+        arm = self.model.arm(parameters)
+        angles, best, least = start.copy(), start.copy(), np.full(len(start), np.inf)
+        for _ in range(STEPS):
+            standing = self.model.standing(parameters, angles, self.model.terms(angles))
+            reached, jacobians = arm.forward_and_jacobian(standing)
+            misses = displacements(self._moved(reached, angles), poses)
+            sizes = np.abs(misses).max(axis=-1)
+            better = sizes < least
+            best[better], least[better] = angles[better], sizes[better]
+            if least.max(initial=0) <= TOLERANCE:
+                break
+            steps = (np.linalg.pinv(jacobians) @ misses[..., None])[..., 0]
+            angles = angles + steps * np.minimum(1, LONGEST_STEP / np.abs(steps).max(axis=-1, keepdims=True))
+        return best
+
+    def _moved(self, poses: np.ndarray, angles: np.ndarray) -> np.ndarray:
+        if self.residual is None:
+            return poses
+        by = self.residual.predict(angles) * np.repeat(self.estimate.noise, 3)
+        moved = poses.copy()
+        moved[:, :3, 3] += by[:, :3]
+        if by.shape[1] == 6:
+            moved[:, :3, :3] = Rotation.from_rotvec(by[:, 3:]).as_matrix() @ poses[:, :3, :3]
+        return moved
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All of it, as named arrays."""
+        arrays = {f"estimate/{name}": np.asarray(value) for name, value in vars(self.estimate).items()}
+        if self.residual is not None:
+            arrays |= {f"residual/{name}": value for name, value in self.residual.state().items()}
+        return arrays
+
+    @classmethod
+    def restore(cls, arm: Arm, arrays: Mapping[str, np.ndarray]) -> "Calibration":
+        """What `state` returned, for the same nominal arm."""
+        groups = {"estimate": {}, "residual": {}}
+        for key, value in arrays.items():
+            group, name = key.split("/")
+            groups[group][name] = value
+        estimate = Estimate(**groups["estimate"])
+        models = (ErrorModel(arm, terms) for terms in (OFFSETS, JOINT_ERRORS, JOINT_WAVES))
+        model = next(each for each in models if len(each.deviations) == len(estimate.parameters))
+        return cls(model, estimate, Process(**groups["residual"]) if groups["residual"] else None)
+
+
+def calibrate(
+    arm: Arm,
+    candidates: Sequence[JointTerms],
+    angles: np.ndarray,
+    measured: np.ndarray,
+    last: Calibration | None = None,
+) -> Calibration:
+    """The calibration of the nominal arm by the most probable of several error models, with a residual if that is worth it.
+
+    A model with more terms has to be far more probable, so that where geometry is all that there is, geometry is all that is
+    used. What the model leaves goes to a Gaussian process if that is more probable than noise.
+
+    Args:
+        candidates: joint terms of the error models, the simplest first.
+        angles: (n, 6) rad in which the controller believed.
+        measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
+        last: a calibration from fewer measurements, to start from. The process's hyperparameters are kept until the number
+            of measurements has doubled.
+    """
+    best = None
+    for terms in candidates:
+        model = ErrorModel(arm, terms)
+        estimate = identify(model, angles, measured, last and last.estimate)
+        if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(best.estimate, estimate):
+            best = Calibration(model, estimate)
+    return replace(best, residual=_residual(best, angles, measured, last))
+
+
+def _chance(poorer: Estimate, richer: Estimate) -> float:
+    """Gain in log evidence that idle parameters may make, as the deviations of their prior are fitted to the data."""
+    return CONVINCING * np.sqrt(len(richer.parameters) - len(poorer.parameters))
+
+
+def _residual(
+    calibration: Calibration, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
+) -> Process | None:
+    estimate = calibration.estimate
+    good = estimate.weights > DOUBTFUL
+    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(angles))
+    if good.sum() < FEWEST or np.all(estimate.noise <= LEAST_NOISE) or not (search or last.residual):
+        return None
+    misses = displacements(calibration.forward(angles[good]), measured[good]) / np.repeat(estimate.noise, 3)
+    process = Process(angles[good], misses, None if search else last.residual.hyperparameters)
+    return process if process.gain > 0 else None

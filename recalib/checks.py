@@ -1,0 +1,47 @@
+"""The check of final errors: every training against the band in which its errors are expected."""
+
+import pandas as pd
+
+from recalib.errors import RecalibError
+
+ERRORS = ("position_error_cm", "orientation_error_deg")
+KEYS = ["scenario", "learner"]
+
+# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds would stay inside, and a
+# change of a rule that matters does not.
+STANDARD_ERRORS = 4
+# Below these, an error is rounding and the nominal controller's tolerance: nothing is expected of it but to be small.
+NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
+
+
+class CheckFailed(RecalibError):
+    """Final errors outside of their bands; carries the failing rows."""
+
+    def __init__(self, failed: pd.DataFrame):
+        self.failed = failed
+        rows = [
+            f"{row.scenario} {row.learner}: {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
+            for row in failed.itertuples()
+        ]
+        super().__init__(f"{len(failed)} of the final errors are outside of their bands\n" + "\n".join(rows))
+
+
+def expect(summary: pd.DataFrame) -> pd.DataFrame:
+    """Bands for the final errors of a summary: a row for each scenario, learner and error with columns low and high."""
+    rows = []
+    for cells in summary.to_dict("records"):
+        for error in ERRORS:
+            mean, low, high = (cells[f"final_{error}{bound}"] for bound in ("", "_low", "_high"))
+            spread = STANDARD_ERRORS * (high - low) / (2 * 1.96)
+            band = (0.0, NEGLIGIBLE[error]) if mean < NEGLIGIBLE[error] else (mean - spread, mean + spread)
+            rows.append({key: cells[key] for key in KEYS} | {"error": error, "low": band[0], "high": band[1]})
+    return pd.DataFrame(rows)
+
+
+def check(summary: pd.DataFrame, expected: pd.DataFrame) -> pd.DataFrame:
+    """Every final error beside its band and whether it is `ok`; one that is missing on either side is not."""
+    final = summary.melt(KEYS, [f"final_{error}" for error in ERRORS], "error", "value")
+    final["error"] = final["error"].str.removeprefix("final_")
+    table = expected.merge(final, "outer", [*KEYS, "error"])
+    table["ok"] = (table["low"] <= table["value"]) & (table["value"] <= table["high"])
+    return table

@@ -1,0 +1,129 @@
+"""A nominal arm with everything about it that may be wrong as a parameter.
+
+The parameters are small and zero for the nominal arm. In their order:
+
+- twists (7, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of link k: the placement of joint k + 1
+  becomes exp(xi_k) M. Link 0 is the base, whose twist moves the whole arm; link 6 carries the tool.
+- joint terms (term, 6): coefficients of functions of the joint angles that add up to the joints' errors [rad]. The first
+  term is constant, so its coefficients are the joint offsets [rad]; the others are chosen by the model.
+
+A joint offset is also a turn of its link's twist about the joint's axis, and neighbouring twists share directions where
+joint axes are parallel or meet: such directions are left to the prior, which holds them at nominal.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import or_
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.kinematics import Arm, tool_frame
+from recalib.nongeometric import gravity_torque
+from recalib.robots import JOINTS
+
+# Standard deviations of the parameters before anything is known: what wear and mounting plausibly do to an arm.
+BASE = 0.05, np.radians(5)  # m, rad
+LINK = 0.02, np.radians(0.5)
+
+# By name, a function of the nominal arm and of joint angles (n, 6) [rad], its value for each joint (n, 6), and the standard
+# deviation of its coefficients before anything is known.
+JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float]]
+
+
+def _waves(order: int, amplitude: float) -> JointTerms:
+    return {
+        f"sine {order}": (lambda arm, angles: np.sin(order * angles), amplitude),
+        f"cosine {order}": (lambda arm, angles: np.cos(order * angles), amplitude),
+    }
+
+
+# Geometry alone; with eccentric gears and compliance [rad/Nm]; with whatever else a gear adds to its turn.
+OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
+JOINT_ERRORS = OFFSETS | {"compliance": (gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
+JOINT_WAVES = reduce(or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS)
+
+TWISTS = 6 * (JOINTS + 1)  # how many of the parameters are those of the twists
+
+
+class ErrorModel:
+    """The kinematics of an arm as a function of its parameters.
+
+    Args:
+        arm: the nominal kinematics.
+        terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts with the one before it.
+
+    Attributes:
+        deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
+    """
+
+    def __init__(self, arm: Arm, terms: JointTerms):
+        self._nominal, self._terms = arm, terms
+        twists = np.repeat([BASE] + [LINK] * JOINTS, 3, axis=1)
+        scales = np.repeat([scale for _, scale in terms.values()], JOINTS)
+        self.deviations = np.concatenate([twists.ravel(), scales])
+
+    def twists(self, parameters: np.ndarray) -> np.ndarray:
+        """The twists (7, 6) [m, rad] in the parameters (P,)."""
+        return parameters[:TWISTS].reshape(-1, 6)
+
+    def coefficients(self, parameters: np.ndarray) -> dict[str, np.ndarray]:
+        """The coefficients (6,) of each joint term in the parameters (P,)."""
+        return dict(zip(self._terms, parameters[TWISTS:].reshape(-1, JOINTS), strict=True))
+
+    def arm(self, parameters: np.ndarray) -> Arm:
+        """The arm with the twists of the parameters (P,) done to it."""
+        model = pin.Model(self._nominal.model)
+        for link, twist in enumerate(self.twists(parameters)):
+            moved = pin.exp6(pin.Motion(twist))
+            if link < JOINTS:
+                model.jointPlacements[link + 1] = moved * model.jointPlacements[link + 1]
+            else:
+                tool = model.frames[tool_frame(model, self._nominal.tool)]
+                tool.placement = moved * tool.placement
+        return Arm(model, self._nominal.tool)
+
+    def terms(self, angles: np.ndarray) -> np.ndarray:
+        """The joint terms (n, term, 6) where the controller believes in joint angles (n, 6) [rad]."""
+        return np.stack([term(self._nominal, angles) for term, _ in self._terms.values()], axis=1)
+
+    def standing(self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray) -> np.ndarray:
+        """Where the joints stand (n, 6) [rad] when the controller believes in `angles` (n, 6) [rad]; `terms` are theirs."""
+        return angles + np.einsum("ntj,tj->nj", terms, parameters[TWISTS:].reshape(-1, JOINTS))
+
+    def predict(self, parameters: np.ndarray, angles: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
+        return self.arm(parameters).forward(self.standing(parameters, angles, self.terms(angles)))
+
+    def linearise(self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) with respect to the parameters.
+
+        A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad] along the base's axes.
+        `terms` are those of the angles: they depend on no parameter, so that one evaluation serves all linearisations.
+        """
+        arm = self.arm(parameters)
+        poses, links, joints = _walk(arm, self.standing(parameters, angles, terms))
+        jacobians = np.empty((len(angles), 6, len(parameters)))
+        lever = poses[:, None, :3, 3] - links[..., :3, 3]
+        turns = links[..., :3, :3]
+        by_link = np.zeros((*links.shape[:2], 6, 6))
+        by_link[..., :3, :3] = by_link[..., 3:, 3:] = turns
+        by_link[..., :3, 3:] = np.cross(turns, lever[..., None], axisa=-2, axisb=-2, axisc=-2)
+        # exp(xi + dxi) = exp(J dxi) exp(xi): a change of a twist that is not small any more
+        bends = [pin.exp6(pin.Motion(xi)).action @ pin.Jexp6(pin.Motion(xi)) for xi in self.twists(parameters)]
+        jacobians[..., :TWISTS] = (by_link @ np.stack(bends)).swapaxes(1, 2).reshape(len(angles), 6, TWISTS)
+        jacobians[..., TWISTS:] = (joints[:, :, None] * terms[:, None]).reshape(len(angles), 6, -1)
+        return poses, jacobians
+
+
+def _walk(arm: Arm, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Poses of the tool (n, 4, 4) and of the links (n, 7, 4, 4), base first, and the tool's Jacobians (n, 6, 6)."""
+    model, data = arm.model, arm.model.createData()
+    frame = tool_frame(model, arm.tool)
+    poses, links, jacobians = (np.empty((len(angles), *shape)) for shape in ((4, 4), (JOINTS + 1, 4, 4), (6, 6)))
+    for pose, link, jacobian, q in zip(poses, links, jacobians, angles, strict=True):
+        pin.computeJointJacobians(model, data, q)
+        pose[:] = pin.updateFramePlacement(model, data, frame).homogeneous
+        link[:] = [placement.homogeneous for placement in data.oMi]
+        jacobian[:] = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
+    return poses, links, jacobians

@@ -1,0 +1,54 @@
+"""The exceptions of this library: each carries what it knows and says what would be valid."""
+
+from collections.abc import Iterable
+
+
+class RecalibError(Exception):
+    """Base of every error that this library raises on purpose."""
+
+
+class UnknownName(RecalibError):
+    """A name that is not among the valid ones."""
+
+    def __init__(self, kind: str, name: str, valid: Iterable[str]):
+        self.kind, self.name, self.valid = kind, name, sorted(valid)
+        super().__init__(f"unknown {kind} {name!r}; valid: {', '.join(self.valid)}")
+
+
+class InvalidQuantity(RecalibError):
+    """A length or an angle that does not read as a number with one of its units."""
+
+    def __init__(self, text: object, units: Iterable[str]):
+        self.text, self.units = text, sorted(units)
+        super().__init__(f"{text!r} is no quantity: a number and one of {', '.join(self.units)}, as in '4 {self.units[0]}'")
+
+
+class InvalidSetting(RecalibError):
+    """A value outside of what its key allows."""
+
+    def __init__(self, key: str, value: object, valid: str):
+        self.key, self.value, self.valid = key, value, valid
+        super().__init__(f"{key} is {value!r}; valid: {valid}")
+
+
+class UnsuitableRobot(RecalibError):
+    """A robot that is no arm of six bounded revolute joints."""
+
+
+class Unreachable(RecalibError):
+    """A pose command that the nominal controller cannot execute.
+
+    Attributes: position [m] (3,) and rotation matrix (3, 3) of the command in the base frame, residual of the best
+    joint angles found (metres and radians mixed, infinity norm), and reason.
+    """
+
+    def __init__(self, pose, residual: float, reason: str):
+        self.position, self.rotation = pose[:3, 3].copy(), pose[:3, :3].copy()
+        self.residual, self.reason = float(residual), reason
+        place = ", ".join(f"{x:.3f}" for x in self.position)
+        axes = "; ".join(", ".join(f"{x:.3f}" for x in row) for row in self.rotation)
+        super().__init__(f"pose at ({place}) m, rotation [{axes}], cannot be commanded: {reason} (residual {residual:.2g})")
+
+
+class UnfitWorkspace(RecalibError):
+    """A workspace that the nominal robot cannot serve everywhere."""

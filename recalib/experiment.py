@@ -1,0 +1,99 @@
+"""The trial loop: a learner drives damaged robots, pose after pose, and is measured on poses that it never learned from."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from recalib.learners import Learner
+from recalib.plant import Plant
+from recalib.poses import orientation_error, position_error
+
+SUMMARIES = {
+    "": lambda errors: errors.mean(axis=-1),
+    "_p95": lambda errors: np.percentile(errors, 95, axis=-1),
+    "_max": lambda errors: errors.max(axis=-1),
+}
+
+
+@dataclass(frozen=True)
+class History:
+    """What was measured, and when.
+
+    Attributes:
+        iterations, moves: (measurement,) iterations and moves done before each measurement, in one run.
+        refused: (run, measurement) moves refused until then.
+        position: (run, measurement, summary) mean, 95th percentile and maximum of the position errors in m.
+        orientation: the same of the orientation errors in rad.
+    """
+
+    iterations: np.ndarray
+    moves: np.ndarray
+    refused: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+
+    def to_frame(self) -> pd.DataFrame:
+        """A row for each run and measurement, errors in centimetres and degrees."""
+        runs = len(self.position)
+        frame = pd.DataFrame(
+            {
+                "seed": np.repeat(np.arange(runs), len(self.iterations)),
+                "iteration": np.tile(self.iterations, runs),
+                "moves": np.tile(self.moves, runs),
+                "refused": self.refused.ravel(),
+            }
+        )
+        for index, suffix in enumerate(SUMMARIES):
+            frame[f"position_error{suffix}_cm"] = 100 * self.position[..., index].ravel()
+            frame[f"orientation_error{suffix}_deg"] = np.degrees(self.orientation[..., index].ravel())
+        return frame
+
+
+def measure(plant: Plant, learner: Learner, tests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Position [m] and orientation errors [rad], each (run, summary), at the test poses (run, pose, 6), by (1).
+
+    Measuring is no learning: its moves are not counted.
+    """
+    achieved, _ = plant.achieve(learner.command(tests))
+    desired = plant.workspace.to_poses(tests)
+    errors = position_error(achieved, desired), orientation_error(achieved, desired)
+    return tuple(np.stack([summary(error) for summary in SUMMARIES.values()], axis=-1) for error in errors)
+
+
+def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:
+    """After how many iterations to measure: evenly up to `evenly` of them, else about `points` times, logarithmically."""
+    if iterations <= evenly:
+        return sorted({*range(0, iterations, every), iterations})
+    return sorted({0, *np.geomspace(1, iterations, points).round().astype(int).tolist()})
+
+
+def run(
+    plant: Plant,
+    learner: Learner,
+    desired: np.ndarray,
+    tests: np.ndarray,
+    measure_at: Sequence[int],
+    progress: Callable[[int, float, float], None] = lambda *_: None,
+) -> History:
+    """Train a learner on the desired poses (run, iteration, 6) and measure it on the tests (run, pose, 6).
+
+    Args:
+        measure_at: numbers of iterations after which learning is interrupted for a measurement; 0 is before the first.
+        progress: called after each measurement with the iteration and the mean errors over runs in cm and degrees.
+    """
+    iterations = desired.shape[1]
+    position, orientation, moves, refused = [], [], [], []
+    for iteration in range(iterations + 1):
+        if iteration in measure_at:
+            errors = measure(plant, learner, tests)
+            position.append(errors[0])
+            orientation.append(errors[1])
+            moves.append(plant.moves)
+            refused.append(np.broadcast_to(plant.refused, len(desired)))
+            progress(iteration, 100 * errors[0][:, 0].mean(), np.degrees(errors[1][:, 0].mean()))
+        if iteration < iterations:
+            learner.learn(desired[:, iteration], plant.execute, iteration / iterations)
+    by_run = (np.stack(measured, axis=1) for measured in (refused, position, orientation))
+    return History(np.array(sorted(measure_at)), np.array(moves), *by_run)

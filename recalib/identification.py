@@ -1,0 +1,153 @@
+"""Identification of an arm from where it went: maximum a posteriori parameters of an error model, robust to bad data.
+
+A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad] along the base's axes, or the
+translation alone where no orientation was measured. With r_i the residual of measurement i over its noise, and p_j a
+parameter over its prior deviation, Gauss-Newton minimises
+
+    sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j),    rho(s) = s / 2 up to a limit, then grows like log(s) (Cauchy's tail)
+
+so that a measurement which is grossly wrong counts for nothing. Along with the parameters follow
+
+- the noise, from squared residuals over the degrees of freedom that the parameters leave (MacKay's evidence);
+- the variances v_j, from what the data say of each parameter and of their common scale (relevance determination): damage
+  is sparse, most of what may be wrong with an arm is right, and a parameter that explains nothing is held at nominal.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from scipy.spatial.transform import Rotation
+from scipy.stats import chi2
+
+from recalib.error_model import ErrorModel
+
+DOUBTED = 0.99  # the limit of rho: a measurement farther out than this fraction of good ones is weighted down
+SPARSITY = 0.05  # degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide
+COMMON = 20.0  # further parameters, as large as the error model expects, that hold the common scale of all
+SHARED = 10.0  # degrees of freedom with which position and orientation draw each other's noise together
+FIRST_NOISE = 1e-4  # m, rad
+LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
+ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
+STEPS = 60
+CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and of noise, relative
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What is known of an arm.
+
+    Attributes:
+        parameters: (P,) of the error model.
+        covariance: (P, P) of their errors.
+        noise: (1,) or (2,) standard deviations of a measurement along an axis: position [m], orientation [rad].
+        weights: (n,) how much each measurement counted: 1, or less for one that is doubted, down to 0.
+    """
+
+    parameters: np.ndarray
+    covariance: np.ndarray
+    noise: np.ndarray
+    weights: np.ndarray
+    log_evidence: float
+
+
+def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """What takes poses (n, 4, 4) to `end`: (n, 6) to poses, (n, 3) to positions (n, 3); m and rad along the base's axes."""
+    if end.ndim == 2:
+        return end - start[:, :3, 3]
+    between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
+    turns = Rotation.from_matrix(between, assume_valid=True).as_rotvec()
+    return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
+
+
+def identify(model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start: Estimate | None = None) -> Estimate:
+    """The parameters of the model that explain the measurements.
+
+    Args:
+        angles: (n, 6) rad in which the controller believed.
+        measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
+        start: an estimate to start from, for speed; the nominal arm unless given. It may be that of a model with the same
+            first terms and fewer or more of them.
+    """
+    scale, kinds = model.deviations, 1 if measured.ndim == 2 else 2
+    parameters, variances = np.zeros_like(scale), np.ones_like(scale)
+    if start is not None:
+        known = slice(min(len(scale), len(start.parameters)))
+        parameters[known] = start.parameters[known] / scale[known]
+        spread = np.diag(start.covariance)[known] / scale[known] ** 2
+        variances[known] = (SPARSITY + parameters[known] ** 2 + spread) / (SPARSITY + 1)
+    noise, weights = np.full(kinds, FIRST_NOISE), np.ones(len(angles))
+    limit = chi2.ppf(DOUBTED, 3 * kinds)
+    terms = model.terms(angles)
+    origin = np.full_like(scale, np.inf)  # of the present linearisation
+    for step in range(STEPS):
+        if np.abs(parameters - origin).max() ** 2 > noise.min():  # beyond, second-order terms reach a hundredth of the noise
+            poses, jacobians = model.linearise(parameters * scale, angles, terms)
+            jacobians = (jacobians[:, : 3 * kinds] * scale).reshape(len(angles), kinds, 3, len(scale))
+            residuals = displacements(poses, measured).reshape(len(angles), kinds, 3)
+            origin = parameters
+        if step > 0:
+            weights = limit / np.maximum(_squares(residuals, noise), limit)
+        information, pull = _normal_equations(jacobians, residuals, weights)
+        precision = np.diag(1 / variances) + np.einsum("k,kpq->pq", noise**-2, information)
+        factor = scipy.linalg.cho_factor(precision)
+        change = scipy.linalg.cho_solve(factor, noise**-2 @ pull - parameters / variances)
+        covariance = scipy.linalg.cho_solve(factor, np.eye(len(scale)))
+        parameters = parameters + change
+        residuals = residuals - jacobians @ change
+        taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
+        last_noise, noise = noise, _noise(residuals, weights, taken, robust=step < ROBUST_STEPS)
+        common = (COMMON + len(scale)) / (COMMON + np.sum(1 / variances))
+        variances = (SPARSITY * common + parameters**2 + np.diag(covariance)) / (SPARSITY + 1)
+        moved = np.sqrt(change @ precision @ change)
+        if step >= ROBUST_STEPS and moved < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0):
+            break
+    log_evidence = (
+        _log_likelihood(residuals, noise, limit)
+        + _log_prior(parameters, variances, common)
+        - np.log(np.diag(factor[0])).sum()  # the volume that the posterior leaves
+    )
+    return Estimate(parameters * scale, covariance * np.outer(scale, scale), noise, weights, log_evidence)
+
+
+def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Squared lengths (n,) of the residuals (n, kind, 3) over their noise (kind,)."""
+    return np.square(residuals / noise[:, None]).sum(axis=(1, 2))
+
+
+def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> float:
+    squares = _squares(residuals, noise)
+    losses = np.where(squares <= limit, squares, limit * (1 + np.log(np.maximum(squares, limit) / limit))) / 2
+    return -losses.sum() - 3 * len(residuals) * np.log(noise).sum()
+
+
+def _log_prior(parameters: np.ndarray, variances: np.ndarray, common: float) -> float:
+    """Of the parameters given their variances, and of the variances given their common scale and of that (inverse gamma)."""
+    ratio = common / variances
+    belief = np.sum(np.log(ratio) - ratio + 1) + COMMON * (np.log(common) - common + 1)
+    return SPARSITY / 2 * belief - np.sum(parameters**2 / variances + np.log(variances)) / 2
+
+
+def _normal_equations(jacobians: np.ndarray, residuals: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """J' W J (kind, P, P) and J' W r (kind, P) of Jacobians (n, kind, 3, P) and residuals (n, kind, 3)."""
+    roots = np.sqrt(weights)[:, None, None]
+    jacobians = (jacobians * roots[..., None]).swapaxes(0, 1).reshape(jacobians.shape[1], -1, jacobians.shape[-1])
+    residuals = (residuals * roots).swapaxes(0, 1).reshape(len(jacobians), -1, 1)
+    transposed = jacobians.swapaxes(1, 2)
+    return transposed @ jacobians, (transposed @ residuals)[..., 0]
+
+
+def _noise(residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust: bool) -> np.ndarray:
+    """Standard deviations (kind,) along an axis from residuals (n, kind, 3), `taken` (kind,) degrees of freedom used.
+
+    The squares of the weights leave nothing of a gross outlier.
+    """
+    squares = np.square(residuals).sum(axis=-1)
+    if robust:
+        count = 3.0 * len(squares)
+        total = np.median(squares, axis=0) / chi2.ppf(0.5, 3) * count
+    else:
+        count = 3 * np.sum(weights**2)
+        total = weights**2 @ squares
+    free = np.maximum(count - taken, 1e-3 * count)
+    return np.maximum(np.sqrt((total + SHARED * total.sum() / free.sum()) / (free + SHARED)), LEAST_NOISE)

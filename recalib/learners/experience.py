@@ -1,0 +1,52 @@
+"""What the learners that look back keep: every move that was carried out, and when to look back."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+PLACES = 3  # binary digits of the numbers of moves after which to learn anew
+
+
+def is_due(before: int, moves: int) -> bool:
+    """Whether to learn anew from everything, now that there are so many moves and not just those before.
+
+    That is after every move up to 8, every second up to 16, every fourth up to 32, and so on: what is learned from lacks at
+    most a fifth of what is known, and hundreds of moves take little more time than dozens.
+    """
+    stride = 2 ** max(moves.bit_length() - PLACES, 0)
+    return moves // stride > before // stride
+
+
+class Experience:
+    """The moves of each run: what was sent, and what was achieved.
+
+    Attributes:
+        moves: how many there were, refused ones included.
+    """
+
+    def __init__(self, runs: int):
+        self._sent, self._achieved = np.empty((runs, 0, 6)), np.empty((runs, 0, 6))
+        self._executed = np.empty((runs, 0), dtype=bool)
+
+    @property
+    def moves(self) -> int:
+        return self._executed.shape[1]
+
+    def add(self, sent: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
+        """Keep moves: sent (run, move, 6) in the form that the learner uses, achieved likewise, executed (run, move)."""
+        self._sent = np.concatenate([self._sent, sent], axis=1)
+        self._achieved = np.concatenate([self._achieved, achieved], axis=1)
+        self._executed = np.concatenate([self._executed, executed], axis=1)
+
+    def of(self, run: int) -> tuple[np.ndarray, np.ndarray]:
+        """Sent and achieved (n, 6) of the moves that one run carried out."""
+        executed = self._executed[run]
+        return self._sent[run, executed], self._achieved[run, executed]
+
+    def state(self) -> dict[str, np.ndarray]:
+        """All of it, as named arrays."""
+        return {"sent": self._sent, "achieved": self._achieved, "executed": self._executed}
+
+    def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
+        """Take over what `state` returned."""
+        self._sent, self._achieved, self._executed = (arrays[name] for name in ("sent", "achieved", "executed"))

@@ -1,0 +1,14 @@
+"""Geometry, joint errors and a Gaussian process: as much of them as the measurements show."""
+
+import numpy as np
+
+from recalib.calibration import Calibration, calibrate
+from recalib.error_model import JOINT_ERRORS, OFFSETS
+from recalib.learners.geometric import GeometricLearner
+
+
+class HybridLearner(GeometricLearner):
+    """A geometric learner that also learns what no geometry explains, such as eccentric gears and sag; see `calibrate`."""
+
+    def _calibrate(self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None) -> Calibration:
+        return calibrate(self._controller.robot.arm, (OFFSETS, JOINT_ERRORS), angles, measured, last)

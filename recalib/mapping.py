@@ -1,0 +1,28 @@
+"""The true mapping that a learner is after: from desired poses to the commands that make the damaged robot reach them."""
+
+import numpy as np
+
+from recalib.controller import TOLERANCE, Controller, solve_newton
+from recalib.damage import DamagedArm
+
+STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
+
+
+def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
+    """The commands (n, 6) that take a damaged arm without deflections to the desired poses (n, 6); NaN where none does."""
+    workspace = controller.robot.workspace
+    poses = workspace.to_poses(desired)
+    start = controller.solve(poses).angles + arm.offsets
+    angles, residuals = solve_newton(arm.arm, poses, start)
+    commands = workspace.to_coordinates(controller.robot.arm.forward(angles - arm.offsets))
+    commands[residuals > TOLERANCE] = np.nan
+    return commands
+
+
+def mapping_jacobians(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
+    """Jacobians (n, 6, 6) of the true mapping, d command / d desired pose, at the desired poses (n, 6)."""
+    ahead, behind = (
+        true_commands(controller, arm, (desired[:, None] + sign * STEP * np.eye(6)).reshape(-1, 6)).reshape(-1, 6, 6)
+        for sign in (1, -1)
+    )
+    return (ahead - behind).swapaxes(1, 2) / (2 * STEP)

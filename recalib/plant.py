@@ -1,0 +1,83 @@
+"""The damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from recalib.controller import Controller
+from recalib.damage import DamagedArm
+from recalib.disturbances import Disturbances
+
+
+class Outcome(NamedTuple):
+    """What came of commanded moves, axes (run, move).
+
+    Attributes:
+        achieved: (run, move, 6) coordinates of the achieved poses; a refused move leaves the arm at home.
+        executed: (run, move) whether the controller carried the command out.
+    """
+
+    achieved: np.ndarray
+    executed: np.ndarray
+
+
+class Plant:
+    """Damaged robots behind one nominal controller, one robot for each run of an experiment.
+
+    Args:
+        controller: the nominal controller, which knows of no damage.
+        arms: one damaged arm for each run, or a single one for all runs.
+        disturbances: of the executed moves; none unless given.
+        generators: their randomness, one for each run.
+
+    Attributes:
+        moves: how many moves were commanded in each run.
+        refused: (run,) how many of them the controller refused; 0 before the first.
+    """
+
+    def __init__(
+        self,
+        controller: Controller,
+        arms: Sequence[DamagedArm],
+        disturbances: Disturbances | None = None,
+        generators: Sequence[np.random.Generator] = (),
+    ):
+        self._controller, self._arms = controller, arms
+        self._disturbances, self._generators = disturbances, generators
+        self._home = [arm.forward(controller.robot.home[None])[0] for arm in arms]
+        self.moves = self.refused = 0
+
+    @property
+    def workspace(self):
+        """The workspace in whose coordinates commands and achieved poses are given."""
+        return self._controller.robot.workspace
+
+    def execute(self, commands: np.ndarray) -> Outcome:
+        """Command poses, coordinates (run, move, 6), and measure what the damaged robots achieve."""
+        if self._disturbances is None:
+            poses, executed = self.achieve(commands)
+        else:
+            stops = self._disturbances.of_joints(self._generators, commands.shape[1])
+            poses, executed = self._move(commands, stops)
+            poses = self._disturbances.measure(self._generators, poses)
+        self.moves += executed.shape[1]
+        self.refused = self.refused + np.sum(~executed, axis=1)
+        return Outcome(self.workspace.to_coordinates(poses), executed)
+
+    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move), undisturbed and not counted."""
+        return self._move(commands, np.zeros(6))
+
+    def _move(self, commands: np.ndarray, stops: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        runs, moves, _ = commands.shape
+        solution = self._controller.solve(self.workspace.to_poses(commands.reshape(-1, 6)))
+        angles, executed = solution.angles.reshape(runs, moves, 6) + stops, solution.reached.reshape(runs, moves)
+        if len(self._arms) == 1:
+            poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
+        else:
+            poses = np.stack([arm.forward(q) for arm, q in zip(self._arms, angles, strict=True)])
+        if not executed.all():
+            homes = np.broadcast_to(np.stack(self._home)[:, None], poses.shape)
+            poses[~executed] = homes[~executed]
+        return poses, executed

@@ -1,0 +1,25 @@
+"""Figures: evidence in, a drawing out."""
+
+from recalib.plots.benchmark import figure12, figure13
+from recalib.plots.comparisons import figure4, figure6, figure9, figure11
+from recalib.plots.learning import figure1, figure2, figure3
+from recalib.plots.mapping import figure5, figure7, figure8, figure10
+from recalib.plots.style import STYLE, plt, save
+
+__all__ = ["FIGURES", "STYLE", "plt", "save"]
+
+FIGURES = {
+    "figure1": figure1,
+    "figure2": figure2,
+    "figure3": figure3,
+    "figure4": figure4,
+    "figure5": figure5,
+    "figure6": figure6,
+    "figure7": figure7,
+    "figure8": figure8,
+    "figure9": figure9,
+    "figure10": figure10,
+    "figure11": figure11,
+    "figure12": figure12,
+    "figure13": figure13,
+}

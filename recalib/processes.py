@@ -1,0 +1,88 @@
+"""Regression by a Gaussian process whose outputs share one covariance: scikit-learn's, with hyperparameters of our finding.
+
+The covariance is a linear trend, a smooth function with a length along each input, and white noise, for outputs that
+have a deviation of one over the training data. The hyperparameters are the logarithms of the trend's variance, of the
+smooth function's, of its lengths and of the noise's variance.
+"""
+
+import numpy as np
+from scipy.optimize import minimize
+from sklearn.gaussian_process import GaussianProcessRegressor
+from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
+
+VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
+FIRST_LENGTH = 5.0
+FIRST_NOISES = 1e-3, 1e-1, 1e-6  # where searches start: to take all for noise is a local optimum of few data
+FEWEST = 6  # points to judge hyperparameters by
+MOST = 128  # points to judge hyperparameters by: the time grows with their cube, and more tell little more
+STEPS = 50  # of a search
+
+
+def is_time_to_search(before: int, points: int) -> bool:
+    """Whether so many points deserve a search of hyperparameters when the last was at `before`: they have doubled."""
+    return points.bit_length() > before.bit_length() and before < MOST
+
+
+class Process:
+    """A Gaussian process through training data.
+
+    Args:
+        inputs: (n, d), each of the order of one.
+        outputs: (n, k), in any unit.
+        hyperparameters: (d + 3,); those of the largest marginal likelihood unless given.
+
+    Attributes:
+        hyperparameters: (d + 3,) as used.
+        gain: by how much the logarithm of the marginal likelihood exceeds that of white noise, less what so many
+            hyperparameters gain by chance (Schwarz's criterion).
+    """
+
+    def __init__(self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None):
+        self._inputs, self._outputs = inputs, outputs
+        self._centre = inputs.mean(axis=0)
+        inputs = inputs - self._centre
+        if hyperparameters is None:
+            hyperparameters = _search(inputs[:MOST], outputs[:MOST]) if len(inputs) >= FEWEST else _start(inputs.shape[1])
+        self.hyperparameters = hyperparameters
+        self._regressor = _regressor(inputs, outputs, hyperparameters)
+        white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
+        chance = len(hyperparameters) / 2 * np.log(outputs.size)
+        self.gain = self._regressor.log_marginal_likelihood_value_ - white - chance
+
+    def predict(self, inputs: np.ndarray) -> np.ndarray:
+        """Expected outputs (m, k) at inputs (m, d)."""
+        return self._regressor.predict(inputs - self._centre).reshape(len(inputs), -1)
+
+    def state(self) -> dict[str, np.ndarray]:
+        """The arguments that make it again, as named arrays."""
+        return {"inputs": self._inputs, "outputs": self._outputs, "hyperparameters": self.hyperparameters}
+
+
+def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
+    return np.log([1.0, 1.0, *[FIRST_LENGTH] * dimensions, noise])
+
+
+def _regressor(inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray) -> GaussianProcessRegressor:
+    trend = ConstantKernel(1, VARIANCES) * DotProduct(1, "fixed")
+    smooth = ConstantKernel(1, VARIANCES) * RBF(np.ones(inputs.shape[1]), LENGTHS)
+    kernel = trend + smooth + WhiteKernel(1, NOISE)
+    kernel.theta = hyperparameters
+    return GaussianProcessRegressor(kernel, optimizer=None, normalize_y=True).fit(inputs, outputs)
+
+
+def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
+    """Hyperparameters of the largest marginal likelihood that searches within the bounds find.
+
+    A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
+    """
+    dimensions = inputs.shape[1]
+    starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
+    regressor = _regressor(inputs, outputs, starts[0])
+
+    def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:
+        value, slope = regressor.log_marginal_likelihood(hyperparameters, eval_gradient=True, clone_kernel=False)
+        return -value, -slope
+
+    bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
+    found = [minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS}) for start in starts]
+    return min(found, key=lambda result: result.fun).x

@@ -1,0 +1,14 @@
+"""Random numbers that depend on what they are for, and on nothing else."""
+
+import zlib
+
+import numpy as np
+
+
+def generator(seed: int, *keys: str | int) -> np.random.Generator:
+    """A generator for one purpose, keyed by words and numbers such as (scenario, seed, "desired poses").
+
+    Learners are never among the keys: those that are compared see the same poses.
+    """
+    words = [zlib.crc32(key.encode()) if isinstance(key, str) else key for key in keys]
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, *words])))

@@ -1,0 +1,96 @@
+"""Pictures of recordings, taken by the real viewer without a screen."""
+
+import socket
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+import rerun_cli
+from PIL import Image
+from rerun.experimental import ViewerClient
+
+from recalib.errors import RecalibError
+from recalib.storage import whole
+
+WINDOW = (1400, 800)  # pixels
+TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
+PATIENCE = 60.0  # seconds for the viewer to start and to load, in software on a busy machine
+REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
+
+
+class ViewerUnavailable(RecalibError):
+    """The viewer does not run here, most often for want of a Vulkan driver."""
+
+
+def take_pictures(recording: Path, pictures: Mapping[Path, float]) -> None:
+    """Write what the viewer shows of a recording at some seconds of its timeline `time`, one PNG for each.
+
+    Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
+    Raises ViewerUnavailable where the viewer does not start or does not load the recording.
+    """
+    with _viewer() as viewer:
+        _load(viewer, recording)
+        for repaint in range(REPAINTS):
+            _show(viewer, repaint / 100)
+        for png, seconds in pictures.items():
+            _show(viewer, seconds)
+            with whole(png) as temporary:
+                viewer.save_screenshot(str(temporary.resolve()))
+                _trim(temporary)
+
+
+@contextmanager
+def _viewer() -> Iterator[ViewerClient]:
+    """A viewer without a screen. `ViewerClient.spawn` would do the same, but listen to the whole network."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    binary = Path(rerun_cli.__file__).with_name("rerun")  # not the script that starts it, so that it can be ended
+    size = f"{WINDOW[0]}x{WINDOW[1]}"
+    options = ["--headless", "--hide-welcome-screen", "--bind", "127.0.0.1", "--port", str(port), "--window-size", size]
+    with tempfile.TemporaryFile("w+") as log:
+        process = subprocess.Popen([binary, *options], stdout=log, stderr=log)
+        try:
+            deadline = time.monotonic() + PATIENCE
+            while (client := _connect(port)) is None:
+                if process.poll() is not None or time.monotonic() > deadline:
+                    log.seek(0)
+                    raise ViewerUnavailable(f"the viewer does not start: {log.read()[-500:].strip()}")
+                time.sleep(0.1)
+            yield client
+        finally:
+            process.terminate()
+            process.wait()
+
+
+def _connect(port: int) -> ViewerClient | None:
+    try:
+        client = ViewerClient(f"rerun+http://127.0.0.1:{port}/proxy")
+        client.get_state()
+    except (ConnectionError, RuntimeError):
+        return None
+    return client
+
+
+def _load(viewer: ViewerClient, recording: Path) -> None:
+    viewer.open(str(recording.resolve()))
+    deadline = time.monotonic() + PATIENCE
+    while (state := viewer.get_state()).loading or not state.recordings:
+        if time.monotonic() > deadline:
+            raise ViewerUnavailable(f"the viewer did not load {recording} within {PATIENCE:.0f} s")
+        time.sleep(0.1)
+
+
+def _show(viewer: ViewerClient, seconds: float) -> None:
+    viewer.set_time("time", duration=seconds, play_state="paused")
+    time.sleep(0.05)
+
+
+def _trim(png: Path) -> None:
+    """Cut the window's bar off, and keep 256 colours: a third of the bytes, and the eye sees no difference."""
+    with Image.open(png) as image:
+        picture = image.convert("RGB").crop((0, TOP_BAR, *image.size))
+    picture.quantize(256, dither=Image.Dither.NONE).save(png, optimize=True)

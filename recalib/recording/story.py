@@ -1,0 +1,156 @@
+"""What a recording tells: one training watched from outside, and how the arm moves before, during and after it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib import schedules
+from recalib.controller import Controller
+from recalib.damage import DamagedArm
+from recalib.experiment import History, run
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.plant import Plant
+from recalib.poses import POSITION, orientation_error, position_error
+
+FRAMES_A_SECOND = 25
+MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there
+LEARNING = 10.0  # seconds in which the whole training is shown
+POSES = 12  # that the arm visits
+BEFORE = POSES * (MOVE + REST) - REST / 2  # seconds: the arm rests at the last pose, not yet recalibrated
+AFTER = BEFORE + LEARNING + POSES * (MOVE + REST)  # the same, recalibrated
+
+
+@dataclass(frozen=True)
+class Training:
+    """One training of one learner, seen at each of its measurements.
+
+    Attributes:
+        history: the errors on all test poses.
+        centres: (cell, 3) m in the base frame, the supernet's cells.
+        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero before the first.
+        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the position commands of
+            a cell, the mean over its subnet.
+        desired: (pose, 4, 4) those of the test poses that are shown.
+        achieved: (measurement, pose, 4, 4) where the damaged arm lands instead.
+        angles: (measurement, pose, 6) rad, what the controller commands the joints for them.
+        misses, tilts: (measurement, pose) the position errors in m and the orientation errors in rad.
+    """
+
+    history: History
+    centres: np.ndarray
+    weights: np.ndarray
+    corrections: np.ndarray
+    desired: np.ndarray
+    achieved: np.ndarray
+    angles: np.ndarray
+    misses: np.ndarray
+    tilts: np.ndarray
+
+
+def visiting_order(poses: np.ndarray) -> np.ndarray:
+    """The poses (pose, 6) from the rim of the workspace inwards: the last one, where the arm waits, is seen best."""
+    return poses[np.argsort(-np.linalg.norm(poses[:, POSITION], axis=-1))]
+
+
+def watch(
+    controller: Controller,
+    damaged: DamagedArm,
+    learner: HierarchicalLearner,
+    desired: np.ndarray,
+    tests: np.ndarray,
+    shown: np.ndarray,
+    measure_at: Sequence[int],
+) -> Training:
+    """Train a fresh learner of one run on the desired poses (iteration, 6) and watch it.
+
+    Args:
+        tests: (test, 6) poses to measure the errors at.
+        shown: (pose, 6) poses to show.
+    """
+    workspace = controller.robot.workspace
+    position_map = next(iter(learner.maps.values()))
+    untrained = position_map.theta[0, POSITION].copy()
+    commands, weights, corrections = [], [], []
+
+    def look(iteration: int, *_: float) -> None:
+        commands.append(learner.command(shown[None])[0])
+        weights.append(_neighbourhood(learner, desired, iteration))
+        moved = (position_map.theta[0, POSITION] - untrained).mean(axis=-1).T
+        corrections.append(moved * workspace.half_ranges[POSITION])
+
+    history = run(Plant(controller, [damaged]), learner, desired[None], tests[None], measure_at, look)
+    poses = workspace.to_poses(shown)
+    solution = controller.solve(workspace.to_poses(np.concatenate(commands)))
+    angles = np.where(solution.reached[:, None], solution.angles, controller.robot.home)  # where refused
+    achieved = damaged.forward(angles).reshape(len(commands), *poses.shape)
+    return Training(
+        history=history,
+        centres=workspace.centre[:3, 3] + position_map.w_k * workspace.half_ranges[POSITION],
+        weights=np.stack(weights),
+        corrections=np.stack(corrections),
+        desired=poses,
+        achieved=achieved,
+        angles=angles.reshape(len(commands), *shown.shape),
+        misses=position_error(achieved, poses),
+        tilts=orientation_error(achieved, np.broadcast_to(poses, achieved.shape)),
+    )
+
+
+def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
+    """g_k (cell,) of the position map in the iteration before; zero where there was none."""
+    name, position_map = next(iter(learner.maps.items()))
+    if iteration == 0:
+        return np.zeros(len(position_map.w_k))
+    last = iteration - 1
+    narrow = schedules.equal_visits if learner.rules.equal_visits else schedules.exponential
+    plan = learner.schedule
+    widths = (np.full(1, narrow(plan.initial_width, end, last / len(desired))) for end in plan.final_widths[name])
+    k, l = (index[:, 0] for index in position_map.winner(desired[None, last : last + 1]))
+    return position_map.neighbourhood(k, l, *widths)[0, :, l[0]]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Three acts: the arm visits the shown poses, waits at the last of them while it learns, and visits them again.
+
+    Attributes:
+        times: (frame,) seconds from the start, in the first and the third act.
+        angles: (frame, 6) rad that the controller believes in.
+        departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the acts one and three.
+        learning: (measurement,) seconds of the second act at which the measurements are shown.
+        end: seconds at which the third act ends.
+    """
+
+    times: np.ndarray
+    angles: np.ndarray
+    departures: np.ndarray
+    arrivals: np.ndarray
+    learning: np.ndarray
+    end: float
+
+
+def move(training: Training, home: np.ndarray) -> Motion:
+    """The motion that shows a training, from the home angles (6,) [rad]."""
+    before, after = training.angles[0], training.angles[-1]
+    iterations = training.history.iterations
+    act = len(before) * (MOVE + REST)
+    starts = np.array([0, act + LEARNING])
+    departures = starts[:, None] + np.arange(len(before)) * (MOVE + REST)
+    clock = np.arange(round((MOVE + REST) * FRAMES_A_SECOND)) / FRAMES_A_SECOND
+    return Motion(
+        times=(departures[:, :, None] + clock).ravel(),
+        angles=np.concatenate([_visit(home, before, clock), _visit(after[-1], after, clock)]),
+        departures=departures,
+        arrivals=departures + MOVE,
+        learning=act + LEARNING * iterations / max(iterations[-1], 1),
+        end=2 * act + LEARNING,
+    )
+
+
+def _visit(start: np.ndarray, stops: np.ndarray, clock: np.ndarray) -> np.ndarray:
+    """Angles (stop x frame, 6) of smooth moves from `start` (6,) from stop to stop (stop, 6), at `clock` s of each."""
+    done = np.minimum(clock / MOVE, 1)
+    eased = (done**2 * (3 - 2 * done))[:, None]  # at rest at both ends
+    starts = np.concatenate([start[None], stops[:-1]])[:, None]
+    return (starts + eased * (stops[:, None] - starts)).reshape(-1, stops.shape[-1])

@@ -1,0 +1,68 @@
+"""The rough search for widths and rates: quasi-random trials, the same for every learner and number of iterations.
+
+A trial is a row of numbers: initial_width, for each map and net a final width (such as `position/g_k`), initial_rate and
+final_rate. The first round of trials covers the ranges, later ones a third of each range around the best so far. Every
+range is logarithmic; final values are drawn as fractions of initial ones.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from recalib.learners.hierarchical import Rules, Schedule
+
+NETS = ("g_k", "g_kl")
+ZOOM = 1 / 3
+DIGITS = 4  # of the numbers tried, so that the files that keep them are exact
+
+
+def columns(rules: Rules) -> list[str]:
+    """The numbers of a trial."""
+    return ["initial_width", *(f"{name}/{net}" for name in rules.maps for net in NETS), "initial_rate", "final_rate"]
+
+
+def _kinds(rules: Rules) -> list[str]:
+    return ["initial_width", *["final_width"] * (len(columns(rules)) - 3), "initial_rate", "final_rate"]
+
+
+def draw(rules: Rules, ranges: Mapping, count: int, seed: int, around: Mapping | None = None) -> pd.DataFrame:
+    """Trials, a row each.
+
+    Args:
+        ranges: for each kind of number, the lowest and the highest value.
+        count: how many, best a power of two.
+        seed: of the quasi-random sequence.
+        around: a trial; the box searched is then ZOOM as wide, about it, moved to lie inside the ranges.
+    """
+    from scipy.stats import qmc  # half a second, which every job of the workflow would pay
+
+    low, high = np.log(np.array([ranges[kind] for kind in _kinds(rules)])).T
+    unit = qmc.Sobol(len(low), rng=np.random.default_rng(seed)).random(count)
+    if around is not None:
+        values = np.log([around[column] for column in columns(rules)])
+        values[1:-2] -= values[0]
+        values[-1] -= values[-2]
+        centre = np.divide(values - low, high - low, out=np.zeros_like(low), where=high > low)
+        unit = np.clip(centre - ZOOM / 2, 0, 1 - ZOOM) + ZOOM * unit
+    values = low + unit * (high - low)
+    values[:, 1:-2] += values[:, :1]
+    values[:, -1] += values[:, -2]
+    rounded = [[float(f"{value:.{DIGITS}g}") for value in row] for row in np.exp(values)]
+    return pd.DataFrame(rounded, columns=columns(rules))
+
+
+def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
+    """The schedule of a trial, or that of a frame of trials for runs in the order (trial, repetition)."""
+
+    def column(name: str):
+        values = np.asarray(trials[name], dtype=float)
+        return np.repeat(values, repeat) if values.ndim else float(values)
+
+    final = {name: tuple(column(f"{name}/{net}") for net in NETS) for name in rules.maps}
+    return Schedule(column("initial_width"), final, column("initial_rate"), column("final_rate"))
+
+
+def score(errors: pd.DataFrame) -> pd.Series:
+    """What the search minimises: the larger of the two errors, in the units of Figure 1. A pair is reached by both."""
+    return errors[["position_error_cm", "orientation_error_deg"]].max(axis=1)

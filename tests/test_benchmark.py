@@ -1,0 +1,70 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib import peers
+from recalib.benchmark import Timed, entrant, moves_to_reach
+from recalib.errors import UnknownName
+from recalib.evidence import ERRORS
+from recalib.guidance import moves_text, where_worse
+from recalib.plant import Outcome
+from tests.conftest import ROOT
+
+
+@pytest.fixture
+def here(config):
+    return config | {"tuned": str(ROOT / config["tuned"])}
+
+
+def test_a_peer_makes_a_move_an_iteration_and_a_map_two(here):
+    assert entrant("geometric", here)[1:] == (400, 1)
+    assert entrant("improved", here)[1:] == (200, 2)
+    assert entrant("improved", here).measure_at([1, 2, 3, 4, 400, 1000]) == [1, 2, 200]
+    with pytest.raises(UnknownName, match="improved"):
+        entrant("magic", here)
+
+
+def test_every_learner_of_the_benchmark_can_be_made(here, controller):
+    for name in here["benchmark"]["learners"]:
+        learner = entrant(name, here).make(2, controller)
+        desired = np.zeros((2, 3, 6))
+        assert np.allclose(learner.command(desired), desired, atol=1e-9), name
+    with pytest.raises(UnknownName, match="gaussian_process"):
+        peers.build("magic", 1, controller)
+
+
+def test_only_the_time_of_the_learner_is_taken():
+    class Slow:
+        def command(self, desired):
+            return desired
+
+        def learn(self, desired, execute, fraction):
+            execute(desired[:, None])
+
+    clock = iter([0.0, 1.0, 11.0, 13.0])  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("recalib.benchmark.time.perf_counter", lambda: next(clock))
+        timed = Timed(Slow())
+        timed.learn(np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0)
+    assert timed.seconds == 3.0
+
+
+def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
+    history = pd.DataFrame({"seed": [0, 0, 0, 1, 1, 1], "moves": [1, 2, 3] * 2, ERRORS[0]: [3, 1, 2, 3, 3, 3.0]})
+    assert moves_to_reach(history, ERRORS[0], 1).tolist() == [2, np.inf]
+
+
+def test_the_slower_error_decides():
+    reached = pd.DataFrame({"moves": [4, 12], "low": [3, 8], "high": [6, np.inf]})
+    assert moves_text(reached) == "12 (8-more)"
+    assert moves_text(reached.assign(moves=[4, np.inf])) == "-"
+
+
+def test_where_the_hybrid_is_worse_is_said():
+    rows = [
+        {"scenario": "links", "learner": learner, "moves": moves, ERRORS[0]: value, ERRORS[1]: 1e-9}
+        for moves, values in ((2, (9, 1)), (4, (1.05, 1)), (8, (1.2, 1)))
+        for learner, value in zip(("hybrid", "affine"), values, strict=True)
+    ]
+    worse = where_worse(pd.DataFrame(rows), [2, 4, 8])
+    assert [(each["moves"], each["error"], each["learner"]) for each in worse] == [(8, "position", "affine")]

@@ -1,0 +1,65 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.errors import InvalidSetting, UnknownName
+
+ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
+
+
+def test_no_damage_is_the_nominal_arm(robot):
+    assert np.array_equal(apply(robot, []).forward(ANGLES), robot.arm.forward(ANGLES))
+
+
+def test_the_whole_robot_moved_moves_every_pose(robot):
+    shift = np.eye(4)
+    shift[:3, :3] = Rotation.from_euler("xyz", [0.1, -0.2, 0.3]).as_matrix()
+    shift[:3, 3] = 0.01, -0.02, 0.03
+    damaged = apply(robot, [BaseShift(translation=(0.01, -0.02, 0.03), rotation=(0.1, -0.2, 0.3))])
+    assert np.allclose(damaged.forward(ANGLES), shift @ robot.arm.forward(ANGLES))
+
+
+def test_base_shifts_follow_each_other(robot):
+    damages = [BaseShift(rotation=(0, 0, np.pi / 2)), BaseShift(translation=(1, 0, 0))]
+    moved = apply(robot, damages).forward(ANGLES)[:, :3, 3]
+    turned = apply(robot, damages[:1]).forward(ANGLES)[:, :3, 3]
+    assert np.allclose(moved - turned, [1, 0, 0])
+
+
+@pytest.mark.parametrize(
+    ("link", "whole"), [("forearm_link", 0.5723), ("upper_arm_link", np.hypot(0.1719, 0.612)), ("wrist_3_link", 0.0922)]
+)
+def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
+    damaged = apply(robot, [LinkShortening(link, 0.04)]).forward(ANGLES)
+    nominal = robot.arm.forward(ANGLES)
+    assert np.allclose(damaged[:, :3, :3], nominal[:, :3, :3])
+    # The tool moves by the length taken off, whatever the arm's posture
+    assert np.allclose(np.linalg.norm(damaged[:, :3, 3] - nominal[:, :3, 3], axis=1), 0.04)
+    with pytest.raises(InvalidSetting, match=f"{whole * 100:.2f} cm, its length"):
+        apply(robot, [LinkShortening(link, whole + 1e-6)])
+
+
+def test_an_encoder_shift_is_an_offset_of_its_joint(robot):
+    damaged = apply(robot, [EncoderShift("elbow_joint", 0.07), EncoderShift("elbow_joint", 0.01)])
+    assert np.allclose(damaged.forward(ANGLES), robot.arm.forward(ANGLES + 0.08 * np.eye(6)[2]))
+
+
+def test_the_nominal_robot_stays_whole(robot):
+    before = robot.arm.forward(ANGLES)
+    apply(
+        robot,
+        [LinkShortening("forearm_link", 0.04), LinkShortening("wrist_3_link", 0.01), BaseShift((1, 1, 1), (1, 1, 1))],
+    )
+    assert np.array_equal(robot.arm.forward(ANGLES), before)
+
+
+@pytest.mark.parametrize("damage", [LinkShortening("forearm", 0.01), EncoderShift("elbow", 0.01)])
+def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
+    with pytest.raises(UnknownName, match="forearm_link|elbow_joint"):
+        apply(robot, [damage])
+
+
+def test_a_link_cannot_grow(robot):
+    with pytest.raises(InvalidSetting, match="shorten of forearm_link is '-1 cm'; valid: from 0"):
+        apply(robot, [LinkShortening("forearm_link", -0.01)])

@@ -1,0 +1,97 @@
+import numpy as np
+import pytest
+
+from recalib.damage import apply
+from recalib.experiment import measuring_grid, run
+from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.plant import Plant
+
+IMPROVED = Rules(True, True, True, True)
+WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
+
+
+def learner(runs):
+    return HierarchicalLearner(runs, IMPROVED, Schedule(4.0, WIDTHS, 0.8, 0.4))
+
+
+@pytest.fixture(scope="module")
+def poses():
+    rng = np.random.default_rng(11)
+    return rng.uniform(-1, 1, (3, 60, 6)), rng.uniform(-1, 1, (3, 50, 6))
+
+
+@pytest.fixture(scope="module")
+def history(controller, damaged, poses):
+    return run(Plant(controller, [damaged]), learner(3), *poses, measuring_grid(60, 4, 200, 50))
+
+
+def test_learning_reduces_both_errors_of_every_run(history):
+    for errors in (history.position, history.orientation):
+        assert (errors[:, -1] < 0.3 * errors[:, 0]).all()
+
+
+def test_two_moves_an_iteration_are_counted(history):
+    assert np.array_equal(history.moves, 2 * history.iterations)
+    assert not history.refused.any()
+
+
+def test_summaries_are_ordered(history):
+    mean, p95, most = np.moveaxis(history.position, -1, 0)
+    assert (mean < p95).all() and (p95 <= most).all()
+
+
+def test_the_first_measurement_is_of_the_uncorrected_robot(history, controller, damaged, poses):
+    robot = controller.robot
+    desired = robot.workspace.to_poses(poses[1][1])
+    missed = damaged.forward(controller.inverse(desired))[:, :3, 3] - desired[:, :3, 3]
+    assert history.position[1, 0, 0] == pytest.approx(np.linalg.norm(missed, axis=1).mean())
+
+
+def test_a_run_does_not_depend_on_the_runs_beside_it(history, controller, damaged, poses):
+    alone = run(Plant(controller, [damaged]), learner(1), poses[0][2:], poses[1][2:], [60])
+    assert np.allclose(alone.position[0, -1], history.position[2, -1], rtol=1e-9)
+
+
+def test_measuring_teaches_nothing(history, controller, damaged, poses):
+    seldom = run(Plant(controller, [damaged]), learner(3), *poses, [60])
+    assert np.allclose(seldom.position[:, -1], history.position[:, -1], rtol=1e-12)
+
+
+def test_runs_may_have_robots_of_their_own(controller, robot, damaged, poses):
+    both = run(Plant(controller, [damaged, apply(robot, []), damaged]), learner(3), *poses, [60])
+    assert both.position[1].max() < 1e-9 < both.position[0, 0, 0]
+
+
+def test_refused_moves_are_counted_and_the_run_goes_on(controller, damaged, poses):
+    desired = poses[0].copy()
+    desired[1, 5, :3] = 20  # five metres away
+    plant = Plant(controller, [damaged])
+    history = run(plant, learner(3), desired, poses[1], [0, 5, 6, 60])
+    assert history.refused[1].tolist() == [0, 0, 2, 2] and not history.refused[[0, 2]].any()
+    assert history.position[1, -1, 0] < 0.3 * history.position[1, 0, 0]
+
+
+def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
+    plant = Plant(controller, [damaged])
+    achieved, executed = plant.achieve(np.array([[[20.0, 0, 0, 0, 0, 0]]]))
+    assert not executed.any()
+    assert np.allclose(achieved[0, 0], damaged.forward(controller.robot.home[None])[0])
+
+
+def test_the_table_has_a_row_for_each_run_and_measurement(history):
+    frame = history.to_frame()
+    assert len(frame) == 3 * len(history.iterations)
+    last = frame[(frame["seed"] == 2) & (frame["iteration"] == 60)].iloc[0]
+    assert last["position_error_cm"] == 100 * history.position[2, -1, 0]
+    assert last["orientation_error_max_deg"] == np.degrees(history.orientation[2, -1, 2])
+
+
+@pytest.mark.parametrize(("iterations", "every"), [(200, 4), (10, 4), (3, 5)])
+def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every):
+    grid = measuring_grid(iterations, every, 200, 50)
+    assert grid[0] == 0 and grid[-1] == iterations and set(np.diff(grid[:-1])) <= {every}
+
+
+def test_long_trainings_are_measured_on_a_logarithmic_grid():
+    grid = measuring_grid(10_000, 4, 200, 50)
+    assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51

@@ -1,0 +1,124 @@
+from itertools import product
+
+import numpy as np
+import pytest
+
+from recalib.errors import InvalidSetting
+from recalib.learners.hierarchical import SEPARATE, HierarchicalLearner, Rules, Schedule
+from recalib.maps import regular_grid
+from recalib.plant import Outcome, Plant
+from tests.reference import SlowMap, cycle
+
+SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
+SEPARATE_WIDTHS = {"position": (0.4, 0.9), "orientation": (1.1, 0.3)}
+SIZES = {"supernet": (2, 3, 2), "subnet": (3, 1, 2)}
+
+
+def strange_world(commands):
+    """A smooth damage of its own for each coordinate; (run, move, 6)."""
+    mixed = commands + 0.1 * np.sin(commands[..., [1, 2, 3, 4, 5, 0]] + 0.3) - 0.05 * commands**2 + 0.2
+    return Outcome(mixed, np.ones(commands.shape[:2], dtype=bool))
+
+
+@pytest.mark.parametrize(("separate", "theta", "jacobian", "equal"), [*product([False, True], repeat=4)])
+def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta, jacobian, equal):
+    runs, iterations = 2, 6
+    rules = Rules(separate, theta, jacobian, equal, **SIZES)
+    widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
+    learner = HierarchicalLearner(runs, rules, Schedule(1.5, widths, 0.9, 0.3))
+    slices = SEPARATE.values() if separate else [slice(0, 6)]
+    slow = [
+        [SlowMap(regular_grid(SIZES["supernet"]), regular_grid(SIZES["subnet"]), rows) for rows in slices]
+        for _ in range(runs)
+    ]
+    desired = np.random.default_rng(5).uniform(-1, 1, (runs, iterations, 6))
+    for t in range(iterations):
+        fraction = t / iterations
+        learner.learn(desired[:, t], strange_world, fraction)
+        if equal:
+            rate = 0.9 + (0.3 - 0.9) * fraction
+            now = [tuple((1.5**-2 + (end**-2 - 1.5**-2) * fraction) ** -0.5 for end in pair) for pair in widths.values()]
+        else:
+            rate = 0.9 * (0.3 / 0.9) ** fraction
+            now = [tuple(1.5 * (end / 1.5) ** fraction for end in pair) for pair in widths.values()]
+        for run in range(runs):
+            cycle(
+                slow[run],
+                desired[run, t],
+                lambda c: strange_world(c[None, None]).achieved[0, 0],
+                rate,
+                now,
+                theta,
+                jacobian,
+            )
+    tests = np.random.default_rng(6).uniform(-1, 1, (runs, 20, 6))
+    expected = [[np.concatenate([m.output(u) for m in slow[run]]) for u in tests[run]] for run in range(runs)]
+    assert np.allclose(learner.command(tests), expected, atol=1e-12)
+    for name, each in enumerate(learner.maps.values()):
+        for run, k, l in product(range(runs), range(12), range(6)):
+            assert np.allclose(each.jacobian[run, :, :, k, l], slow[run][name].A[k, l], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("widths", "rate"), [((0, 1), 0.5), ((1, -0.1), 0.5), ((1, 1), 0), ((1, 1), 1.01), ((1, np.array([1, np.nan])), 0.5)]
+)
+def test_impossible_widths_and_rates_are_refused(widths, rate):
+    with pytest.raises(InvalidSetting, match=r"width of a neighbourhood|learning rate"):
+        Schedule(1.0, {"pose": widths}, rate, 0.1)
+
+
+def improved(runs=1):
+    return HierarchicalLearner(
+        runs,
+        Rules(True, True, True, True),
+        Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4),
+    )
+
+
+def test_nothing_is_learned_from_a_refused_move():
+    desired = np.random.default_rng(7).uniform(-1, 1, (2, 6))
+    fresh, refused_first, refused_second = improved(2), improved(2), improved(2)
+
+    def refuse(*moves):
+        count = iter(range(2))
+        return lambda commands: strange_world(commands)._replace(
+            executed=np.full(commands.shape[:2], next(count) not in moves)
+        )
+
+    refused_first.learn(desired, refuse(0), 0.0)
+    refused_second.learn(desired, refuse(1), 0.0)
+    for name, before in fresh.state().items():
+        assert np.array_equal(refused_first.state()[name], before)
+        changed = not np.array_equal(refused_second.state()[name], before)
+        assert changed == name.endswith("theta"), "the first move teaches theta, the second the Jacobians"
+
+
+def test_a_refused_run_does_not_disturb_the_others():
+    desired = np.random.default_rng(8).uniform(-1, 1, (2, 6))
+    both, alone = improved(2), improved(1)
+    both.learn(desired, lambda c: strange_world(c)._replace(executed=np.array([[False], [True]])), 0.0)
+    alone.learn(desired[1:], strange_world, 0.0)
+    for name, learned in alone.state().items():
+        assert np.allclose(both.state()[name][1:], learned, atol=1e-15)
+
+
+def test_an_intact_robot_is_left_alone(controller, robot):
+    from recalib.damage import apply
+
+    learner, plant = improved(), Plant(controller, [apply(robot, [])])
+    rng = np.random.default_rng(9)
+    for t in range(50):
+        learner.learn(rng.uniform(-1, 1, (1, 6)), plant.execute, t / 50)
+    u = rng.uniform(-1, 1, (1, 100, 6))
+    assert np.abs(learner.command(u) - u).max() < 1e-8
+    assert plant.moves == 100
+
+
+def test_what_was_learned_can_be_restored():
+    learner, copy = improved(2), improved(2)
+    for t in range(5):
+        learner.learn(np.random.default_rng(t).uniform(-1, 1, (2, 6)), strange_world, t / 5)
+    u = np.random.default_rng(9).uniform(-1, 1, (2, 30, 6))
+    assert not np.allclose(copy.command(u), learner.command(u))
+    copy.restore(learner.state())
+    assert np.array_equal(copy.command(u), learner.command(u))

@@ -1,0 +1,138 @@
+"""What every peer of the paper's learners has to do, and how well each does it."""
+
+import io
+from functools import partial
+
+import numpy as np
+import pytest
+
+from recalib.damage import apply
+from recalib.errors import InvalidSetting
+from recalib.experiment import measure
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.geometric import GeometricLearner
+from recalib.learners.hybrid import HybridLearner
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.nongeometric import EccentricGear
+from recalib.plant import Outcome, Plant
+
+RUNS = 2
+
+
+@pytest.fixture(scope="module")
+def makers(controller) -> dict:
+    return {
+        "uncorrected": lambda runs: UncorrectedLearner(),
+        "affine": partial(PolynomialLearner, degree=1),
+        "quadratic": partial(PolynomialLearner, degree=2),
+        "gaussian_process": GaussianProcessLearner,
+        "geometric": partial(GeometricLearner, controller=controller),
+        "hybrid": partial(HybridLearner, controller=controller),
+    }
+
+
+NAMES = ["uncorrected", "affine", "quadratic", "gaussian_process", "geometric", "hybrid"]
+LEARNING = NAMES[1:]
+DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
+TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
+
+
+def train(learner, plant, moves, first=0):
+    for move in range(first, moves):
+        learner.learn(DESIRED[:, move], plant.execute, move / moves)
+    return learner
+
+
+def errors(learner, plant) -> tuple[float, float]:
+    """Mean errors in cm and degrees."""
+    position, orientation = measure(plant, learner, TESTS)
+    return 100 * position[:, 0].mean(), np.degrees(orientation[:, 0].mean())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, makers):
+    assert np.array_equal(makers[name](RUNS).command(TESTS), TESTS)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, makers):
+    learner, sent = makers[name](RUNS), []
+
+    def refuse(commands):
+        sent.append(commands.shape)
+        return Outcome(np.zeros_like(commands), np.zeros(commands.shape[:2], dtype=bool))
+
+    learner.learn(DESIRED[:, 0], refuse, 0.0)
+    assert sent == [(RUNS, 1, 6)]
+    assert np.array_equal(learner.command(TESTS), TESTS)
+
+
+@pytest.mark.parametrize("name", LEARNING)
+def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller, damaged):
+    plant, learner = Plant(controller, [damaged]), makers[name](RUNS)
+
+    def refuse_the_first(commands):
+        outcome = plant.execute(commands)
+        return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
+
+    learner.learn(DESIRED[:, 0], refuse_the_first, 0.0)
+    commands = learner.command(TESTS)
+    assert np.array_equal(commands[0], TESTS[0])
+    assert np.abs(commands[1] - TESTS[1]).max() > 1e-2
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_was_learned_can_be_saved_loaded_and_carried_on(name, makers, controller, damaged):
+    plant = Plant(controller, [damaged])
+    learner = train(makers[name](RUNS), plant, 9)
+    file = io.BytesIO()
+    np.savez(file, **learner.state())
+    file.seek(0)
+    loaded = makers[name](RUNS)
+    loaded.restore(dict(np.load(file)))
+    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
+    for each in (learner, loaded):
+        train(each, plant, 10, first=9)
+    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
+
+
+@pytest.mark.parametrize(
+    ("name", "moves", "position", "orientation"),
+    [
+        ("affine", 24, 1.0, 1.0),
+        ("quadratic", 40, 0.8, 0.6),
+        ("gaussian_process", 40, 0.4, 0.4),
+        ("geometric", 7, 1e-4, 1e-4),
+        ("hybrid", 7, 1e-4, 1e-4),
+    ],
+)
+def test_errors_fall(name, moves, position, orientation, makers, controller, damaged):
+    plant = Plant(controller, [damaged])
+    before = errors(makers[name](RUNS), plant)
+    after = errors(train(makers[name](RUNS), plant, moves), plant)
+    assert after[0] < min(position, before[0] / 3)
+    assert after[1] < min(orientation, before[1] / 3)
+
+
+def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
+    arm = apply(robot, [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)])
+    plant = Plant(controller, [arm])
+    geometric, hybrid = (errors(train(makers[name](RUNS), plant, 16), plant) for name in ("geometric", "hybrid"))
+    assert geometric[1] > 0.1
+    assert max(hybrid) < 0.01
+
+
+def test_chosen_poses_teach_more_than_the_worst_candidate(makers, controller, damaged):
+    plant = Plant(controller, [damaged])
+    learner = train(makers["geometric"](RUNS), plant, 3)
+    chosen = learner.choose(TESTS)
+    assert chosen.shape == (RUNS, 6)
+    assert all(np.any(np.all(pose == candidates, axis=1)) for pose, candidates in zip(chosen, TESTS, strict=True))
+    again = np.concatenate([DESIRED[:, 2:3], chosen[:, None]], axis=1)
+    assert np.array_equal(learner.choose(again), chosen)
+
+
+def test_a_polynomial_of_another_degree_is_refused():
+    with pytest.raises(InvalidSetting, match="1 or 2"):
+        PolynomialLearner(RUNS, 3)

@@ -1,0 +1,88 @@
+"""An error planted in a rule must show: the check of the final errors turns red."""
+
+from unittest import mock
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib import campaign, schedules, tuned
+from recalib.checks import check
+from recalib.damage import apply
+from recalib.experiment import run
+from recalib.learners import hierarchical
+from recalib.maps import HierarchicalMap
+from recalib.plant import Plant
+from recalib.scenarios import parse_damage
+from tests.conftest import ROOT
+
+SEEDS = range(20)
+
+
+def final_errors(config, controller, learner="improved"):
+    """The rows of the check for one learner on the paper's damage, trained here and now."""
+    damages = [
+        {"link": "forearm_link", "shorten": "1 cm"},
+        {"link": "wrist_1_link", "shorten": "1 cm"},
+        {"link": "wrist_2_link", "shorten": "4 cm"},
+        {"encoder": "shoulder_pan_joint", "shift": "4 deg"},
+        {"encoder": "shoulder_lift_joint", "shift": "-4 deg"},
+        {"encoder": "wrist_3_joint", "shift": "3 deg"},
+    ]
+    which = tuned.training(learner, config["learners"])
+    history = run(
+        Plant(controller, [apply(controller.robot, map(parse_damage, damages))]),
+        tuned.build(which, len(SEEDS), config["learners"], ROOT / config["tuned"]),
+        campaign.desired_poses(config["seed"], "links_encoders", SEEDS, which.iterations),
+        campaign.test_poses(config["seed"], "links_encoders", SEEDS, config["training"]["tests"]),
+        [which.iterations],
+    )
+    summary = pd.DataFrame(
+        {
+            "scenario": ["links_encoders"],
+            "learner": [learner],
+            "final_position_error_cm": 100 * history.position[:, -1, 0].mean(),
+            "final_orientation_error_deg": np.degrees(history.orientation[:, -1, 0]).mean(),
+        }
+    )
+    expected = pd.read_csv(ROOT / config["expected"]).query("scenario == 'links_encoders' and learner == @learner")
+    return check(summary, expected)
+
+
+def random_winner(net, u):
+    rng = np.random.default_rng(0)
+    return rng.integers(len(net.w_k), size=u.shape[:-1]), rng.integers(len(net.w_kl), size=u.shape[:-1])
+
+
+def no_increment(cells, weights, increments):
+    if cells.ndim == 4:  # theta, not Jacobians
+        for cell, weight, increment in zip(cells, weights, increments, strict=True):
+            cell += increment[..., None, None] * weight
+
+
+PLANTED = {
+    "Jacobian increment off": lambda: mock.patch.object(hierarchical, "propagate_increments", no_increment),
+    "winner at random": lambda: mock.patch.object(HierarchicalMap, "winner", random_winner),
+    # dt proportional to width^n d(width) instead of width^-n: most of the time at the large widths
+    "equal visits inverted": lambda: mock.patch.object(schedules, "DIMENSIONS", -schedules.DIMENSIONS),
+}
+
+
+@pytest.mark.parametrize("learner", ["improved", "ritter_200"])
+def test_without_an_error_the_check_is_green(config, controller, learner):
+    assert final_errors(config, controller, learner)["ok"].all()
+
+
+def test_an_error_planted_in_ritters_rules_turns_the_check_red(config, controller):
+    def towards_zero(cells, weights, values):
+        for cell, weight in zip(cells, weights, strict=True):
+            cell *= 1 - weight
+
+    with mock.patch.object(hierarchical, "propagate_values", towards_zero):
+        assert not final_errors(config, controller, "ritter_200")["ok"].any()
+
+
+@pytest.mark.parametrize("error", PLANTED)
+def test_a_planted_error_turns_the_check_red(config, controller, error):
+    with PLANTED[error]():
+        assert not final_errors(config, controller)["ok"].all()

@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from scipy.spatial.transform import Rotation
+
+from recalib.poses import Workspace, orientation_error, position_error
+
+CENTRE = np.eye(4)
+CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()
+CENTRE[:3, 3] = 0.7, -0.2, 0.4
+WORKSPACE = Workspace(CENTRE, np.array([0.25, 0.3, 0.25, 0.35, 0.35, 0.35]))
+coordinates = arrays(float, (5, 6), elements=st.floats(-2, 2))
+vectors = arrays(float, 3, elements=st.floats(-1, 1))
+
+
+@given(coordinates)
+def test_coordinates_survive_the_round_trip(u):
+    assert np.allclose(WORKSPACE.to_coordinates(WORKSPACE.to_poses(u)), u, atol=1e-12)
+
+
+@given(coordinates)
+def test_poses_are_rigid(u):
+    rotations = WORKSPACE.to_poses(u)[:, :3, :3]
+    assert np.allclose(rotations @ rotations.swapaxes(1, 2), np.eye(3), atol=1e-12)
+    assert np.allclose(np.linalg.det(rotations), 1)
+
+
+def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
+    assert np.allclose(WORKSPACE.to_poses(np.zeros((1, 6)))[0], CENTRE)
+    pose = WORKSPACE.to_poses(np.array([[1, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 1.0], [0, 0, 0, 1, 1, 1.0]]))
+    assert np.allclose(pose[0, :3, 3] - CENTRE[:3, 3], [0.25, 0, 0])
+    assert np.allclose(pose[1, :3, :3], CENTRE[:3, :3] @ Rotation.from_rotvec([0, 0, 0.35]).as_matrix())
+    x, y, z = (Rotation.from_rotvec(0.35 * axis).as_matrix() for axis in np.eye(3))
+    assert np.allclose(pose[2, :3, :3], CENTRE[:3, :3] @ z @ y @ x)
+
+
+@given(vectors, vectors, st.floats(0.001, 3.1))
+def test_errors_measure_a_known_displacement(offset, axis, angle):
+    if np.linalg.norm(axis) < 1e-3:
+        axis = np.array([0, 0, 1.0])
+    moved = CENTRE.copy()
+    moved[:3, 3] += offset
+    moved[:3, :3] = Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).as_matrix() @ CENTRE[:3, :3]
+    assert position_error(moved, CENTRE) == pytest.approx(np.linalg.norm(offset), abs=1e-12)
+    assert orientation_error(moved[None], CENTRE[None])[0] == pytest.approx(angle, abs=1e-9)
+    assert orientation_error(CENTRE[None], moved[None])[0] == pytest.approx(angle, abs=1e-9)
+
+
+def test_samples_fill_the_box():
+    sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
+    assert sample.shape == (1000, 6)
+    assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9

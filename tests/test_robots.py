@@ -1,0 +1,67 @@
+import copy
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.robots import load_robot
+
+
+@pytest.fixture
+def entries(config):
+    return copy.deepcopy(config["robots"])
+
+
+@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
+def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, config):
+    robot = load_robot(name, config["robots"])
+    step = 1e-6
+    _, jacobian = robot.arm.forward_and_jacobian(robot.home[None])
+    ahead, behind = (robot.arm.forward(robot.home + sign * step * np.eye(6)) for sign in (1, -1))
+    linear = (ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
+    angular = [pin.log3(a[:3, :3] @ b[:3, :3].T) / (2 * step) for a, b in zip(ahead, behind, strict=True)]
+    assert np.allclose(jacobian[0], np.concatenate([linear.T, np.transpose(angular)]), atol=1e-8)
+
+
+def test_the_workspace_is_centred_on_home(robot):
+    assert np.allclose(robot.workspace.centre, robot.arm.forward(robot.home[None])[0])
+    assert np.allclose(2 * robot.workspace.half_ranges[:3], [0.5, 0.6, 0.5])
+    assert np.allclose(np.degrees(2 * robot.workspace.half_ranges[3:]), 40)
+
+
+def test_a_locked_gripper_leaves_six_joints(config):
+    assert load_robot("z1", config["robots"]).joints == tuple(f"joint{index}" for index in range(1, 7))
+
+
+def test_every_link_has_a_length(robot):
+    assert list(robot.links.items())[:3] == [("base_link", 0), ("shoulder_link", 1), ("upper_arm_link", 2)]
+    assert len(robot.links) == 7
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "message"),
+    [
+        ({"urdf": "ur11.urdf"}, UnknownName, "ur10_robot.urdf"),
+        ({"tool": "tool9"}, UnknownName, "tool0"),
+        ({"urdf": "panda.urdf", "tool": "panda_link8"}, UnsuitableRobot, "7 joints"),
+        ({"urdf": "kinova.urdf", "tool": "j2s6s200_end_effector"}, UnsuitableRobot, "9 coordinates"),
+        ({"home": {"elbow": "0 deg"}}, UnknownName, "elbow_joint"),
+        ({"home": {"elbow_joint": "0 deg"}}, InvalidSetting, "shoulder_pan_joint"),
+        (
+            {"limits": {"elbow_joint": ["0 deg", "90 deg"]}},
+            InvalidSetting,
+            "elbow_joint is '120 deg'; valid: 0.0 deg to 90.0",
+        ),
+        ({"workspace": {"position": ["0 cm"] * 3, "orientation": ["40 deg"] * 3}}, InvalidSetting, "above zero"),
+    ],
+)
+def test_an_impossible_entry_is_refused_with_what_would_be_valid(entries, change, error, message):
+    entries["ur10"] |= change
+    with pytest.raises(error, match=message):
+        load_robot("ur10", entries)
+
+
+def test_an_unknown_robot_is_refused_with_the_known_ones(entries):
+    with pytest.raises(UnknownName, match="ur10, ur3, ur5, z1"):
+        load_robot("ur11", entries)

@@ -1,0 +1,48 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from recalib import schedules
+
+LAWS = [schedules.exponential, schedules.linear, schedules.equal_visits]
+starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@given(start=starts, end=ends)
+def test_laws_fall_from_start_to_end(law, start, end):
+    values = law(start, end, np.linspace(0, 1, 50))
+    assert values[0] == pytest.approx(start) and values[-1] == pytest.approx(end)
+    assert (np.diff(values) < 0).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_laws_stay_where_start_and_end_are_equal(law):
+    assert np.allclose(law(0.7, 0.7, np.linspace(0, 1, 5)), 0.7)
+
+
+@given(start=starts, end=ends)
+def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(start, end):
+    """The law of section 6: dt/d(width) L(width) is the same at every width."""
+    time = np.linspace(0, 1, 100_001)
+    width = schedules.equal_visits(start, end, time)
+    pace = np.gradient(time, width) * schedules.expected_learning(width, schedules.DIMENSIONS, 8)
+    inner = slice(10, -10)
+    assert np.allclose(pace[inner] / pace[inner].mean(), 1, rtol=1e-2)
+
+
+def test_the_exponential_law_has_a_constant_factor():
+    values = schedules.exponential(2.0, 0.1, np.linspace(0, 1, 20))
+    assert np.allclose(values[1:] / values[:-1], values[1] / values[0])
+
+
+@pytest.mark.parametrize("dimensions", [1, 3])
+def test_expected_learning_is_the_integral_of_the_neighbourhood(dimensions):
+    """(10) far from the border, by brute force."""
+    width, side = 0.15, 4.0
+    points = np.random.default_rng(0).uniform(-side / 2, side / 2, (400_000, dimensions))
+    mean = np.exp(-(points**2).sum(axis=1) / (2 * width**2)).mean()
+    assert schedules.expected_learning(width, dimensions, side**dimensions) == pytest.approx(
+        mean, rel=0.2 if dimensions == 3 else 0.02
+    )

@@ -1,0 +1,54 @@
+import numpy as np
+import pytest
+
+from recalib.damage import BaseShift, EncoderShift, apply
+from recalib.studies.coupling import coupling
+from recalib.studies.propagation import ball, propagation_errors
+from recalib.studies.visits import visits
+
+
+def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):
+    desired = np.random.default_rng(0).uniform(-1, 1, (10, 6))
+    moved = coupling(controller, apply(robot, [BaseShift((0.05, 0, 0), (0, 0, 0.05))]), desired)
+    assert moved.to_numpy().max() < 1e-6
+    assert coupling(controller, damaged, desired).to_numpy().max() > 0.005
+
+
+def test_an_encoder_couples_orientation_commands_to_positions(controller, robot):
+    table = coupling(controller, apply(robot, [EncoderShift("elbow_joint", 0.07)]), np.zeros((1, 6)))
+    assert table["orientation"][0] > 10 * table["position"][0] > 0 or table["orientation"][0] > 0.005
+
+
+def test_the_ball_is_uniform():
+    points = ball(np.random.default_rng(0), 20_000, 3, 2.0)
+    radii = np.linalg.norm(points, axis=1)
+    assert radii.max() <= 2.0 and np.mean(radii < 1.0) == pytest.approx(1 / 8, abs=0.01)
+    assert np.allclose(points.mean(axis=0), 0, atol=0.03)
+
+
+OFFSETS = ball(np.random.default_rng(1), 4000, 6, 0.5)
+
+
+def test_the_integrals_of_section_5_for_mappings_known_by_heart():
+    centre, second_moment = np.full(6, 0.2), np.square(OFFSETS).sum(axis=1).mean()
+    identity, shifted, constant = (lambda w: w), (lambda w: w + 0.3), (lambda w: 0 * w + 0.7)
+    classic, updated = propagation_errors(identity, shifted, centre, OFFSETS)
+    assert classic == pytest.approx(second_moment) and updated == pytest.approx(0, abs=1e-20)
+    classic, updated = propagation_errors(identity, constant, centre, OFFSETS)
+    assert classic == pytest.approx(0, abs=1e-20) and updated == pytest.approx(second_moment)
+
+
+def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
+    def turned(angle):
+        c, s = np.cos(angle), np.sin(angle)
+        matrix = np.kron(np.eye(3), [[c, -s], [s, c]])
+        return lambda w: w @ matrix.T
+
+    for angle, better in ((59, True), (61, False)):
+        classic, updated = propagation_errors(lambda w: w, turned(np.radians(angle)), np.zeros(6), OFFSETS)
+        assert (updated < classic) == better
+
+
+def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
+    table = visits([0.2], [0.0, 1.0], 3, np.random.default_rng(2), samples=400_000)
+    assert table["ratio"].tolist() == pytest.approx([0.5, 1.0], abs=4 * table["error"].max())

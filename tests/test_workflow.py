@@ -1,0 +1,101 @@
+"""The whole workflow on a small configuration, in a copy of the project."""
+
+import pandas as pd
+import pytest
+
+from tests.conftest import snakemake
+
+pytestmark = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
+
+
+def planned(project, *arguments) -> set[str]:
+    """The rules that would run."""
+    lines = snakemake(project, "-n", *arguments).stdout.splitlines()
+    start = lines.index("Job stats:") if "Job stats:" in lines else len(lines)
+    rows = [line.split() for line in lines[start + 3 :]]
+    return {row[0] for row in rows[: rows.index([])] if row[0] != "total"} if [] in rows else set()
+
+
+def test_the_contract_of_the_outputs_holds(project):
+    results = project / "results"
+    for scenario in ("intact", "links_encoders"):
+        assert (results / "scenarios" / f"{scenario}.json").exists()
+        assert (results / "recordings" / f"{scenario}.rrd").stat().st_size > 1e6
+        for learner in ("improved", "ritter", "ritter_200"):
+            history = pd.read_parquet(results / "runs" / scenario / f"{learner}.parquet")
+            assert sorted(history["seed"].unique()) == list(range(2 if learner == "ritter_200" else 3))
+            assert (results / "runs" / scenario / f"{learner}.npz").exists()
+    summary = pd.read_csv(results / "summary.csv")
+    assert len(summary) == 6 and (summary["moves"] == 2 * summary["iterations"]).all()
+    assert "intact" in (results / "check.txt").read_text()
+    for figure in ("figure1", "figure2", "figure3"):
+        for suffix in (".svg", ".png"):
+            assert (project / "figures" / f"{figure}{suffix}").stat().st_size > 5000
+
+
+def test_nothing_is_left_to_do(project):
+    assert planned(project) == set()
+
+
+def test_an_edited_module_reruns_what_depends_on_it_and_only_that(project):
+    module = project / "recalib" / "plots" / "learning.py"
+    text = module.read_text()
+    module.write_text(text + "# edited\n")
+    assert planned(project) == {"all", "figure", "report_pages"}
+    module.write_text(text)
+    assert planned(project) == set()
+
+
+def test_an_edited_setting_reruns_what_depends_on_it_and_only_that(project):
+    settings = project / "tests" / "tiny" / "settings.yaml"
+    text = settings.read_text()
+    settings.write_text(text.replace("initial_width: 0.5", "initial_width: 0.6"))
+    rules = planned(project)
+    assert {"train", "run", "summary", "figure"} <= rules and not {"scenario", "assignments"} & rules
+    settings.write_text(text)
+
+
+def test_the_same_configuration_gives_the_same_bytes(project):
+    run = "runs/links_encoders/improved"
+    files = [f"again/{run}.parquet", f"again/{run}.npz", "again/figure1.svg", "again/figure1.png"]
+    again = snakemake(project, "--config", "results=again", "figures=again", "--", *files)
+    assert again.returncode == 0, again.stdout
+    for file in files:
+        first = project / file.replace("again/", "figures/" if "figure" in file else "results/")
+        assert (project / file).read_bytes() == first.read_bytes()
+
+
+def test_the_search_gives_the_same_file_with_the_same_trials_for_all(project):
+    files = []
+    for folder in ("first", "second"):
+        learners = "experiments={learners: [improved, ritter]}"
+        arguments = ["--config", f"results={folder}", f"tuned={folder}/search", learners, "--", "tune"]
+        finished = snakemake(project, *arguments)
+        assert finished.returncode == 0, finished.stdout
+        files.append([(project / folder / "search" / name).read_text() for name in ("settings.yaml", "trials.csv")])
+    assert files[0] == files[1]
+    assert set(pd.read_csv(project / "first" / "search" / "trials.csv").groupby("training").size()) == {4}
+
+
+def test_a_wrong_sign_in_a_learning_rule_turns_the_check_red(project):
+    module = project / "recalib" / "learners" / "hierarchical.py"
+    text = module.read_text()
+    right = "miss = desired - first.achieved[:, 0]"
+    assert right in text
+    module.write_text(text.replace(right, "miss = first.achieved[:, 0] - desired"))
+    broken = snakemake(project, "--", "check")
+    module.write_text(text)
+    assert broken.returncode != 0
+    assert "links_encoders improved: position_error_cm is" in broken.stdout and "expected 0.2" in broken.stdout
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("robot=ur11", "unknown robot 'ur11'; valid: ur10, ur3, ur5, z1"),
+        ("experiments={learners: [improve]}", "unknown learner 'improve'; valid: improved,"),
+    ],
+)
+def test_bad_input_stops_before_anything_runs(project, override, message):
+    refused = snakemake(project, "-n", "--config", override)
+    assert refused.returncode != 0 and message in refused.stdout

@@ -1,0 +1,17 @@
+"""Judge every claim of the paper by its criterion."""
+
+import json
+from pathlib import Path
+
+import yaml
+
+from recalib.claims import judge
+from recalib.evidence import Evidence
+from recalib.storage import whole
+from workflow.scripts.job import job
+
+with job(snakemake):
+    criteria = yaml.safe_load(Path(snakemake.input.criteria).read_text())
+    judged = judge(criteria, Evidence(snakemake.config))
+    with whole(snakemake.output[0]) as path:
+        path.write_text(json.dumps(judged, indent=2) + "\n")

@@ -1,0 +1,9 @@
+"""Draw one figure from the evidence."""
+
+from recalib import plots
+from recalib.evidence import Evidence
+from workflow.scripts.job import job
+
+with job(snakemake), plots.plt.rc_context(plots.STYLE):
+    figure = plots.FIGURES[snakemake.wildcards.figure](Evidence(snakemake.config))
+    plots.save(figure, snakemake.output.svg, snakemake.output.png)

@@ -1,0 +1,10 @@
+"""Render the page of guidance."""
+
+from recalib.evidence import Evidence
+from recalib.guidance import context
+from recalib.pages import render
+from recalib.storage import whole
+from workflow.scripts.job import job
+
+with job(snakemake), whole(snakemake.output[0]) as path:
+    path.write_text(render(snakemake.input.template, context(Evidence(snakemake.config))))

@@ -1,0 +1,15 @@
+"""Render README and findings."""
+
+from pathlib import Path
+
+from recalib.evidence import Evidence
+from recalib.pages import context, render
+from recalib.storage import whole
+from workflow.scripts.job import job
+
+with job(snakemake):
+    pictures = all((Path(snakemake.config["figures"]) / f"arm_{when}.png").exists() for when in ("before", "after"))
+    known = context(Evidence(snakemake.config), pictures)
+    for template, page in zip(snakemake.input.templates, snakemake.output, strict=True):
+        with whole(page) as path:
+            path.write_text(render(template, known))

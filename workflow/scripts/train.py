@@ -1,0 +1,36 @@
+"""Train a chunk of seeds of one learner on one scenario."""
+
+import sys
+
+import numpy as np
+
+from recalib import campaign, tuned
+from recalib.experiment import measuring_grid, run
+from recalib.progress import progress_bar
+from recalib.storage import whole
+from workflow.scripts.job import job
+
+with job(snakemake):
+    config, scenario = snakemake.config, snakemake.wildcards.scenario
+    plan = config["training"]
+    which = tuned.training(snakemake.wildcards.learner, config["learners"])
+    runs = range(*snakemake.params.seeds)
+    _, plant = campaign.load_plant(snakemake.input.scenario, config, runs)
+    learner = tuned.build(which, len(runs), config["learners"], config["tuned"])
+    with progress_bar(f"{which} on {scenario}", which.iterations) as progress:
+        history = run(
+            plant,
+            learner,
+            campaign.desired_poses(config["seed"], scenario, runs, which.iterations),
+            campaign.test_poses(config["seed"], scenario, runs, plan["tests"]),
+            measuring_grid(which.iterations, plan["measure_every"], plan["measure_evenly"], plan["measurements"]),
+            progress,
+        )
+    if refused := history.refused[:, -1].sum():
+        print(f"{which} on {scenario}: the controller refused {refused} moves", file=sys.stderr)
+    frame = history.to_frame()
+    frame["seed"] += runs.start
+    with whole(snakemake.output.history) as path:
+        frame.to_parquet(path, index=False)
+    with whole(snakemake.output.learned) as path:
+        np.savez(path, **learner.state())
