@@ -17,9 +17,9 @@ from selenium.webdriver.support.wait import WebDriverWait
 from tests.conftest import snakemake
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-FLAGS = """--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking
- --disable-component-update --disable-sync --window-size=1400,900"""
-PATIENCE = 20  # seconds for what a click brings to appear
+FLAGS = """--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run
+ --disable-background-networking --disable-component-update --disable-sync --window-size=1400,900"""
+PATIENCE = 60  # seconds for what a click brings to appear
 PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
  + [...document.querySelectorAll("svg")].filter(drawing => !drawing.getBoundingClientRect().width).length"""
@@ -68,12 +68,18 @@ def click(browser, xpath: str) -> None:
     wait.until(lambda _: browser.find_element(By.XPATH, xpath).click() is None)
 
 
-def read(browser, label: str, visit: Visit) -> None:
-    """Read the page that a click opened, once it is the one with this label."""
-    frame = WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException])
-    browser.switch_to.default_content()
-    frame.until(lambda _: browser.switch_to.frame(browser.find_element(By.TAG_NAME, "iframe")) is None)
-    frame.until(lambda _: browser.find_element(By.TAG_NAME, "h1").text == label)
+def read(browser, button: str, label: str, visit: Visit) -> None:
+    """Read the page with this label, which a button (an XPath) opens."""
+
+    def opened(_) -> bool:
+        # All of it again at every look: a page may come in a frame that replaces the last one after its click was answered.
+        browser.switch_to.default_content()
+        browser.find_element(By.XPATH, button).click()
+        browser.switch_to.frame(browser.find_element(By.TAG_NAME, "iframe"))
+        return browser.find_element(By.TAG_NAME, "h1").text == label
+
+    wait = WebDriverWait(browser, PATIENCE, 0.2, ignored_exceptions=[WebDriverException])
+    wait.until(opened, f"{label!r} does not open")
     visit.pages[label] = browser.execute_script("return document.body.textContent")
     visit.drawings[label] = len(browser.find_elements(By.TAG_NAME, "svg"))
     visit.broken += browser.execute_script(BROKEN)
@@ -100,8 +106,7 @@ def visit(browser, report) -> Visit:
         click(browser, f"//nav//span[.='{category}']")
         rows = browser.find_elements(By.CSS_SELECTOR, "nav tbody tr")
         for number, label in enumerate([row.text for row in rows], start=1):
-            click(browser, f"(//nav//tbody/tr)[{number}]//a[1]")
-            read(browser, label, seen)
+            read(browser, f"(//nav//tbody/tr)[{number}]//a[1]", label, seen)
             click(browser, f"(//nav//tbody/tr)[{number}]//a[2]")
             click(browser, f"//nav//ol//a[.='{category}']")
     seen.console = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
