@@ -62,12 +62,13 @@ def project(tmp_path_factory) -> Path:
     process = subprocess.Popen(
         SNAKEMAKE, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
-    deadline = time.monotonic() + 60
-    while not list(folder.glob("results/runs/*/*.parquet")) and time.monotonic() < deadline:
+    whole = "results/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
+    while process.poll() is None and not list(folder.glob(whole)):
         time.sleep(0.05)
+    assert process.poll() is None, "the run ended before it could be interrupted"
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    gathered = [path.relative_to(folder / "results" / "runs") for path in folder.glob("results/runs/*/*.parquet")]
+    gathered = [path.relative_to(folder / "results" / "runs") for path in folder.glob(whole)]
     chunks = [path for run in gathered for path in folder.glob(f"results/chunks/{run.parent}/{run.stem}.*.parquet")]
     done = {path: path.stat().st_mtime_ns for path in chunks}
     finished = snakemake(folder)

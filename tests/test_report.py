@@ -21,6 +21,10 @@ FLAGS = """--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disab
  --disable-background-networking --disable-component-update --disable-sync --window-size=1400,900"""
 PATIENCE = 60  # seconds for what a click brings to appear
 PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
+# The menu slides open and shut, and a click on what moves may meet its neighbour.
+STILL = (
+    "document.head.append(Object.assign(document.createElement('style'), {textContent: '* {transition: none !important}'}))"
+)
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
  + [...document.querySelectorAll("svg")].filter(drawing => !drawing.getBoundingClientRect().width).length"""
 
@@ -63,23 +67,20 @@ def browser(tmp_path_factory):
 
 
 def click(browser, xpath: str) -> None:
-    """Click on something as soon as it holds still."""
+    """Click on something as soon as it is there."""
     wait = WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException])
-    wait.until(lambda _: browser.find_element(By.XPATH, xpath).click() is None)
+    wait.until(lambda _: browser.find_element(By.XPATH, xpath).click() is None, f"no {xpath}")
 
 
-def read(browser, button: str, label: str, visit: Visit) -> None:
-    """Read the page with this label, which a button (an XPath) opens."""
+def read(browser, label: str, visit: Visit) -> None:
+    """Read the page that a click opened, once it is the one with this label."""
 
     def opened(_) -> bool:
-        # All of it again at every look: a page may come in a frame that replaces the last one after its click was answered.
-        browser.switch_to.default_content()
-        browser.find_element(By.XPATH, button).click()
+        browser.switch_to.default_content()  # again at every look: Chromium may put another frame in place of the last
         browser.switch_to.frame(browser.find_element(By.TAG_NAME, "iframe"))
         return browser.find_element(By.TAG_NAME, "h1").text == label
 
-    wait = WebDriverWait(browser, PATIENCE, 0.2, ignored_exceptions=[WebDriverException])
-    wait.until(opened, f"{label!r} does not open")
+    WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException]).until(opened, f"no page {label!r}")
     visit.pages[label] = browser.execute_script("return document.body.textContent")
     visit.drawings[label] = len(browser.find_elements(By.TAG_NAME, "svg"))
     visit.broken += browser.execute_script(BROKEN)
@@ -92,6 +93,7 @@ def read(browser, button: str, label: str, visit: Visit) -> None:
 def visit(browser, report) -> Visit:
     seen = Visit()
     browser.get(report.as_uri())
+    browser.execute_script(STILL)
     click(browser, "//nav//span[.='Workflow']")
     WebDriverWait(browser, PATIENCE).until(lambda _: browser.find_elements(By.CSS_SELECTOR, "#rulegraph canvas"))
     seen.front = browser.find_element(By.CSS_SELECTOR, ".prose").get_attribute("textContent")
@@ -106,7 +108,8 @@ def visit(browser, report) -> Visit:
         click(browser, f"//nav//span[.='{category}']")
         rows = browser.find_elements(By.CSS_SELECTOR, "nav tbody tr")
         for number, label in enumerate([row.text for row in rows], start=1):
-            read(browser, f"(//nav//tbody/tr)[{number}]//a[1]", label, seen)
+            click(browser, f"(//nav//tbody/tr)[{number}]//a[1]")
+            read(browser, label, seen)
             click(browser, f"(//nav//tbody/tr)[{number}]//a[2]")
             click(browser, f"//nav//ol//a[.='{category}']")
     seen.console = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
