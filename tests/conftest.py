@@ -52,13 +52,17 @@ def snakemake(project, *arguments) -> subprocess.CompletedProcess:
     )
 
 
-@pytest.fixture(scope="session")
-def project(tmp_path_factory) -> Path:
-    """A copy of the project whose run was killed in the middle and started again."""
-    folder = tmp_path_factory.mktemp("project")
+def copy_project(folder: Path) -> Path:
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         copy(ROOT / part, folder / part)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def project(tmp_path_factory) -> Path:
+    """A copy of the project whose run was killed in the middle and started again."""
+    folder = copy_project(tmp_path_factory.mktemp("project"))
     process = subprocess.Popen(
         SNAKEMAKE, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
