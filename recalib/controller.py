@@ -1,21 +1,23 @@
 """The nominal controller: from a pose command to joint angles, by the kinematics of the intact robot.
 
 It stands for the inverse kinematics that the manufacturer built in, which the paper leaves untouched (section 3): the same
-command always gives the same joint angles. Newton's method starts from the nearest of a fixed set of knots, and each
-command is solved by itself, so neither the commands before it nor those beside it in a batch have an influence.
+command always gives the same joint angles. Newton's method starts from a polynomial that knows the workspace roughly, and
+each command is solved by itself, so neither the commands before it nor those beside it in a batch have an influence.
 """
 
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.kinematics import Arm
+from recalib.monomials import monomials
 from recalib.robots import Robot
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
+BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
+DEGREE = 3  # of the first guess: off by a degree or less, from where Newton's method needs three steps
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
@@ -49,18 +51,22 @@ class Controller:
     def __init__(self, robot: Robot, greatest_condition: float):
         self.robot = robot
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
-        self._knots = np.tile(robot.home, (len(grid), 1))
-        for fraction in (0.25, 0.5, 0.75, 1.0):  # from home outwards, so that every knot is on the branch of home
-            poses = robot.workspace.to_poses(grid * fraction)
+        self._knots, solved = np.tile(robot.home, (len(grid), 1)), []
+        for part in BOXES:  # from home outwards, so that every knot is on the branch of home
+            poses = robot.workspace.to_poses(grid * part)
             self._knots, residuals = solve_newton(robot.arm, poses, self._knots)
+            solved.append(self._knots)
         self._check_reach(poses, residuals)
         self._check_limits()
         self._check_condition(greatest_condition)
+        features = monomials(np.concatenate([grid * part for part in BOXES]), DEGREE)
+        self._guess = np.linalg.lstsq(features, np.concatenate(solved))[0]
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
-        nearest = np.clip(np.rint((self.robot.workspace.to_coordinates(poses) + 1) * (KNOTS - 1) / 2), 0, KNOTS - 1)
-        start = self._knots[nearest.astype(int) @ KNOTS ** np.arange(5, -1, -1)]
+        inside = np.clip(self.robot.workspace.to_coordinates(poses), -1, 1)  # a polynomial knows nothing of what is beyond
+        features = monomials(inside, DEGREE)
+        start = (features[:, None] @ self._guess)[:, 0]  # row by row: one product of all would round with the batch's size
         angles, residuals = solve_newton(self.robot.arm, poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
@@ -126,9 +132,12 @@ def solve_newton(arm: Arm, poses: np.ndarray, start: np.ndarray) -> tuple[np.nda
 
 
 def _twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes the poses `start` to `end`, (n, 6): translation [m] and rotation vector [rad] along the base's axes."""
+    """What takes the poses `start` to `end`, (n, 6): translation [m] and turn along the base's axes.
+
+    The turn is the axis times the sine of the angle [rad], which is the angle where Newton's method ends.
+    """
     between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
-    turns = Rotation.from_matrix(between, assume_valid=True).as_rotvec()
+    turns = (between - between.swapaxes(1, 2))[:, [2, 0, 1], [1, 2, 0]] / 2
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.learners import Execute
+from recalib.monomials import monomials
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in workspace coordinates: wear of
 # some centimetres and degrees, an arm's length away, bends the map ever less from one degree to the next.
@@ -31,16 +32,14 @@ class PolynomialLearner:
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         self._degree = degree
-        first, second = np.triu_indices(6)
-        self._pairs = first, second
-        degrees = np.repeat(range(degree + 1), (1, 6, len(first))[: degree + 1])
+        degrees = np.repeat(range(degree + 1), (1, 6, 21)[: degree + 1])
         self._coefficients = np.zeros((runs, len(degrees), 6))
         # posterior covariance of the coefficients over the variance of the noise
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
-        return desired + self._monomials(desired) @ self._coefficients
+        return desired + monomials(desired, self._degree) @ self._coefficients
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One move to the desired poses (run, 6); nothing is learned where it is refused."""
@@ -51,10 +50,10 @@ class PolynomialLearner:
     def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         """Learn from moves, one after the other: commands (run, move, 6), achieved (run, move, 6), executed (run, move)."""
         for move in range(executed.shape[1]):
-            monomials = self._monomials(achieved[:, [move]])
-            reach = monomials @ self._spread  # (run, 1, F)
-            gain = reach / (1 + reach @ monomials.swapaxes(1, 2)) * executed[:, [move], None]
-            missed = (commands - achieved)[:, [move]] - monomials @ self._coefficients
+            features = monomials(achieved[:, [move]], self._degree)
+            reach = features @ self._spread  # (run, 1, F)
+            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * executed[:, [move], None]
+            missed = (commands - achieved)[:, [move]] - features @ self._coefficients
             self._coefficients += gain.swapaxes(1, 2) @ missed
             self._spread -= gain.swapaxes(1, 2) @ reach
 
@@ -65,11 +64,3 @@ class PolynomialLearner:
     def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
         """Take over what `state` returned."""
         self._coefficients, self._spread = arrays["coefficients"].copy(), arrays["spread"].copy()
-
-    def _monomials(self, coordinates: np.ndarray) -> np.ndarray:
-        """(run, pose, F) of coordinates (run, pose, 6): 1, then each coordinate, then each product of two."""
-        ones = np.ones((*coordinates.shape[:-1], 1))
-        if self._degree == 1:
-            return np.concatenate([ones, coordinates], axis=-1)
-        first, second = self._pairs
-        return np.concatenate([ones, coordinates, coordinates[..., first] * coordinates[..., second]], axis=-1)
