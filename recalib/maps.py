@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
+from scipy.linalg.blas import dger
 
 from recalib.poses import ORIENTATION, POSITION
 
@@ -81,12 +82,21 @@ def propagate_values(cells: np.ndarray, weights: np.ndarray, values: np.ndarray)
         weights: (run, K, L) learning rate times neighbourhood.
         values: (run, ...) theta* or A*; a run whose weights are zero learns nothing.
     """
-    for cell, weight, value in zip(cells, weights, values, strict=True):  # run by run: each fits the processor's cache
+    for cell, weight, value in zip(cells, weights, values, strict=True):
         cell *= 1 - weight
-        cell += value[..., None, None] * weight
+        _add_product(cell, value, weight)
 
 
 def propagate_increments(cells: np.ndarray, weights: np.ndarray, increments: np.ndarray) -> None:
     """Move every cell by one increment, in place: (7) and (9). Arguments as `propagate_values`."""
     for cell, weight, increment in zip(cells, weights, increments, strict=True):
-        cell += increment[..., None, None] * weight
+        _add_product(cell, increment, weight)
+
+
+def _add_product(cells: np.ndarray, values: np.ndarray, weights: np.ndarray) -> None:
+    """Add values (...) times weights (K, L) to cells (..., K, L) of one run, in place.
+
+    By BLAS, in one pass: NumPy would make the product first, and it is as large as all the cells.
+    """
+    table = cells.reshape(-1, weights.size)  # a view: a run's cells lie together
+    dger(1.0, weights.ravel(), values.ravel(), a=table.T, overwrite_a=True)

@@ -14,7 +14,14 @@ UNITS = ("cm", "degrees")
 
 def n(value: float, digits: int = 2) -> str:
     """A number for people."""
-    return f"{value:.1e}" if 0 < abs(value) < 10**-digits else f"{value:.{digits}f}"
+    if 0 < abs(value) < 10**-digits:
+        return _rounding(value) or f"{value:.1e}"
+    return f"{value:.{digits}f}"
+
+
+def _rounding(value: float) -> str:
+    """Says of a number that it is what the arithmetic leaves, which differs from machine to machine."""
+    return "below 1e-6" if 0 < abs(value) < 1e-6 else ""
 
 
 def pair(row, moment: str) -> str:
@@ -26,7 +33,7 @@ def measured(claim: dict) -> str:
     """What was measured for a claim, with intervals."""
 
     def number(value) -> str:
-        return "more" if value is None else f"{value:.3g}"
+        return "more" if value is None else _rounding(value) or f"{value:.3g}"
 
     def text(label, value) -> str:
         if label not in claim["interval"]:

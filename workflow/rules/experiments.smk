@@ -30,6 +30,7 @@ rule train:
         seeds=lambda w: bounds(w.chunk, seeds_of(w.learner), TRAINING["seeds_per_job"]),
         learner=lambda w: entry_of(w.learner),
         training=EVALUATION,
+        throughout=lambda w: w.scenario in SCENARIOS and w.learner in EXPERIMENTS["learners"],
         seed=config["seed"],
     priority: 10
     message:
