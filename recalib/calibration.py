@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from recalib.controller import solve_each, twists
 from recalib.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel, JointTerms
 from recalib.identification import LEAST_NOISE, Estimate, displacements, identify
 from recalib.kinematics import Arm
@@ -49,13 +50,13 @@ class Calibration:
         for _ in range(STEPS):
             standing = self.model.standing(parameters, angles, self.model.terms(angles))
             reached, jacobians = arm.forward_and_jacobian(standing)
-            misses = displacements(self._moved(reached, angles), poses)
+            misses = twists(self._moved(reached, angles), poses)
             sizes = np.abs(misses).max(axis=-1)
             better = sizes < least
             best[better], least[better] = angles[better], sizes[better]
             if least.max(initial=0) <= TOLERANCE:
                 break
-            steps = (np.linalg.pinv(jacobians) @ misses[..., None])[..., 0]
+            steps = solve_each(jacobians, misses)
             angles = angles + steps * np.minimum(1, LONGEST_STEP / np.abs(steps).max(axis=-1, keepdims=True))
         return best
 

@@ -119,19 +119,19 @@ def solve_newton(arm: Arm, poses: np.ndarray, start: np.ndarray) -> tuple[np.nda
     unsolved = np.arange(len(poses))
     for _ in range(STEPS):
         reached, jacobians = arm.forward_and_jacobian(angles[unsolved])
-        twists = _twists(reached, poses[unsolved])
-        residuals[unsolved] = np.abs(twists).max(axis=-1)
+        missing = twists(reached, poses[unsolved])
+        residuals[unsolved] = np.abs(missing).max(axis=-1)
         left = residuals[unsolved] > TOLERANCE
         if not left.any():
             break
         unsolved = unsolved[left]
-        steps = _solve_each(jacobians[left], twists[left])
+        steps = solve_each(jacobians[left], missing[left])
         steps *= np.minimum(1, LONGEST_STEP / np.abs(steps).max(axis=-1, keepdims=True))
         angles[unsolved] += steps
     return angles, residuals
 
 
-def _twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+def twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """What takes the poses `start` to `end`, (n, 6): translation [m] and turn along the base's axes.
 
     The turn is the axis times the sine of the angle [rad], which is the angle where Newton's method ends.
@@ -141,7 +141,8 @@ def _twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 
-def _solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+def solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """The solutions (n, 6) of as many systems of linear equations, (n, 6, 6) and (n, 6); of a singular one the smallest."""
     try:
         return np.linalg.solve(matrices, vectors[..., None])[..., 0]
     except np.linalg.LinAlgError:  # one of them is exactly singular

@@ -43,15 +43,14 @@ class Disturbances:
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
         """What the instrument says of the poses (run, move, 4, 4); a generator for each run."""
-        return np.stack([self._measure(generator, each) for generator, each in zip(generators, poses, strict=True)])
-
-    def _measure(self, generator: np.random.Generator, poses: np.ndarray) -> np.ndarray:
+        moves = poses.shape[1]
         # Every number is drawn whatever the sizes are: runs that differ in one size share all the rest of their luck.
-        moves = len(poses)
-        shift, turn, direction = generator.standard_normal((3, moves, 3))
-        is_outlier = generator.uniform(size=(moves, 1)) < self.outlier_fraction
+        luck = [(each.standard_normal((3, moves, 3)), each.uniform(size=(moves, 1))) for each in generators]
+        shift, turn, direction = np.stack([normal for normal, _ in luck], axis=1)
+        is_outlier = np.stack([uniform for _, uniform in luck]) < self.outlier_fraction
         gross = self.outlier_size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
         measured = poses.copy()
-        measured[:, :3, 3] += self.position_noise * shift + np.where(is_outlier, gross, 0.0)
-        measured[:, :3, :3] = Rotation.from_rotvec(self.orientation_noise * turn).as_matrix() @ poses[:, :3, :3]
+        measured[..., :3, 3] += self.position_noise * shift + np.where(is_outlier, gross, 0.0)
+        turns = Rotation.from_rotvec(self.orientation_noise * turn.reshape(-1, 3)).as_matrix()
+        measured[..., :3, :3] = turns.reshape(measured[..., :3, :3].shape) @ poses[..., :3, :3]
         return measured
