@@ -51,14 +51,14 @@ class Controller:
     def __init__(self, robot: Robot, greatest_condition: float):
         self.robot = robot
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
-        self._knots, solved = np.tile(robot.home, (len(grid), 1)), []
+        knots, solved = np.tile(robot.home, (len(grid), 1)), []
         for part in BOXES:  # from home outwards, so that every knot is on the branch of home
             poses = robot.workspace.to_poses(grid * part)
-            self._knots, residuals = solve_newton(robot.arm, poses, self._knots)
-            solved.append(self._knots)
+            knots, residuals = solve_newton(robot.arm, poses, knots)
+            solved.append(knots)
         self._check_reach(poses, residuals)
-        self._check_limits()
-        self._check_condition(greatest_condition)
+        self._check_limits(knots)
+        self._check_condition(knots, greatest_condition)
         features = monomials(np.concatenate([grid * part for part in BOXES]), DEGREE)
         self._guess = np.linalg.lstsq(features, np.concatenate(solved))[0]
 
@@ -91,17 +91,17 @@ class Controller:
                 f" Make robots.{name}.workspace smaller or move robots.{name}.home"
             )
 
-    def _check_limits(self) -> None:
+    def _check_limits(self, knots: np.ndarray) -> None:
         robot = self.robot
-        for knot, joint in np.argwhere((self._knots < robot.lower) | (self._knots > robot.upper)):
-            turn, low, high = np.degrees([self._knots[knot, joint], robot.lower[joint], robot.upper[joint]])
+        for knot, joint in np.argwhere((knots < robot.lower) | (knots > robot.upper)):
+            turn, low, high = np.degrees([knots[knot, joint], robot.lower[joint], robot.upper[joint]])
             raise UnfitWorkspace(
                 f"the {robot.name} would have to turn {robot.joints[joint]} to {turn:.1f} deg in its workspace, beyond its"
                 f" limits of {low:.1f} to {high:.1f} deg. Make robots.{robot.name}.workspace smaller or move its home"
             )
 
-    def _check_condition(self, greatest: float) -> None:
-        _, jacobians = self.robot.arm.forward_and_jacobian(self._knots)
+    def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
+        _, jacobians = self.robot.arm.forward_and_jacobian(knots)
         condition = np.linalg.cond(jacobians / self.robot.workspace.half_ranges[:, None]).max()
         if condition > greatest:
             raise UnfitWorkspace(

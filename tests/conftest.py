@@ -67,7 +67,8 @@ def project(tmp_path_factory) -> Path:
         SNAKEMAKE, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
     whole = "results/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
-    while process.poll() is None and not list(folder.glob(whole)):
+    deadline = time.monotonic() + 120
+    while process.poll() is None and not list(folder.glob(whole)) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert process.poll() is None, "the run ended before it could be interrupted"
     os.killpg(process.pid, signal.SIGKILL)
