@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -36,29 +37,22 @@ class Calibration:
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
-        return self._moved(self.model.predict(self.estimate.parameters, angles), angles)
+        return self._moved(self._arm.forward(self._standing(angles)), angles)
 
-    def angles_for(self, poses: np.ndarray, start: np.ndarray) -> np.ndarray:
-        """Joint angles (n, 6) [rad] for the controller to believe in so that the tool gets to the poses (n, 4, 4) [m].
+    def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (n, 4, 4) as `forward`, and the Jacobians (n, 6, 6) of the arm alone, with the joints as they stand.
 
-        Newton's method from `start` (n, 6) [rad], with the Jacobian of the arm alone: joint errors and the residual change
-        slowly with the angles. Where nothing reaches the pose, the best angles that were met.
+        They lack how joint errors and the residual change with the angles, which they do slowly.
         """
-        parameters = self.estimate.parameters
-        arm = self.model.arm(parameters)
-        angles, best, least = start.copy(), start.copy(), np.full(len(start), np.inf)
-        for _ in range(STEPS):
-            standing = self.model.standing(parameters, angles, self.model.terms(angles))
-            reached, jacobians = arm.forward_and_jacobian(standing)
-            misses = twists(self._moved(reached, angles), poses)
-            sizes = np.abs(misses).max(axis=-1)
-            better = sizes < least
-            best[better], least[better] = angles[better], sizes[better]
-            if least.max(initial=0) <= TOLERANCE:
-                break
-            steps = solve_each(jacobians, misses)
-            angles = angles + steps * np.minimum(1, LONGEST_STEP / np.abs(steps).max(axis=-1, keepdims=True))
-        return best
+        poses, jacobians = self._arm.forward_and_jacobian(self._standing(angles))
+        return self._moved(poses, angles), jacobians
+
+    @cached_property
+    def _arm(self) -> Arm:
+        return self.model.arm(self.estimate.parameters)
+
+    def _standing(self, angles: np.ndarray) -> np.ndarray:
+        return self.model.standing(self.estimate.parameters, angles, self.model.terms(angles))
 
     def _moved(self, poses: np.ndarray, angles: np.ndarray) -> np.ndarray:
         if self.residual is None:
@@ -88,6 +82,28 @@ class Calibration:
         models = (ErrorModel(arm, terms) for terms in (OFFSETS, JOINT_ERRORS, JOINT_WAVES))
         model = next(each for each in models if len(each.deviations) == len(estimate.parameters))
         return cls(model, estimate, Process(**groups["residual"]) if groups["residual"] else None)
+
+
+def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Joint angles (run, n, 6) [rad] for the controller to believe in so that each arm's tool gets to its poses (run, n, 4, 4).
+
+    Newton's method from `start` (run, n, 6) [rad] for the arm of each run, with its Jacobian alone. Where nothing reaches
+    the pose, the best angles that were met.
+    """
+    angles, best, least = start.copy(), start.copy(), np.full(start.shape[:2], np.inf)
+    for _ in range(STEPS):
+        unsolved = np.flatnonzero(least.max(axis=1) > TOLERANCE)
+        if not len(unsolved):
+            break
+        each = (calibrations[run].forward_and_jacobian(angles[run]) for run in unsolved)
+        reached, jacobians = map(np.stack, zip(*each, strict=True))
+        misses = twists(reached, poses[unsolved])
+        sizes = np.abs(misses).max(axis=-1)
+        best[unsolved] = np.where((sizes < least[unsolved])[..., None], angles[unsolved], best[unsolved])
+        least[unsolved] = np.minimum(sizes, least[unsolved])
+        steps = solve_each(jacobians, misses)
+        angles[unsolved] += steps * (LONGEST_STEP / np.maximum(LONGEST_STEP, np.abs(steps).max(axis=-1, keepdims=True)))
+    return best
 
 
 def calibrate(

@@ -132,17 +132,17 @@ def solve_newton(arm: Arm, poses: np.ndarray, start: np.ndarray) -> tuple[np.nda
 
 
 def twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes the poses `start` to `end`, (n, 6): translation [m] and turn along the base's axes.
+    """What takes the poses `start` (..., 4, 4) to `end`, (..., 6): translation [m] and turn along the base's axes.
 
     The turn is the axis times the sine of the angle [rad], which is the angle where Newton's method ends.
     """
-    between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
-    turns = (between - between.swapaxes(1, 2))[:, [2, 0, 1], [1, 2, 0]] / 2
-    return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
+    between = end[..., :3, :3] @ start[..., :3, :3].swapaxes(-2, -1)
+    turns = (between - between.swapaxes(-2, -1))[..., [2, 0, 1], [1, 2, 0]] / 2
+    return np.concatenate([end[..., :3, 3] - start[..., :3, 3], turns], axis=-1)
 
 
 def solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The solutions (n, 6) of as many systems of linear equations, (n, 6, 6) and (n, 6); of a singular one the smallest."""
+    """The solutions (..., 6) of linear equations, matrices (..., 6, 6) and vectors (..., 6); of singular ones the smallest."""
     try:
         return np.linalg.solve(matrices, vectors[..., None])[..., 0]
     except np.linalg.LinAlgError:  # one of them is exactly singular

@@ -62,6 +62,8 @@ class ErrorModel:
         twists = np.repeat([BASE] + [LINK] * JOINTS, 3, axis=1)
         scales = np.repeat([scale for _, scale in terms.values()], JOINTS)
         self.deviations = np.concatenate([twists.ravel(), scales])
+        tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
+        self._placements = [*arm.model.jointPlacements[1:], tool.placement]
 
     def twists(self, parameters: np.ndarray) -> np.ndarray:
         """The twists (7, 6) [m, rad] in the parameters (P,)."""
@@ -74,13 +76,13 @@ class ErrorModel:
     def arm(self, parameters: np.ndarray) -> Arm:
         """The arm with the twists of the parameters (P,) done to it."""
         model = pin.Model(self._nominal.model)
-        for link, twist in enumerate(self.twists(parameters)):
-            moved = pin.exp6(pin.Motion(twist))
-            if link < JOINTS:
-                model.jointPlacements[link + 1] = moved * model.jointPlacements[link + 1]
-            else:
-                tool = model.frames[tool_frame(model, self._nominal.tool)]
-                tool.placement = moved * tool.placement
+        *joints, tool = (
+            pin.exp6(pin.Motion(twist)) * nominal
+            for twist, nominal in zip(self.twists(parameters), self._placements, strict=True)
+        )
+        for joint, placement in enumerate(joints, start=1):
+            model.jointPlacements[joint] = placement
+        model.frames[tool_frame(model, self._nominal.tool)].placement = tool
         return Arm(model, self._nominal.tool)
 
     def terms(self, angles: np.ndarray) -> np.ndarray:
@@ -101,29 +103,28 @@ class ErrorModel:
         A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad] along the base's axes.
         `terms` are those of the angles: they depend on no parameter, so that one evaluation serves all linearisations.
         """
-        arm = self.arm(parameters)
-        poses, links, joints = _walk(arm, self.standing(parameters, angles, terms))
+        poses, joints, placements = _walk(self.arm(parameters), self.standing(parameters, angles, terms))
+        # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): a change of a twist as a motion of what it places
+        motions = [
+            nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
+            for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)
+        ]
         jacobians = np.empty((len(angles), 6, len(parameters)))
-        lever = poses[:, None, :3, 3] - links[..., :3, 3]
-        turns = links[..., :3, :3]
-        by_link = np.zeros((*links.shape[:2], 6, 6))
-        by_link[..., :3, :3] = by_link[..., 3:, 3:] = turns
-        by_link[..., :3, 3:] = np.cross(turns, lever[..., None], axisa=-2, axisb=-2, axisc=-2)
-        # exp(xi + dxi) = exp(J dxi) exp(xi): a change of a twist that is not small any more
-        bends = [pin.exp6(pin.Motion(xi)).action @ pin.Jexp6(pin.Motion(xi)) for xi in self.twists(parameters)]
-        jacobians[..., :TWISTS] = (by_link @ np.stack(bends)).swapaxes(1, 2).reshape(len(angles), 6, TWISTS)
+        jacobians[..., :TWISTS] = (placements @ np.stack(motions)).swapaxes(1, 2).reshape(len(angles), 6, TWISTS)
         jacobians[..., TWISTS:] = (joints[:, :, None] * terms[:, None]).reshape(len(angles), 6, -1)
         return poses, jacobians
 
 
 def _walk(arm: Arm, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Poses of the tool (n, 4, 4) and of the links (n, 7, 4, 4), base first, and the tool's Jacobians (n, 6, 6)."""
+    """Poses of the tool (n, 4, 4) and its Jacobians (n, 6, 6) with respect to the joints, and (n, 7, 6, 6) the placements."""
     model, data = arm.model, arm.model.createData()
     frame = tool_frame(model, arm.tool)
-    poses, links, jacobians = (np.empty((len(angles), *shape)) for shape in ((4, 4), (JOINTS + 1, 4, 4), (6, 6)))
-    for pose, link, jacobian, q in zip(poses, links, jacobians, angles, strict=True):
+    poses, joints = np.empty((len(angles), 4, 4)), np.empty((len(angles), 6, 6))
+    placements = np.zeros((len(angles), 6, 6 * (JOINTS + 1)))
+    for pose, joint, placement, q in zip(poses, joints, placements, angles, strict=True):
         pin.computeJointJacobians(model, data, q)
         pose[:] = pin.updateFramePlacement(model, data, frame).homogeneous
-        link[:] = [placement.homogeneous for placement in data.oMi]
-        jacobian[:] = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-    return poses, links, jacobians
+        joint[:] = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
+        placement[:, :-6] = pin.computeFrameKinematicRegressor(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
+    placements[:, :3, -6:-3] = placements[:, 3:, -3:] = poses[:, :3, :3]  # the tool's own
+    return poses, joints, placements.reshape(len(angles), 6, JOINTS + 1, 6).swapaxes(1, 2)

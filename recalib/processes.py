@@ -39,8 +39,9 @@ class Process:
 
     def __init__(self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None):
         self._inputs, self._outputs = inputs, outputs
-        self._centre = inputs.mean(axis=0)
-        inputs = inputs - self._centre
+        self._centre, self._mean, deviations = inputs.mean(axis=0), outputs.mean(axis=0), outputs.std(axis=0)
+        self._scale = np.where(deviations > 0, deviations, 1)
+        inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
             hyperparameters = _search(inputs[:MOST], outputs[:MOST]) if len(inputs) >= FEWEST else _start(inputs.shape[1])
         self.hyperparameters = hyperparameters
@@ -51,7 +52,9 @@ class Process:
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        return self._regressor.predict(inputs - self._centre).reshape(len(inputs), -1)
+        regressor = self._regressor  # whose own `predict` checks and copies for longer than it computes
+        expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
+        return self._mean + expected * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
         """The arguments that make it again, as named arrays."""
@@ -67,7 +70,7 @@ def _regressor(inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndar
     smooth = ConstantKernel(1, VARIANCES) * RBF(np.ones(inputs.shape[1]), LENGTHS)
     kernel = trend + smooth + WhiteKernel(1, NOISE)
     kernel.theta = hyperparameters
-    return GaussianProcessRegressor(kernel, optimizer=None, normalize_y=True).fit(inputs, outputs)
+    return GaussianProcessRegressor(kernel, optimizer=None).fit(inputs, outputs)
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:

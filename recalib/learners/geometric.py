@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from recalib.calibration import Calibration
+from recalib.calibration import Calibration, angles_for
 from recalib.controller import Controller
 from recalib.design import information_gains
 from recalib.error_model import OFFSETS, ErrorModel
@@ -31,14 +31,12 @@ class GeometricLearner:
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
-        robot = self._controller.robot
-        poses = robot.workspace.to_poses(desired)
-        start = self._angles(desired)
         commands = desired.copy()
-        for run, calibration in enumerate(self._calibrations):
-            if calibration is not None:
-                needed = calibration.angles_for(poses[run], start[run])
-                commands[run] = robot.workspace.to_coordinates(robot.arm.forward(needed))
+        known = [run for run, calibration in enumerate(self._calibrations) if calibration is not None]
+        if known:
+            robot, calibrations = self._controller.robot, [self._calibrations[run] for run in known]
+            needed = angles_for(calibrations, robot.workspace.to_poses(desired[known]), self._angles(desired[known]))
+            commands[known] = robot.workspace.to_coordinates(robot.arm.forward(needed.reshape(-1, 6))).reshape(needed.shape)
         return commands
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
