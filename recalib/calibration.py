@@ -85,10 +85,10 @@ class Calibration:
 
 
 def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray) -> np.ndarray:
-    """Joint angles (run, n, 6) [rad] for the controller to believe in so that each arm's tool gets to its poses (run, n, 4, 4).
+    """Joint angles (run, n, 6) [rad] for the controller to believe in so that each arm's tool gets to its poses.
 
-    Newton's method from `start` (run, n, 6) [rad] for the arm of each run, with its Jacobian alone. Where nothing reaches
-    the pose, the best angles that were met.
+    Newton's method from `start` (run, n, 6) [rad] to the poses (run, n, 4, 4) [m], with the Jacobian of each run's arm
+    alone. Where nothing reaches the pose, the best angles that were met.
     """
     angles, best, least = start.copy(), start.copy(), np.full(start.shape[:2], np.inf)
     for _ in range(STEPS):

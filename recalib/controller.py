@@ -142,7 +142,7 @@ def twists(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 
 def solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The solutions (..., 6) of linear equations, matrices (..., 6, 6) and vectors (..., 6); of singular ones the smallest."""
+    """The solutions (..., 6) of linear equations, (..., 6, 6) and (..., 6); of a singular one the smallest."""
     try:
         return np.linalg.solve(matrices, vectors[..., None])[..., 0]
     except np.linalg.LinAlgError:  # one of them is exactly singular

@@ -20,12 +20,13 @@ class DamagedArm:
     Attributes:
         arm: the damaged kinematics.
         offsets: (6,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: functions of the arm and of its joint angles (n, 6) [rad]: what each adds to these angles, (n, 6) [rad].
+        deflections: functions of joint angles (n, 6) [rad] and of the torques (n, 6) [N m] that hold the arm against gravity
+            there: what each adds to these angles, (n, 6) [rad].
     """
 
     arm: Arm
     offsets: np.ndarray
-    deflections: list[Callable[[Arm, np.ndarray], np.ndarray]] = field(default_factory=list)
+    deflections: list[Callable[[np.ndarray, np.ndarray], np.ndarray]] = field(default_factory=list)
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
@@ -37,7 +38,10 @@ class DamagedArm:
         Every deflection starts from the shifted angles, so that the order of the damages does not matter.
         """
         shifted = angles + self.offsets
-        return sum((deflection(self.arm, shifted) for deflection in self.deflections), start=shifted)
+        if not self.deflections:
+            return shifted
+        torques = self.arm.gravity_torque(shifted)
+        return sum((deflection(shifted, torques) for deflection in self.deflections), start=shifted)
 
 
 @dataclass(frozen=True)

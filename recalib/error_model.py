@@ -19,7 +19,6 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.kinematics import Arm, tool_frame
-from recalib.nongeometric import gravity_torque
 from recalib.robots import JOINTS
 
 # Standard deviations of the parameters before anything is known: what wear and mounting plausibly do to an arm.
@@ -40,7 +39,7 @@ def _waves(order: int, amplitude: float) -> JointTerms:
 
 # Geometry alone; with eccentric gears and compliance [rad/Nm]; with whatever else a gear adds to its turn.
 OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
-JOINT_ERRORS = OFFSETS | {"compliance": (gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
+JOINT_ERRORS = OFFSETS | {"compliance": (Arm.gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
 JOINT_WAVES = reduce(or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS)
 
 TWISTS = 6 * (JOINTS + 1)  # how many of the parameters are those of the twists
@@ -110,21 +109,21 @@ class ErrorModel:
             for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)
         ]
         jacobians = np.empty((len(angles), 6, len(parameters)))
-        jacobians[..., :TWISTS] = (placements @ np.stack(motions)).swapaxes(1, 2).reshape(len(angles), 6, TWISTS)
+        by_link = placements.reshape(-1, JOINTS + 1, 6).swapaxes(0, 1) @ np.stack(motions)
+        jacobians[..., :TWISTS] = by_link.swapaxes(0, 1).reshape(len(angles), 6, TWISTS)
         jacobians[..., TWISTS:] = (joints[:, :, None] * terms[:, None]).reshape(len(angles), 6, -1)
         return poses, jacobians
 
 
 def _walk(arm: Arm, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Poses of the tool (n, 4, 4) and its Jacobians (n, 6, 6) with respect to the joints, and (n, 7, 6, 6) the placements."""
+    """Poses (n, 4, 4) of the tool, and its Jacobians with respect to joints (n, 6, 6) and to placements (n, 6, 7 * 6)."""
     model, data = arm.model, arm.model.createData()
     frame = tool_frame(model, arm.tool)
-    poses, joints = np.empty((len(angles), 4, 4)), np.empty((len(angles), 6, 6))
-    placements = np.zeros((len(angles), 6, 6 * (JOINTS + 1)))
-    for pose, joint, placement, q in zip(poses, joints, placements, angles, strict=True):
-        pin.computeJointJacobians(model, data, q)
-        pose[:] = pin.updateFramePlacement(model, data, frame).homogeneous
-        joint[:] = pin.getFrameJacobian(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-        placement[:, :-6] = pin.computeFrameKinematicRegressor(model, data, frame, pin.LOCAL_WORLD_ALIGNED)
-    placements[:, :3, -6:-3] = placements[:, 3:, -3:] = poses[:, :3, :3]  # the tool's own
-    return poses, joints, placements.reshape(len(angles), 6, JOINTS + 1, 6).swapaxes(1, 2)
+    poses, joints, placements = [], [], []
+    for q in angles:
+        joints.append(pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED))
+        poses.append(pin.updateFramePlacement(model, data, frame).homogeneous)
+        placements.append(pin.computeFrameKinematicRegressor(model, data, frame, pin.LOCAL_WORLD_ALIGNED))
+    poses, tools = np.array(poses), np.zeros((len(angles), 6, 6))
+    tools[:, :3, :3] = tools[:, 3:, 3:] = poses[:, :3, :3]
+    return poses, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)

@@ -30,6 +30,7 @@ FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
 STEPS = 60
+NEGLIGIBLE = 0.01  # part of the noise below which second-order terms are not worth a new linearisation
 CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and of noise, relative
 
 
@@ -79,13 +80,13 @@ def identify(model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start:
     noise, weights = np.full(kinds, FIRST_NOISE), np.ones(len(angles))
     limit = chi2.ppf(DOUBTED, 3 * kinds)
     terms = model.terms(angles)
-    origin = np.full_like(scale, np.inf)  # of the present linearisation
+    origin, reach = np.full_like(scale, np.inf), np.ones_like(scale)  # of the present linearisation
     for step in range(STEPS):
-        if np.abs(parameters - origin).max() ** 2 > noise.min():  # beyond, second-order terms reach a hundredth of the noise
+        if np.max(np.abs(parameters - origin) * reach) ** 2 > NEGLIGIBLE * noise.min():
             poses, jacobians = model.linearise(parameters * scale, angles, terms)
             jacobians = (jacobians[:, : 3 * kinds] * scale).reshape(len(angles), kinds, 3, len(scale))
             residuals = displacements(poses, measured).reshape(len(angles), kinds, 3)
-            origin = parameters
+            origin, reach = parameters, np.abs(jacobians).max(axis=(0, 1, 2))
         if step > 0:
             weights = limit / np.maximum(_squares(residuals, noise), limit)
         information, pull = _normal_equations(jacobians, residuals, weights)

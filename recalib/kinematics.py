@@ -1,4 +1,4 @@
-"""Forward kinematics and Jacobians of one arm for many joint angles, by Pinocchio."""
+"""Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio."""
 
 import numpy as np
 import pinocchio as pin
@@ -24,19 +24,23 @@ class Arm:
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, 6) [rad]."""
-        poses = np.empty((len(angles), 4, 4))
-        for pose, q in zip(poses, angles, strict=True):
+        poses = []
+        for q in angles:
             pin.forwardKinematics(self.model, self._data, q)
-            pose[:] = pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous
-        return poses
+            poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
+        return np.array(poses).reshape(-1, 4, 4)
 
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, 6).
 
         A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity along the base's axes.
         """
-        poses, jacobians = np.empty((len(angles), 4, 4)), np.empty((len(angles), 6, 6))
-        for pose, jacobian, q in zip(poses, jacobians, angles, strict=True):
-            jacobian[:] = pin.computeFrameJacobian(self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED)
-            pose[:] = pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous
-        return poses, jacobians
+        poses, jacobians = [], []
+        for q in angles:
+            jacobians.append(pin.computeFrameJacobian(self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED))
+            poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
+        return np.array(poses).reshape(-1, 4, 4), np.array(jacobians).reshape(-1, 6, 6)
+
+    def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
+        """Torques (n, 6) [N m] with which the motors hold the arm against gravity at joint angles (n, 6) [rad]."""
+        return np.array([pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]).reshape(-1, 6)

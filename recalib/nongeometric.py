@@ -9,21 +9,13 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import pinocchio as pin
 
 from recalib.damage import DamagedArm
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.kinematics import Arm
 from recalib.robots import Robot
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a vertical axis, no load.
 NO_LOAD = 1e-6
-
-
-def gravity_torque(arm: Arm, angles: np.ndarray) -> np.ndarray:
-    """Torques (n, 6) [N m] with which the motors hold the arm against gravity at joint angles (n, 6) [rad]."""
-    data = arm.model.createData()
-    return np.array([pin.computeGeneralizedGravity(arm.model, data, q) for q in angles]).reshape(angles.shape)
 
 
 @dataclass(frozen=True)
@@ -44,7 +36,7 @@ class EccentricGear:
         _check_size("amplitude of an eccentric gear", self.amplitude, "rad")
         damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
 
-    def _deflection(self, joint: int, arm: Arm, angles: np.ndarray) -> np.ndarray:
+    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         return _only(joint, self.amplitude * np.sin(angles[:, joint] + self.phase))
 
 
@@ -64,8 +56,8 @@ class Sag:
         _check_size("compliance of a joint", self.compliance, "rad/Nm")
         damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
 
-    def _deflection(self, joint: int, arm: Arm, angles: np.ndarray) -> np.ndarray:
-        return _only(joint, -self.compliance * gravity_torque(arm, angles)[:, joint])
+    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        return _only(joint, -self.compliance * torques[:, joint])
 
 
 @dataclass(frozen=True)
@@ -87,9 +79,9 @@ class Backlash:
         _check_size("gap of a gear", self.gap, "rad")
         damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
 
-    def _deflection(self, joint: int, arm: Arm, angles: np.ndarray) -> np.ndarray:
-        torque = gravity_torque(arm, angles)[:, joint]
-        return _only(joint, np.where(np.abs(torque) > NO_LOAD, -np.sign(torque) * self.gap / 2, 0.0))
+    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        loaded = np.abs(torques[:, joint]) > NO_LOAD
+        return _only(joint, np.where(loaded, -np.sign(torques[:, joint]) * self.gap / 2, 0.0))
 
 
 def _index(robot: Robot, joint: str) -> int:

@@ -7,8 +7,9 @@ smooth function's, of its lengths and of the noise's variance.
 
 import numpy as np
 from scipy.optimize import minimize
+from scipy.spatial.distance import cdist
 from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
+from sklearn.gaussian_process.kernels import Kernel
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
@@ -21,6 +22,45 @@ STEPS = 50  # of a search
 def is_time_to_search(before: int, points: int) -> bool:
     """Whether so many points deserve a search of hyperparameters when the last was at `before`: they have doubled."""
     return points.bit_length() > before.bit_length() and before < MOST
+
+
+class Covariance(Kernel):
+    """The covariance as one kernel: scikit-learn's sum of products would look longer for its parameters than it computes.
+
+    Args:
+        theta: (d + 3,) the hyperparameters.
+    """
+
+    theta = None  # replaces the property that looks for them
+
+    def __init__(self, theta: np.ndarray):
+        self.theta = theta
+
+    def __call__(self, X: np.ndarray, Y: np.ndarray | None = None, eval_gradient: bool = False):
+        """Covariances (n, m) of points X (n, d) with Y (m, d), or of X with itself, noise included, and their gradient.
+
+        The gradient (n, n, d + 3) is with respect to the hyperparameters.
+        """
+        trend, smooth, *lengths, noise = np.exp(self.theta)
+        others = X if Y is None else Y
+        linear = trend * (1 + X @ others.T)
+        bell = smooth * np.exp(-cdist(X / lengths, others / lengths, "sqeuclidean") / 2)
+        if Y is not None:
+            return linear + bell
+        white = noise * np.eye(len(X))
+        covariances = linear + bell + white
+        if not eval_gradient:
+            return covariances
+        by_length = bell[..., None] * np.square((X[:, None] - X) / lengths)
+        return covariances, np.dstack([linear, bell, by_length, white])
+
+    def diag(self, X: np.ndarray) -> np.ndarray:
+        """Variances (n,) at the points X (n, d)."""
+        return np.diag(self(X))
+
+    def is_stationary(self) -> bool:
+        """It is not: the trend has a centre."""
+        return False
 
 
 class Process:
@@ -66,11 +106,7 @@ def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
 
 
 def _regressor(inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray) -> GaussianProcessRegressor:
-    trend = ConstantKernel(1, VARIANCES) * DotProduct(1, "fixed")
-    smooth = ConstantKernel(1, VARIANCES) * RBF(np.ones(inputs.shape[1]), LENGTHS)
-    kernel = trend + smooth + WhiteKernel(1, NOISE)
-    kernel.theta = hyperparameters
-    return GaussianProcessRegressor(kernel, optimizer=None).fit(inputs, outputs)
+    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(inputs, outputs)
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@ import pytest
 
 from recalib.damage import EncoderShift, LinkShortening, apply
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nongeometric import Backlash, EccentricGear, Sag, gravity_torque
+from recalib.nongeometric import Backlash, EccentricGear, Sag
 
 
 @pytest.fixture
@@ -25,7 +25,7 @@ def test_gravity_torque_is_the_slope_of_the_potential_energy(robot, angles):
     import pinocchio as pin
 
     model, data, step = robot.arm.model, robot.arm.model.createData(), 1e-6
-    torques = gravity_torque(robot.arm, angles)
+    torques = robot.arm.gravity_torque(angles)
     for joint in range(6):
         shift = step * np.eye(6)[joint]
         up, down = (np.array([pin.computePotentialEnergy(model, data, q + s) for q in angles]) for s in (shift, -shift))
@@ -40,7 +40,7 @@ def test_sagging_lowers_the_arm(robot, angles):
 
 def test_backlash_is_half_the_gap_with_gravity(robot, angles):
     moved = deflection(robot, Backlash("shoulder_lift_joint", 0.004), angles)[:, 1]
-    assert np.allclose(moved, -0.002 * np.sign(gravity_torque(robot.arm, angles)[:, 1]))
+    assert np.allclose(moved, -0.002 * np.sign(robot.arm.gravity_torque(angles)[:, 1]))
 
 
 def test_a_vertical_axis_has_no_load_and_rests_in_the_middle_of_its_gap(robot, angles):
