@@ -9,6 +9,7 @@ import numpy as np
 from recalib import scenarios
 from recalib.controller import Controller
 from recalib.damage import DamagedArm, apply
+from recalib.fleet import Fleet
 from recalib.plant import Plant
 from recalib.randomness import generator
 
@@ -27,6 +28,12 @@ def load_plant(path: str | Path, config: Mapping, runs: Sequence[int]) -> tuple[
     disturbances = scenarios.parse_disturbances(described["damages"])
     generators = [generator(config["seed"], described["scenario"], run, "disturbances") for run in runs]
     return controller, Plant(controller, [arm], disturbances, generators)
+
+
+def load_fleet(paths: Sequence[str | Path], config: Mapping, runs: Sequence[int]) -> tuple[Controller, Fleet]:
+    """As `load_plant`, for several scenarios of one robot side by side."""
+    controllers, plants = zip(*(load_plant(path, config, runs) for path in paths), strict=True)
+    return controllers[0], Fleet(controllers[0], plants)
 
 
 def desired_poses(seed: int, scenario: str, runs: Sequence[int], iterations: int) -> np.ndarray:

@@ -7,6 +7,7 @@ each command is solved by itself, so neither the commands before it nor those be
 
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,6 +36,13 @@ class Solution:
     def reached(self) -> np.ndarray:
         """(n,) whether the command can be executed."""
         return (self.residuals <= TOLERANCE) & self.within_limits
+
+
+class Targets(NamedTuple):
+    """Joint angles (run, move, 6) [rad] to which commands take the robots, and whether they are carried out (run, move)."""
+
+    angles: np.ndarray
+    executed: np.ndarray
 
 
 class Controller:
@@ -70,6 +78,11 @@ class Controller:
         angles, residuals = solve_newton(self.robot.arm, poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
+
+    def targets(self, commands: np.ndarray) -> Targets:
+        """What the commands, coordinates (run, move, 6), ask of the joints."""
+        solution = self.solve(self.robot.workspace.to_poses(commands.reshape(-1, 6)))
+        return Targets(solution.angles.reshape(commands.shape), solution.reached.reshape(commands.shape[:-1]))
 
     def inverse(self, poses: np.ndarray) -> np.ndarray:
         """Joint angles (n, 6) [rad] for the commanded poses (n, 4, 4).

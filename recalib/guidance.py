@@ -40,7 +40,7 @@ def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     plan = evidence.config["benchmark"]
     table = pd.read_csv(evidence.results / "benchmark.csv")
-    seconds = pd.read_csv(evidence.results / "benchmark_seconds.csv").set_index(["scenario", "learner"])["seconds_per_move"]
+    seconds = pd.read_csv(evidence.results / "benchmark_seconds.csv").set_index("learner")["seconds_per_move"]
     reached = pd.read_csv(evidence.results / "benchmark_moves.csv").query("threshold == @THRESHOLD")
     reached = reached.set_index(["scenario", "learner"]).sort_index()
     known = {
@@ -52,7 +52,7 @@ def context(evidence: Evidence) -> dict:
         "scenarios": plan["scenarios"],
         "moves": lambda scenario, learner: moves_text(reached.loc[[(scenario, learner)]]),
         "needs": {learner: NEEDS.get(learner, BLACK_BOX) for learner in plan["learners"]},
-        "seconds": seconds[evidence.paper],
+        "seconds": seconds,
         "worse": where_worse(table, plan["moves"]),
         "real": {},
         "ends": {},

@@ -26,6 +26,7 @@ DOUBTED = 0.99  # the limit of rho: a measurement farther out than this fraction
 SPARSITY = 0.05  # degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide
 COMMON = 20.0  # further parameters, as large as the error model expects, that hold the common scale of all
 SHARED = 10.0  # degrees of freedom with which position and orientation draw each other's noise together
+MEDIAN = chi2.ppf(0.5, 3)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
@@ -146,7 +147,7 @@ def _noise(residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust
     squares = np.square(residuals).sum(axis=-1)
     if robust:
         count = 3.0 * len(squares)
-        total = np.median(squares, axis=0) / chi2.ppf(0.5, 3) * count
+        total = np.median(squares, axis=0) / MEDIAN * count
     else:
         count = 3 * np.sum(weights**2)
         total = weights**2 @ squares

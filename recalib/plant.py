@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.controller import Controller
+from recalib.controller import Controller, Targets
 from recalib.damage import DamagedArm
 from recalib.disturbances import Disturbances
 
@@ -55,24 +55,28 @@ class Plant:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what the damaged robots achieve."""
+        return self.carry_out(self._controller.targets(commands))
+
+    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move), undisturbed and not counted."""
+        return self.reach(self._controller.targets(commands))
+
+    def carry_out(self, targets: Targets) -> Outcome:
+        """As `execute`, from where the controller takes the joints."""
         if self._disturbances is None:
-            poses, executed = self.achieve(commands)
+            poses, executed = self.reach(targets)
         else:
-            stops = self._disturbances.of_joints(self._generators, commands.shape[1])
-            poses, executed = self._move(commands, stops)
+            stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1])
+            poses, executed = self.reach(targets._replace(angles=targets.angles + stops))
             poses = self._disturbances.measure(self._generators, poses)
         self.moves += executed.shape[1]
         self.refused = self.refused + np.sum(~executed, axis=1)
         return Outcome(self.workspace.to_coordinates(poses), executed)
 
-    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move), undisturbed and not counted."""
-        return self._move(commands, np.zeros(6))
-
-    def _move(self, commands: np.ndarray, stops: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        runs, moves, _ = commands.shape
-        solution = self._controller.solve(self.workspace.to_poses(commands.reshape(-1, 6)))
-        angles, executed = solution.angles.reshape(runs, moves, 6) + stops, solution.reached.reshape(runs, moves)
+    def reach(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
+        """As `achieve`, from where the controller takes the joints."""
+        angles, executed = targets
+        runs, moves, _ = angles.shape
         if len(self._arms) == 1:
             poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
         else:

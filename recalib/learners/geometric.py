@@ -87,5 +87,4 @@ class GeometricLearner:
 
     def _angles(self, commands: np.ndarray) -> np.ndarray:
         """Joint angles (run, move, 6) [rad] that the controller chooses for the commands (run, move, 6)."""
-        poses = self._controller.robot.workspace.to_poses(commands.reshape(-1, 6))
-        return self._controller.solve(poses).angles.reshape(commands.shape)
+        return self._controller.targets(commands).angles

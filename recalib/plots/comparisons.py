@@ -168,16 +168,16 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
 def figure11(evidence: Evidence) -> Figure:
     """Other assignments, other amounts and other robots."""
     figure, panels = plt.subplots(1, 3, figsize=(12, 4.4))
+    tables = {learner: evidence.ensemble(learner, "assignments") for learner in ("improved", "ritter")}
     for kind, error in enumerate(ERRORS):
-        for learner in ("improved", "ritter"):
-            table, style = evidence.ensemble(learner, "assignments"), LEARNERS[learner]
-            values = np.sort(table[f"final_{error}"])
+        for learner, table in tables.items():
+            style, values = LEARNERS[learner], np.sort(table[f"final_{error}"])
             panels[0].step(
                 values,
                 np.arange(1, len(values) + 1) / len(values),
                 color=style["color"],
                 linestyle=("-", (0, (3, 2)))[kind],
-                label=f"{learner.capitalize()}, {('cm', 'degrees')[kind]} ({len(values)} robots)",
+                label=f"{learner.capitalize()}, {('cm', 'degrees')[kind]}",
             )
         scaled = evidence.ensemble("improved", "scaled").groupby("scale")
         style, marker = ((POSITION, "o"), (ORIENTATION, "s"))[kind]
@@ -193,8 +193,8 @@ def figure11(evidence: Evidence) -> Figure:
                 alpha=alpha,
                 label=f"{moment} {('cm', 'degrees')[kind]}",
             )
-    panels[0].set(xscale="log", xlabel="final error [cm, degrees]", ylabel="share of the assignments")
-    plain(panels[0].xaxis, 0.05, 0.1, 0.2, 0.5, 1)
+    panels[0].set(xscale="log", xlim=(0.02, 1), xlabel="final error [cm, degrees]", ylabel="share of the assignments")
+    plain(panels[0].xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
     panels[0].set_title("Other links, encoders and signs", fontsize=11)
     panels[1].set(xscale="log", yscale="log", xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
     plain(panels[1].xaxis, 0.1, 0.3, 1, 3)
@@ -221,11 +221,12 @@ def figure11(evidence: Evidence) -> Figure:
     plain(panels[2].yaxis, 2, 5, 10, 20, 50, 100)
     panels[2].set_xticks(places, [robot.upper() for robot in robots])
     panels[2].set_title("Other robots", fontsize=11)
-    for axes, place in zip(panels, ("lower right", "lower right", "center left"), strict=True):
+    for axes, place in zip(panels, ("upper left", "lower right", "center left"), strict=True):
         axes.legend(fontsize=8, loc=place)
     title(
         figure,
         "Figure 11: other damages and other robots",
-        "widths and rates as tuned for the paper's damage on the UR10; bands: 5-95 % of the assignments",
+        "widths and rates as tuned for the paper's damage on the UR10; bands: 5-95 % of the assignments;"
+        f" {' and '.join(f'{len(table)} for {learner}' for learner, table in tables.items())}",
     )
     return figure

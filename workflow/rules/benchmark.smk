@@ -3,21 +3,35 @@
 from recalib.peers import NEEDS
 
 BENCHMARK = config["benchmark"]
+SIDE_BY_SIDE = 5  # scenarios in a job: moves that the controller solves together take half the time of a few at a time
+
+
+def batches(names):
+    """The scenarios that share a job, and so a robot, by the name of their batch."""
+    by_robot = {}
+    for name in names:
+        by_robot.setdefault(scenarios.robot_of(name, config)[1], []).append(name)
+    shared = [own[first : first + SIDE_BY_SIDE] for own in by_robot.values() for first in range(0, len(own), SIDE_BY_SIDE)]
+    return {str(number): batch for number, batch in enumerate(shared)}
+
+
+BATCHES = batches(BENCHMARK["scenarios"])
 
 
 rule benchmark_run:
     input:
         code=code("benchmark.py"),
-        scenario=rules.scenario.output[0],
+        scenarios=lambda w: expand(rules.scenario.output[0], scenario=BATCHES[w.batch]),
     output:
-        f"{RESULTS}/benchmark/{{scenario}}/{{learner}}.parquet",
+        f"{RESULTS}/benchmark/{{learner}}/{{batch}}.parquet",
     params:
+        scenarios=lambda w: BATCHES[w.batch],
         benchmark={key: BENCHMARK[key] for key in ("seeds", "moves", "longer")},
         learner=lambda w: entry_of(w.learner) if w.learner not in NEEDS else w.learner,
         tests=TRAINING["tests"],
         seed=config["seed"],
     message:
-        "Let {wildcards.learner} work through {wildcards.scenario}"
+        "Let {wildcards.learner} work through {params.scenarios}"
     script:
         "../scripts/benchmark.py"
 
@@ -25,7 +39,7 @@ rule benchmark_run:
 rule benchmark_table:
     input:
         code=code("benchmark_table.py"),
-        histories=expand(rules.benchmark_run.output, scenario=BENCHMARK["scenarios"], learner=BENCHMARK["learners"]),
+        histories=expand(rules.benchmark_run.output, learner=BENCHMARK["learners"], batch=BATCHES),
     output:
         table=f"{RESULTS}/benchmark.csv",
         reached=f"{RESULTS}/benchmark_moves.csv",

@@ -1,4 +1,6 @@
-"""Let one learner work through one scenario of the benchmark, and measure it at every budget of moves."""
+"""Let one learner work through scenarios of the benchmark, and measure it at every budget of moves."""
+
+import numpy as np
 
 from recalib import campaign
 from recalib.benchmark import Timed, entrant
@@ -8,21 +10,26 @@ from recalib.storage import whole
 from workflow.scripts.job import job
 
 with job(snakemake):
-    config, scenario, name = snakemake.config, snakemake.wildcards.scenario, snakemake.wildcards.learner
-    runs = range(config["benchmark"]["seeds"])
+    config, name = snakemake.config, snakemake.wildcards.learner
+    scenarios, runs = snakemake.params.scenarios, range(config["benchmark"]["seeds"])
     which = entrant(name, config)
-    controller, plant = campaign.load_plant(snakemake.input.scenario, config, runs)
-    learner = Timed(which.make(len(runs), controller))
-    with progress_bar(f"{name} on {scenario}", which.iterations) as progress:
-        history = run(
-            plant,
-            learner,
-            campaign.desired_poses(config["seed"], scenario, runs, which.iterations),
-            campaign.test_poses(config["seed"], scenario, runs, config["training"]["tests"]),
-            which.measure_at([*config["benchmark"]["moves"], *config["benchmark"]["longer"]]),
-            progress,
+    controller, fleet = campaign.load_fleet(snakemake.input.scenarios, config, runs)
+    learner = Timed(which.make(len(scenarios) * len(runs), controller))
+    desired, tests = (
+        np.concatenate([poses(config["seed"], scenario, runs, count) for scenario in scenarios])
+        for poses, count in (
+            (campaign.desired_poses, which.iterations),
+            (campaign.test_poses, config["training"]["tests"]),
         )
-    seconds = learner.seconds / (len(runs) * which.iterations * which.moves_per_iteration)
-    frame = history.to_frame().assign(scenario=scenario, learner=name, seconds_per_move=seconds)
+    )
+    budgets = which.measure_at([*config["benchmark"]["moves"], *config["benchmark"]["longer"]])
+    with progress_bar(f"{name} on {len(scenarios)} scenarios", which.iterations) as progress:
+        frame = run(fleet, learner, desired, tests, budgets, progress).to_frame()
+    frame = frame.assign(
+        scenario=np.array(scenarios)[frame["seed"] // len(runs)],
+        seed=frame["seed"] % len(runs),
+        learner=name,
+        seconds_per_move=learner.seconds / (len(desired) * which.iterations * which.moves_per_iteration),
+    )
     with whole(snakemake.output[0]) as path:
         frame.to_parquet(path, index=False)

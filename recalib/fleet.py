@@ -1,0 +1,49 @@
+"""Several plants side by side: one controller solves their commands all at once, which a few at a time would make slow."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from recalib.controller import Controller, Targets
+from recalib.plant import Outcome, Plant
+
+
+class Fleet:
+    """Plants behind the same nominal controller, for a learner one plant: its runs are those of the first, of the second ...
+
+    Args:
+        controller: of all the plants.
+        plants: with the same number of runs each.
+
+    Attributes:
+        moves: how many moves were commanded in each run.
+    """
+
+    def __init__(self, controller: Controller, plants: Sequence[Plant]):
+        self._controller, self._plants = controller, plants
+        self.moves = 0
+
+    @property
+    def workspace(self):
+        """The workspace in whose coordinates commands and achieved poses are given."""
+        return self._controller.robot.workspace
+
+    @property
+    def refused(self) -> np.ndarray | int:
+        """(run,) how many moves the controller refused; 0 before the first."""
+        return np.concatenate([plant.refused for plant in self._plants]) if self.moves else 0
+
+    def execute(self, commands: np.ndarray) -> Outcome:
+        """As a plant's."""
+        outcomes = [plant.carry_out(targets) for plant, targets in self._shares(commands)]
+        self.moves += commands.shape[1]
+        return Outcome(*map(np.concatenate, zip(*outcomes, strict=True)))
+
+    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """As a plant's."""
+        poses, executed = zip(*(plant.reach(targets) for plant, targets in self._shares(commands)), strict=True)
+        return np.concatenate(poses), np.concatenate(executed)
+
+    def _shares(self, commands: np.ndarray) -> list[tuple[Plant, Targets]]:
+        angles, executed = (np.split(part, len(self._plants)) for part in self._controller.targets(commands))
+        return list(zip(self._plants, map(Targets, angles, executed), strict=True))
