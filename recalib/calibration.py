@@ -47,11 +47,6 @@ class Calibration:
         poses, jacobians = self._arm.forward_and_jacobian(self._standing(angles))
         return self._moved(poses, angles), jacobians
 
-    @property
-    def is_exact(self) -> bool:
-        """Whether its model leaves nothing to explain."""
-        return bool(np.all(self.estimate.noise <= LEAST_NOISE))
-
     @cached_property
     def _arm(self) -> Arm:
         return self.model.arm(self.estimate.parameters)
@@ -132,8 +127,6 @@ def calibrate(
     """
     best = None
     for terms in candidates:
-        if best is not None and best.is_exact:
-            break
         model = ErrorModel(arm, terms)
         estimate = identify(model, angles, measured, last and last.estimate)
         if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(best.estimate, estimate):
@@ -152,7 +145,7 @@ def _residual(
     estimate = calibration.estimate
     good = estimate.weights > DOUBTFUL
     search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(angles))
-    if good.sum() < FEWEST or calibration.is_exact or not (search or last.residual):
+    if good.sum() < FEWEST or np.all(estimate.noise <= LEAST_NOISE) or not (search or last.residual):
         return None
     misses = displacements(calibration.forward(angles[good]), measured[good]) / np.repeat(estimate.noise, 3)
     process = Process(angles[good], misses, None if search else last.residual.hyperparameters)
