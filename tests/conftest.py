@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 import yaml
 
-from recalib.controller import Controller
-from recalib.damage import DamagedArm, EncoderShift, LinkShortening, apply
-from recalib.robots import Robot, load_robot
-from recalib.scenarios import load_controller
+from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
+from recalib.damaged.scenarios import load_controller
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot, load_robot
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "tests/tiny.yaml"]

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
 from recalib.errors import InvalidSetting, UnknownName
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))

@@ -1,9 +1,9 @@
 import numpy as np
 
-from recalib.calibration import Calibration
-from recalib.design import information_gains
-from recalib.error_model import OFFSETS, ErrorModel
-from recalib.identification import identify
+from recalib.identification.calibration import Calibration
+from recalib.identification.design import information_gains
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
 
 
 def test_a_pose_that_was_measured_teaches_less_than_a_new_one(robot, controller, damaged):

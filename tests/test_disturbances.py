@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from recalib.disturbances import Disturbances
+from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
-from recalib.plant import Plant
-from recalib.poses import orientation_error
+from recalib.nominal.poses import orientation_error
 
 
 def generators(*seeds) -> list[np.random.Generator]:

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, TWISTS, ErrorModel
-from recalib.nongeometric import EccentricGear
-from recalib.robots import load_robot
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, TWISTS, ErrorModel
+from recalib.nominal.robots import load_robot
 
 
 def drawn(model: ErrorModel, seed: int) -> np.ndarray:

@@ -2,7 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.checks import CheckFailed, check, expect
+from recalib.evidence.checks import CheckFailed, check, expect
 from recalib.randomness import generator
 from recalib.statistics import bootstrap, first_within
 from recalib.storage import whole

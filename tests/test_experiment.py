@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from recalib.damage import apply
-from recalib.experiment import measuring_grid, run
+from recalib.damaged.damage import apply
+from recalib.damaged.plant import Plant
+from recalib.experiments.experiment import measuring_grid, run
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
-from recalib.plant import Plant
 
 IMPROVED = Rules(True, True, True, True)
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from recalib.damage import BaseShift, apply
-from recalib.disturbances import Disturbances
-from recalib.fleet import Fleet
-from recalib.plant import Plant
+from recalib.damaged.damage import BaseShift, apply
+from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.fleet import Fleet
+from recalib.damaged.plant import Plant
 
 
 @pytest.fixture

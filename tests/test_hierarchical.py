@@ -3,10 +3,10 @@ from itertools import product
 import numpy as np
 import pytest
 
+from recalib.damaged.plant import Outcome, Plant
 from recalib.errors import InvalidSetting
 from recalib.learners.hierarchical import SEPARATE, HierarchicalLearner, Rules, Schedule
-from recalib.maps import regular_grid
-from recalib.plant import Outcome, Plant
+from recalib.learners.maps import regular_grid
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
@@ -103,7 +103,7 @@ def test_a_refused_run_does_not_disturb_the_others():
 
 
 def test_an_intact_robot_is_left_alone(controller, robot):
-    from recalib.damage import apply
+    from recalib.damaged.damage import apply
 
     learner, plant = improved(), Plant(controller, [apply(robot, [])])
     rng = np.random.default_rng(9)

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from recalib.damage import apply
-from recalib.disturbances import Disturbances
-from recalib.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
-from recalib.identification import displacements, identify
-from recalib.nongeometric import Sag
-from recalib.poses import orientation_error, position_error
+from recalib.damaged.damage import apply
+from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.nongeometric import Sag
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.estimation import displacements, identify
+from recalib.nominal.poses import orientation_error, position_error
 
 NOISY = Disturbances(position_noise=2e-4, orientation_noise=np.radians(0.02))
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from recalib.damage import apply
-from recalib.mapping import mapping_jacobians, true_commands
-from recalib.plant import Plant
+from recalib.damaged.damage import apply
+from recalib.damaged.plant import Plant
+from recalib.studies.mapping import mapping_jacobians, true_commands
 
 
 @pytest.fixture(scope="module")

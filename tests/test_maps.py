@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib.maps import HierarchicalMap, nearest, propagate_increments, propagate_values, regular_grid
+from recalib.learners.maps import HierarchicalMap, nearest, propagate_increments, propagate_values, regular_grid
 
 
 def test_the_grid_halves_the_boxes_it_cuts():

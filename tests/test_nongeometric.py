@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from recalib.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nongeometric import Backlash, EccentricGear, Sag
 
 
 @pytest.fixture

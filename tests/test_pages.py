@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from recalib.evidence import Evidence
-from recalib.pages import context, measured, n, pair, render
+from recalib.evidence.pages import context, measured, n, pair, render
 from tests.conftest import ROOT
 
 RESULTS = ROOT / "results"

@@ -6,16 +6,16 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.damage import apply
+from recalib.damaged.damage import apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.damaged.plant import Outcome, Plant
 from recalib.errors import InvalidSetting
-from recalib.experiment import measure
+from recalib.experiments.experiment import measure
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.uncorrected import UncorrectedLearner
-from recalib.nongeometric import EccentricGear
-from recalib.plant import Outcome, Plant
 
 RUNS = 2
 

@@ -6,14 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import campaign, schedules, tuned
-from recalib.checks import check
-from recalib.damage import apply
-from recalib.experiment import run
-from recalib.learners import hierarchical
-from recalib.maps import HierarchicalMap
-from recalib.plant import Plant
-from recalib.scenarios import parse_damage
+from recalib.damaged.damage import apply
+from recalib.damaged.plant import Plant
+from recalib.damaged.scenarios import parse_damage
+from recalib.evidence.checks import check
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import run
+from recalib.learners import hierarchical, schedules
+from recalib.learners.maps import HierarchicalMap
 from tests.conftest import ROOT
 
 SEEDS = range(20)

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
-from recalib.poses import Workspace, orientation_error, position_error
+from recalib.nominal.poses import Workspace, orientation_error, position_error
 
 CENTRE = np.eye(4)
 CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()

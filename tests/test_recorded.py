@@ -4,12 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib import recorded
-from recalib.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nongeometric import EccentricGear
-from recalib.recorded import LEARNERS, read_recording, remaining_errors, with_tool_point
-from recalib.robots import load_robot
+from recalib.experiments import recorded
+from recalib.experiments.recorded import LEARNERS, read_recording, remaining_errors, with_tool_point
+from recalib.nominal.robots import load_robot
 
 # As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0

@@ -9,11 +9,11 @@ from PIL import Image
 from rerun.chunk import RrdReader
 from scipy.spatial.transform import Rotation
 
-from recalib.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.experiment import run
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.damaged.plant import Plant
+from recalib.experiments.experiment import run
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
-from recalib.plant import Plant
-from recalib.poses import position_error
+from recalib.nominal.poses import position_error
 from recalib.recording import (
     AFTER,
     BEFORE,

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.robots import load_robot
+from recalib.nominal.robots import load_robot
 
 
 @pytest.fixture

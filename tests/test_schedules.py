@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib import schedules
+from recalib.learners import schedules
 
 LAWS = [schedules.exponential, schedules.linear, schedules.equal_visits]
 starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.speedup import iterations_needed, speed_up
+from recalib.evidence.speedup import iterations_needed, speed_up
 from recalib.statistics import paired_ratio, share
 
 RUNGS = np.array([100, 200, 400])

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.damage import BaseShift, EncoderShift, apply
+from recalib.damaged.damage import BaseShift, EncoderShift, apply
 from recalib.studies.coupling import coupling
 from recalib.studies.propagation import ball, propagation_errors
 from recalib.studies.visits import visits

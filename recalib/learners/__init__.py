@@ -5,7 +5,7 @@ from typing import Protocol
 
 import numpy as np
 
-from recalib.plant import Outcome
+from recalib.damaged.plant import Outcome
 
 Execute = Callable[[np.ndarray], Outcome]
 

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from recalib.calibration import Calibration, angles_for
-from recalib.controller import Controller
-from recalib.design import information_gains
-from recalib.error_model import OFFSETS, ErrorModel
-from recalib.identification import identify
+from recalib.identification.calibration import Calibration, angles_for
+from recalib.identification.design import information_gains
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
 from recalib.learners import Execute
 from recalib.learners.experience import Experience, is_due
+from recalib.nominal.controller import Controller
 
 
 class GeometricLearner:

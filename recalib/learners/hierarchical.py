@@ -9,11 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib import schedules
 from recalib.errors import InvalidSetting
-from recalib.learners import Execute
-from recalib.maps import HierarchicalMap, propagate_increments, propagate_values
-from recalib.poses import ORIENTATION, POSITION
+from recalib.learners import Execute, schedules
+from recalib.learners.maps import HierarchicalMap, propagate_increments, propagate_values
+from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
 SINGLE = {"pose": slice(0, 6)}

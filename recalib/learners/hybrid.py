@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from recalib.calibration import Calibration, calibrate
-from recalib.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.calibration import Calibration, calibrate
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.learners.geometric import GeometricLearner
 
 

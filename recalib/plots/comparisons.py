@@ -5,11 +5,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib import search
-from recalib.claims import combined
 from recalib.evidence import ERRORS, Evidence
+from recalib.evidence.claims import combined
+from recalib.evidence.speedup import speed_up
+from recalib.experiments import search
 from recalib.plots.style import LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
-from recalib.speedup import speed_up
 from recalib.statistics import paired_ratio
 
 SWITCHES = {

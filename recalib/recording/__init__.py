@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import rerun as rr
 
-from recalib.controller import Controller
-from recalib.damage import Damage, apply
+from recalib.damaged.damage import Damage, apply
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.nominal.controller import Controller
 from recalib.recording import arms, scene, story
 from recalib.recording.blueprint import arrange
 from recalib.recording.picture import ViewerUnavailable, take_pictures

@@ -11,10 +11,10 @@ import rerun as rr
 from rerun.urdf import UrdfTree
 from scipy.spatial.transform import Rotation
 
-from recalib.damage import BaseShift, Damage, apply
-from recalib.kinematics import Arm
+from recalib.damaged.damage import BaseShift, Damage, apply
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.robots import Robot
 from recalib.recording.story import Motion, Training
-from recalib.robots import Robot
 
 GHOST = (140, 190, 255, 70)
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 import rerun.blueprint as rrb
 
-from recalib.poses import Workspace
+from recalib.nominal.poses import Workspace
 from recalib.recording.scene import PAPER, logarithm
 from recalib.recording.story import Training
 

@@ -17,7 +17,7 @@ measured during learning stands on both.
 import numpy as np
 import rerun as rr
 
-from recalib.poses import POSITION, Workspace
+from recalib.nominal.poses import POSITION, Workspace
 from recalib.recording.story import Motion, Training
 
 PAPER = {"position_error_cm": (8.3, "cm"), "orientation_error_deg": (4.7, "deg")}  # section 7: before recalibration

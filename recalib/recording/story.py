@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib import schedules
-from recalib.controller import Controller
-from recalib.damage import DamagedArm
-from recalib.experiment import History, run
+from recalib.damaged.damage import DamagedArm
+from recalib.damaged.plant import Plant
+from recalib.experiments.experiment import History, run
+from recalib.learners import schedules
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.plant import Plant
-from recalib.poses import POSITION, orientation_error, position_error
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import POSITION, orientation_error, position_error
 
 FRAMES_A_SECOND = 25
 MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there

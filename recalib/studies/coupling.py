@@ -3,10 +3,10 @@
 import numpy as np
 import pandas as pd
 
-from recalib.controller import Controller
-from recalib.damage import DamagedArm
-from recalib.mapping import mapping_jacobians
-from recalib.poses import ORIENTATION, POSITION
+from recalib.damaged.damage import DamagedArm
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.studies.mapping import mapping_jacobians
 
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from recalib.schedules import expected_learning
+from recalib.learners.schedules import expected_learning
 
 
 def visits(widths, distances, dimensions: int, generator: np.random.Generator, samples: int = 1_000_000) -> pd.DataFrame:

@@ -1,6 +1,6 @@
 """What should one use today? No part of the default run."""
 
-from recalib.peers import NEEDS
+from recalib.learners.peers import NEEDS
 
 BENCHMARK = config["benchmark"]
 SIDE_BY_SIDE = 5  # scenarios in a job: moves that the controller solves together take half the time of a few at a time

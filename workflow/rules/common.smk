@@ -15,8 +15,9 @@ validate(config, schema="../schemas/config.schema.yaml")
 # A job has one core: without this, every job's linear algebra starts a thread for each core of the machine.
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
-from recalib import scenarios, tuned
-from recalib.claims import missing
+from recalib.damaged import scenarios
+from recalib.experiments import tuned
+from recalib.evidence.claims import missing
 from recalib.errors import InvalidSetting, RecalibError
 
 ROOT = Path(workflow.basedir)

@@ -4,8 +4,9 @@ import json
 
 import pandas as pd
 
-from recalib import quantities, scenarios
-from recalib.assignments import damages_of, distance_to, enumerate_assignments
+from recalib import quantities
+from recalib.damaged import scenarios
+from recalib.damaged.assignments import damages_of, distance_to, enumerate_assignments
 from recalib.randomness import generator
 from recalib.storage import whole
 from workflow.scripts.job import job

@@ -5,10 +5,10 @@ import time
 import numpy as np
 import pinocchio as pin
 
-from recalib import campaign, tuned
-from recalib.experiment import run
-from recalib.kinematics import tool_frame
-from recalib.plant import Plant
+from recalib.damaged.plant import Plant
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import run
+from recalib.nominal.kinematics import tool_frame
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from recalib import campaign
-from recalib.benchmark import Timed, entrant
-from recalib.experiment import run
+from recalib.experiments import campaign
+from recalib.experiments.benchmark import Timed, entrant
+from recalib.experiments.experiment import run
 from recalib.progress import progress_bar
 from recalib.storage import whole
 from workflow.scripts.job import job

@@ -5,9 +5,9 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from recalib.benchmark import BLACK_BOX, moves_to_reach
 from recalib.evidence import ERRORS
-from recalib.peers import NEEDS
+from recalib.experiments.benchmark import BLACK_BOX, moves_to_reach
+from recalib.learners.peers import NEEDS
 from recalib.randomness import generator
 from recalib.statistics import bootstrap
 from recalib.storage import whole

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from recalib.checks import CheckFailed, check
+from recalib.evidence.checks import CheckFailed, check
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -5,12 +5,13 @@ from itertools import islice
 import numpy as np
 import pandas as pd
 
-from recalib import campaign, scenarios, tuned
-from recalib.assignments import damages_of
-from recalib.damage import EncoderShift, apply
+from recalib.damaged import scenarios
+from recalib.damaged.assignments import damages_of
+from recalib.damaged.damage import EncoderShift, apply
+from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
-from recalib.experiment import run
-from recalib.plant import Plant
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import run
 from recalib.randomness import generator
 from recalib.storage import whole
 from workflow.scripts.job import job

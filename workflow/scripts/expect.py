@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from recalib.checks import expect
+from recalib.evidence.checks import expect
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -1,8 +1,8 @@
 """Render the page of guidance."""
 
 from recalib.evidence import Evidence
-from recalib.guidance import context
-from recalib.pages import render
+from recalib.evidence.guidance import context
+from recalib.evidence.pages import render
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from recalib.evidence import Evidence
-from recalib.pages import context, render
+from recalib.evidence.pages import context, render
 from recalib.storage import whole
 from workflow.scripts.job import job
 

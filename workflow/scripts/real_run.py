@@ -2,9 +2,9 @@
 
 import pandas as pd
 
+from recalib.experiments.recorded import read_recording, remaining_errors, with_tool_point
+from recalib.nominal.robots import load_robot
 from recalib.randomness import generator
-from recalib.recorded import read_recording, remaining_errors, with_tool_point
-from recalib.robots import load_robot
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from recalib import campaign, tuned
-from recalib.controller import Controller
-from recalib.experiment import run
-from recalib.plant import Plant
-from recalib.recorded import calibrate_hybrid, read_recording, with_tool_point
-from recalib.robots import load_robot
+from recalib.damaged.plant import Plant
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import run
+from recalib.experiments.recorded import calibrate_hybrid, read_recording, with_tool_point
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import load_robot
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -5,8 +5,9 @@ import importlib.metadata
 import json
 from pathlib import Path
 
-from recalib import campaign, scenarios, tuned
-from recalib.experiment import measuring_grid
+from recalib.damaged import scenarios
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import measuring_grid
 from recalib.recording import write_recording
 from workflow.scripts.job import job
 

@@ -9,7 +9,7 @@ import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from recalib import tuned
+from recalib.experiments import tuned
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib import scenarios
-from recalib.damage import apply
-from recalib.plant import Plant
-from recalib.poses import orientation_error, position_error
+from recalib.damaged import scenarios
+from recalib.damaged.damage import apply
+from recalib.damaged.plant import Plant
+from recalib.nominal.poses import orientation_error, position_error
 from recalib.randomness import generator
 from recalib.storage import whole
 from workflow.scripts.job import job

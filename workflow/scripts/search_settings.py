@@ -3,7 +3,7 @@
 import pandas as pd
 import yaml
 
-from recalib import search
+from recalib.experiments import search
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pandas as pd
 
-from recalib import campaign, search, tuned
-from recalib.experiment import run
+from recalib.damaged.plant import Plant
+from recalib.experiments import campaign, search, tuned
+from recalib.experiments.experiment import run
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.plant import Plant
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pandas as pd
 
-from recalib import campaign, scenarios
-from recalib.damage import EncoderShift, LinkShortening, apply
-from recalib.mapping import mapping_jacobians, true_commands
+from recalib.damaged import scenarios
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.experiments import campaign
 from recalib.randomness import generator
 from recalib.storage import whole
 from recalib.studies.coupling import coupling
+from recalib.studies.mapping import mapping_jacobians, true_commands
 from recalib.studies.propagation import ball, propagation_errors
 from workflow.scripts.job import job
 

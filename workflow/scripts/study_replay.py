@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from recalib import campaign, tuned
-from recalib.plant import Plant
+from recalib.damaged.plant import Plant
+from recalib.experiments import campaign, tuned
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from recalib import tuned
+from recalib.experiments import tuned
 from recalib.randomness import generator
 from recalib.statistics import bootstrap
 from recalib.storage import whole

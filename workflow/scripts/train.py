@@ -4,8 +4,8 @@ import sys
 
 import numpy as np
 
-from recalib import campaign, tuned
-from recalib.experiment import measuring_grid, run
+from recalib.experiments import campaign, tuned
+from recalib.experiments.experiment import measuring_grid, run
 from recalib.progress import progress_bar
 from recalib.storage import whole
 from workflow.scripts.job import job

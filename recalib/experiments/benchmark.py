@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from recalib import peers, tuned
-from recalib.controller import Controller
-from recalib.learners import Learner
+from recalib.experiments import tuned
+from recalib.learners import Learner, peers
+from recalib.nominal.controller import Controller
 
 BLACK_BOX = "measured poses, two moves for each"
 

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.controller import Controller, Targets
-from recalib.damage import DamagedArm
-from recalib.disturbances import Disturbances
+from recalib.damaged.damage import DamagedArm
+from recalib.damaged.disturbances import Disturbances
+from recalib.nominal.controller import Controller, Targets
 
 
 class Outcome(NamedTuple):

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from recalib.controller import Controller, Targets
-from recalib.plant import Outcome, Plant
+from recalib.damaged.plant import Outcome, Plant
+from recalib.nominal.controller import Controller, Targets
 
 
 class Fleet:

@@ -12,8 +12,8 @@ import pinocchio as pin
 
 from recalib import quantities
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.kinematics import Arm, tool_frame
-from recalib.poses import Workspace
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.poses import Workspace
 
 JOINTS = 6
 

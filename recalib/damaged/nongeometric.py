@@ -1,7 +1,7 @@
 """Damages that no change of the arm's geometry explains: eccentric gears, sag under gravity, backlash.
 
 Each makes a joint stand off by an angle that depends on the arm's posture. They combine with one another and with the
-damages of `recalib.damage` through its `apply`.
+damages of `recalib.damaged.damage` through its `apply`.
 """
 
 import math
@@ -10,9 +10,9 @@ from functools import partial
 
 import numpy as np
 
-from recalib.damage import DamagedArm
+from recalib.damaged.damage import DamagedArm
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.robots import Robot
+from recalib.nominal.robots import Robot
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a vertical axis, no load.
 NO_LOAD = 1e-6

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib import scenarios
-from recalib.controller import Controller
-from recalib.damage import DamagedArm, apply
-from recalib.fleet import Fleet
-from recalib.plant import Plant
+from recalib.damaged import scenarios
+from recalib.damaged.damage import DamagedArm, apply
+from recalib.damaged.fleet import Fleet
+from recalib.damaged.plant import Plant
+from recalib.nominal.controller import Controller
 from recalib.randomness import generator
 
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import yaml
 
-from recalib import search
 from recalib.errors import InvalidSetting, UnknownName
+from recalib.experiments import search
 from recalib.learners.hierarchical import HierarchicalLearner, Rules
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from recalib.calibration import Calibration
+from recalib.identification.calibration import Calibration
 
 
 def information_gains(calibration: Calibration, angles: np.ndarray) -> np.ndarray:

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from recalib import quantities
-from recalib.controller import Controller
-from recalib.damage import BaseShift, Damage, EncoderShift, LinkShortening, apply
-from recalib.disturbances import Disturbances
+from recalib.damaged.damage import BaseShift, Damage, EncoderShift, LinkShortening, apply
+from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nongeometric import Backlash, EccentricGear, Sag
-from recalib.robots import Robot, load_robot
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot, load_robot
 
 DAMAGES = (
     "link + shorten",

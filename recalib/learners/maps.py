@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 from scipy.linalg.blas import dger
 
-from recalib.poses import ORIENTATION, POSITION
+from recalib.nominal.poses import ORIENTATION, POSITION
 
 
 def regular_grid(shape: Sequence[int]) -> np.ndarray:

@@ -18,8 +18,8 @@ from operator import or_
 import numpy as np
 import pinocchio as pin
 
-from recalib.kinematics import Arm, tool_frame
-from recalib.robots import JOINTS
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.robots import JOINTS
 
 # Standard deviations of the parameters before anything is known: what wear and mounting plausibly do to an arm.
 BASE = 0.05, np.radians(5)  # m, rad

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from recalib.controller import TOLERANCE, Controller, solve_newton
-from recalib.damage import DamagedArm
+from recalib.damaged.damage import DamagedArm
+from recalib.nominal.controller import TOLERANCE, Controller, solve_newton
 
 STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
 

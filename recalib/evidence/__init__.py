@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from recalib import tuned
+from recalib.experiments import tuned
 from recalib.randomness import generator
 
 ERRORS = ["position_error_cm", "orientation_error_deg"]

@@ -6,9 +6,9 @@ from functools import partial
 
 import numpy as np
 
-from recalib import search
 from recalib.evidence import ERRORS, Evidence
-from recalib.speedup import speed_up
+from recalib.evidence.speedup import speed_up
+from recalib.experiments import search
 from recalib.statistics import Estimate, paired_ratio, share
 from recalib.studies.propagation import integral_ratios
 

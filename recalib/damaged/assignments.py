@@ -10,9 +10,9 @@ from itertools import permutations, product
 import numpy as np
 import pandas as pd
 
-from recalib.controller import Controller
-from recalib.damage import EncoderShift, LinkShortening, apply
-from recalib.poses import orientation_error, position_error
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import orientation_error, position_error
 
 
 def shortenings(links: Sequence[str], lengths: Sequence[float]) -> list[tuple[LinkShortening, ...]]:

@@ -14,15 +14,15 @@ import numpy as np
 import pandas as pd
 import pinocchio as pin
 
-from recalib.calibration import Calibration, calibrate
-from recalib.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.identification import identify
-from recalib.kinematics import Arm, tool_frame
+from recalib.identification.calibration import Calibration, calibrate
+from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.polynomial import PolynomialLearner
-from recalib.poses import POSITION, Workspace
-from recalib.robots import Robot
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.poses import POSITION, Workspace
+from recalib.nominal.robots import Robot
 
 JOINTS = [f"joint_{number}" for number in range(1, 7)]
 NOMINAL, MISSED = (["x_t", "y_t", "z_t"], ["x_dif", "y_dif", "z_dif"])

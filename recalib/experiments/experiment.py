@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from recalib.damaged.plant import Plant
 from recalib.learners import Learner
-from recalib.plant import Plant
-from recalib.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error, position_error
 
 SUMMARIES = {
     "": lambda errors: errors.mean(axis=-1),

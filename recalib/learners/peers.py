@@ -1,8 +1,8 @@
 """The learners of today that the paper's maps are compared with, by name. Each makes one move an iteration."""
 
-from recalib.controller import Controller
 from recalib.errors import UnknownName
 from recalib.learners import Learner
+from recalib.nominal.controller import Controller
 
 NEEDS = {
     "uncorrected": "nothing",

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
-from recalib.kinematics import Arm
 from recalib.monomials import monomials
-from recalib.robots import Robot
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.robots import Robot
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace

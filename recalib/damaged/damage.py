@@ -9,8 +9,8 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.kinematics import Arm
-from recalib.robots import Robot, link_end
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.robots import Robot, link_end
 
 
 @dataclass
@@ -115,7 +115,7 @@ def apply(robot: Robot, damages: Iterable[Damage]) -> DamagedArm:
     """The arm of the nominal robot with the damages done to it, one after the other.
 
     Raises UnknownName (link, joint) and InvalidSetting (a link shortened by more than its length, or lengthened; what the
-    damages of `recalib.nongeometric` refuse).
+    damages of `recalib.damaged.nongeometric` refuse).
     """
     damaged = DamagedArm(Arm(pin.Model(robot.arm.model), robot.arm.tool), np.zeros(len(robot.home)))
     for damage in damages:

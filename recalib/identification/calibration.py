@@ -7,10 +7,10 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.controller import solve_each, twists
-from recalib.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel, JointTerms
-from recalib.identification import LEAST_NOISE, Estimate, displacements, identify
-from recalib.kinematics import Arm
+from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel, JointTerms
+from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
+from recalib.nominal.controller import solve_each, twists
+from recalib.nominal.kinematics import Arm
 from recalib.processes import Process, is_time_to_search
 
 STEPS = 10

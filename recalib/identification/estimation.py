@@ -20,7 +20,7 @@ import scipy.linalg
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from recalib.error_model import ErrorModel
+from recalib.identification.error_model import ErrorModel
 
 DOUBTED = 0.99  # the limit of rho: a measurement farther out than this fraction of good ones is weighted down
 SPARSITY = 0.05  # degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide

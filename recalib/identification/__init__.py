@@ -1,0 +1,1 @@
+"""Identification of the arm from where it went: what today's model-based learners stand on."""
