@@ -20,7 +20,7 @@ def test_a_peer_makes_a_move_an_iteration_and_a_map_two(here):
     assert entrant("geometric", here)[1:] == (400, 1)
     assert entrant("improved", here)[1:] == (200, 2)
     assert entrant("improved", here).measure_at([1, 2, 3, 4, 400, 1000]) == [1, 2, 200]
-    with pytest.raises(UnknownName, match="improved"):
+    with pytest.raises(UnknownName, match=r"hybrid, improved"):
         entrant("magic", here)
 
 

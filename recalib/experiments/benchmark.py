@@ -8,7 +8,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from recalib.errors import UnknownName
 from recalib.experiments import tuned
+from recalib.experiments.tuned import Training
 from recalib.learners import Learner, peers
 from recalib.nominal.controller import Controller
 
@@ -28,14 +30,24 @@ class Entrant(NamedTuple):
         return [budget // moves for budget in budgets if budget % moves == 0 and budget <= self.iterations * moves]
 
 
+def training_of(name: str, learners: Mapping) -> Training | None:
+    """The training of the paper's maps that the name means; None for a peer. Raises UnknownName."""
+    if name in peers.NEEDS:
+        return None
+    try:
+        return tuned.training(name, learners)
+    except UnknownName as error:
+        raise UnknownName("learner", name, [*peers.NEEDS, *error.valid]) from None
+
+
 def entrant(name: str, config: Mapping) -> Entrant:
     """The learner of this name: a peer, or a training of the paper's maps with the settings found for it.
 
     Raises UnknownName and InvalidSetting.
     """
-    if name in peers.NEEDS:
+    which = training_of(name, config["learners"])
+    if which is None:
         return Entrant(partial(peers.build, name), max(config["benchmark"]["moves"]), 1)
-    which = tuned.training(name, config["learners"])
     tuned.settings(which, config["tuned"])
     return Entrant(lambda runs, _: tuned.build(which, runs, config["learners"], config["tuned"]), which.iterations, 2)
 

@@ -12,7 +12,7 @@ from recalib.processes import Process, is_time_to_search
 class GaussianProcessLearner:
     """The correction, command minus achieved pose, as a Gaussian process over the achieved coordinates.
 
-    Hyperparameters are sought anew whenever the number of moves has search.
+    Hyperparameters are sought anew whenever the number of moves has doubled, up to `processes.MOST` of them.
 
     Args:
         runs: how many independent trainings.

@@ -4,6 +4,7 @@ The correction, command minus achieved pose, is a polynomial of the achieved coo
 learner commands it plus its correction. The prior is the intact robot: no correction, each coefficient with a deviation.
 """
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -32,7 +33,7 @@ class PolynomialLearner:
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         self._degree = degree
-        degrees = np.repeat(range(degree + 1), (1, 6, 21)[: degree + 1])
+        degrees = np.repeat(range(degree + 1), [math.comb(5 + each, each) for each in range(degree + 1)])
         self._coefficients = np.zeros((runs, len(degrees), 6))
         # posterior covariance of the coefficients over the variance of the noise
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))

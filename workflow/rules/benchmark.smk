@@ -1,8 +1,5 @@
 """What should one use today? No part of the default run."""
 
-from recalib.learners.peers import NEEDS
-
-BENCHMARK = config["benchmark"]
 SIDE_BY_SIDE = 5  # scenarios in a job: moves that the controller solves together take half the time of a few at a time
 
 
@@ -27,7 +24,7 @@ rule benchmark_run:
     params:
         scenarios=lambda w: BATCHES[w.batch],
         benchmark={key: BENCHMARK[key] for key in ("seeds", "moves", "longer")},
-        learner=lambda w: entry_of(w.learner) if w.learner not in NEEDS else w.learner,
+        learner=lambda w: entry_of(w.learner) if training_of(w.learner, config["learners"]) else w.learner,
         tests=TRAINING["tests"],
         seed=config["seed"],
     message:

@@ -16,9 +16,10 @@ validate(config, schema="../schemas/config.schema.yaml")
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
 from recalib.damaged import scenarios
-from recalib.experiments import tuned
-from recalib.evidence.claims import missing
 from recalib.errors import InvalidSetting, RecalibError
+from recalib.evidence.claims import missing
+from recalib.experiments import tuned
+from recalib.experiments.benchmark import training_of
 
 ROOT = Path(workflow.basedir)
 RESULTS, FIGURE_FOLDER = config["results"], config["figures"]
@@ -49,7 +50,7 @@ def bounds(chunk, total, size):
     return [int(chunk) * size, min((int(chunk) + 1) * size, total)]
 
 
-EXPERIMENTS = config["experiments"]
+EXPERIMENTS, BENCHMARK = config["experiments"], config["benchmark"]
 SCENARIOS, PAPER = EXPERIMENTS["scenarios"], config["search"]["scenario"]
 RUNS = [
     *product(SCENARIOS, EXPERIMENTS["learners"]),
@@ -60,10 +61,12 @@ RUNS = [
 
 try:
     scenarios.check(config)
-    for scenario in dict.fromkeys(scenario for scenario, _ in RUNS):
+    for scenario in dict.fromkeys([*(scenario for scenario, _ in RUNS), *BENCHMARK["scenarios"]]):
         scenarios.robot_of(scenario, config)
     for learner in EXPERIMENTS["ensemble"]:
         tuned.training(learner, config["learners"])
+    for learner in BENCHMARK["learners"]:
+        training_of(learner, config["learners"])
     if EXPERIMENTS["evidence"] and (lacking := missing(config)):
         raise InvalidSetting("experiments.evidence", True, f"with {', '.join(lacking)}, or false")
     # `improved` and `improved_200` may be one training: it is done once, under the shorter name.
@@ -81,5 +84,6 @@ wildcard_constraints:
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",
+    batch=r"\d+",
     round=r"[1-9]",
     series=r"[a-z]+",
