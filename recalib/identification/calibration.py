@@ -37,22 +37,21 @@ class Calibration:
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
-        return self._moved(self._arm.forward(self._standing(angles)), angles)
+        return self._moved(self.model.predict(self.estimate.parameters, angles), angles)
 
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the Jacobians (n, 6, 6) of the arm alone, with the joints as they stand.
 
         They lack how joint errors and the residual change with the angles, which they do slowly.
         """
-        poses, jacobians = self._arm.forward_and_jacobian(self._standing(angles))
+        parameters = self.estimate.parameters
+        standing = self.model.standing(parameters, angles, self.model.terms(angles))
+        poses, jacobians = self._arm.forward_and_jacobian(standing)
         return self._moved(poses, angles), jacobians
 
     @cached_property
     def _arm(self) -> Arm:
         return self.model.arm(self.estimate.parameters)
-
-    def _standing(self, angles: np.ndarray) -> np.ndarray:
-        return self.model.standing(self.estimate.parameters, angles, self.model.terms(angles))
 
     def _moved(self, poses: np.ndarray, angles: np.ndarray) -> np.ndarray:
         if self.residual is None:
