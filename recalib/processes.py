@@ -17,6 +17,7 @@ FIRST_NOISES = 1e-3, 1e-1, 1e-6  # where searches start: to take all for noise i
 FEWEST = 6  # points to judge hyperparameters by
 MOST = 128  # points to judge hyperparameters by: the time grows with their cube, and more tell little more
 STEPS = 50  # of a search
+ROUNDING = 10 * np.finfo(float).eps  # deviations of an output that is constant: not to be blown up to one
 
 
 def is_time_to_search(before: int, points: int) -> bool:
@@ -25,13 +26,13 @@ def is_time_to_search(before: int, points: int) -> bool:
 
 
 class Covariance(Kernel):
-    """The covariance as one kernel: scikit-learn's sum of products would look longer for its parameters than it computes.
+    """The covariance as one kernel: scikit-learn's composed ones spend more time looking up their parameters than computing.
 
     Args:
         theta: (d + 3,) the hyperparameters.
     """
 
-    theta = None  # replaces the property that looks for them
+    theta = None  # replaces a property that collects them from the parts of a kernel
 
     def __init__(self, theta: np.ndarray):
         self.theta = theta
@@ -80,7 +81,7 @@ class Process:
     def __init__(self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None):
         self._inputs, self._outputs = inputs, outputs
         self._centre, self._mean, deviations = inputs.mean(axis=0), outputs.mean(axis=0), outputs.std(axis=0)
-        self._scale = np.where(deviations > 0, deviations, 1)
+        self._scale = np.where(deviations > ROUNDING, deviations, 1)
         inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
             hyperparameters = _search(inputs[:MOST], outputs[:MOST]) if len(inputs) >= FEWEST else _start(inputs.shape[1])

@@ -4,8 +4,8 @@ import pytest
 
 from recalib.damaged.plant import Outcome
 from recalib.errors import UnknownName
-from recalib.evidence import ERRORS
 from recalib.evidence.guidance import moves_text, where_worse
+from recalib.evidence.results import ERRORS
 from recalib.experiments.benchmark import Timed, entrant, moves_to_reach
 from recalib.learners import peers
 from tests.conftest import ROOT

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 import yaml
 
-from recalib.evidence import ERRORS, Evidence
 from recalib.evidence.claims import MEASURES, judge
 from recalib.evidence.pages import measured
+from recalib.evidence.results import ERRORS, Evidence
 from tests.conftest import ROOT
 
 CRITERIA = yaml.safe_load((ROOT / "workflow" / "criteria.yaml").read_text())

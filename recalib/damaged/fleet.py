@@ -1,4 +1,4 @@
-"""Several plants side by side: one controller solves their commands all at once, which a few at a time would make slow."""
+"""Several plants side by side: one controller solves all their commands in one call, faster than a few at a time."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from recalib.nominal.controller import Controller, Targets
 
 
 class Fleet:
-    """Plants behind the same nominal controller, for a learner one plant: its runs are those of the first, of the second ...
+    """Plants behind one nominal controller, one plant to a learner: the runs of the first, then of the second, and so on.
 
     Args:
         controller: of all the plants.
@@ -35,13 +35,13 @@ class Fleet:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """As a plant's."""
-        outcomes = [plant.carry_out(targets) for plant, targets in self._shares(commands)]
+        outcomes = [plant.execute_targets(targets) for plant, targets in self._shares(commands)]
         self.moves += commands.shape[1]
         return Outcome(*map(np.concatenate, zip(*outcomes, strict=True)))
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As a plant's."""
-        poses, executed = zip(*(plant.reach(targets) for plant, targets in self._shares(commands)), strict=True)
+        poses, executed = zip(*(plant.achieve_targets(targets) for plant, targets in self._shares(commands)), strict=True)
         return np.concatenate(poses), np.concatenate(executed)
 
     def _shares(self, commands: np.ndarray) -> list[tuple[Plant, Targets]]:

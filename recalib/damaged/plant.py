@@ -55,26 +55,26 @@ class Plant:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what the damaged robots achieve."""
-        return self.carry_out(self._controller.targets(commands))
+        return self.execute_targets(self._controller.targets(commands))
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) and whether each was executed (run, move), undisturbed and not counted."""
-        return self.reach(self._controller.targets(commands))
+        return self.achieve_targets(self._controller.targets(commands))
 
-    def carry_out(self, targets: Targets) -> Outcome:
-        """As `execute`, from where the controller takes the joints."""
+    def execute_targets(self, targets: Targets) -> Outcome:
+        """As `execute`, for commands that the controller has turned into joint angles."""
         if self._disturbances is None:
-            poses, executed = self.reach(targets)
+            poses, executed = self.achieve_targets(targets)
         else:
             stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1])
-            poses, executed = self.reach(targets._replace(angles=targets.angles + stops))
+            poses, executed = self.achieve_targets(targets._replace(angles=targets.angles + stops))
             poses = self._disturbances.measure(self._generators, poses)
         self.moves += executed.shape[1]
         self.refused = self.refused + np.sum(~executed, axis=1)
         return Outcome(self.workspace.to_coordinates(poses), executed)
 
-    def reach(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
-        """As `achieve`, from where the controller takes the joints."""
+    def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
+        """As `achieve`, for commands that the controller has turned into joint angles."""
         angles, executed = targets
         runs, moves, _ = angles.shape
         if len(self._arms) == 1:

@@ -111,18 +111,21 @@ def describe_damage(damage: LinkShortening | EncoderShift) -> dict[str, str]:
 def check(config: Mapping) -> None:
     """Raise an error of this library for the first name or amount in the configuration that its robots cannot have.
 
-    Everything that the default run uses and that needs no training: the workspace of every robot, the damages of every
-    scenario, the paper's damage on every robot.
+    Everything that needs no training: the workspace of every robot of the default run, the paper's damage on it, and the
+    damages of every scenario, those of the benchmark included.
     """
     experiments = config["experiments"]
     for name in [config["robot"], *experiments["robots"]]:
         if name not in config["robots"]:
             raise UnknownName("robot", name, config["robots"])
         _check_paper_damage(load_controller(name, config).robot, config)
-    robot = load_robot(config["robot"], config["robots"])
-    for scenario in experiments["scenarios"]:
-        explicit = [entry for entry in config["scenarios"][robot_of(scenario, config)[0]] if "assigned" not in entry]
-        apply(robot, parse_damages(explicit))
+    robots = {}
+    for scenario in dict.fromkeys([*experiments["scenarios"], *config["benchmark"]["scenarios"]]):
+        name, robot = robot_of(scenario, config)
+        if robot not in robots:
+            robots[robot] = load_robot(robot, config["robots"])
+        explicit = [entry for entry in config["scenarios"][name] if "assigned" not in entry]
+        apply(robots[robot], parse_damages(explicit))
         parse_disturbances(explicit)
     for key, (low, high) in config["search"]["ranges"].items():
         if low > high:

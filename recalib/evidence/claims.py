@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from recalib.evidence import ERRORS, Evidence
+from recalib.evidence.results import ERRORS, Evidence
 from recalib.evidence.speedup import speed_up
 from recalib.experiments import search
 from recalib.statistics import Estimate, paired_ratio, share

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from recalib.evidence import ERRORS, Evidence
+from recalib.evidence.results import ERRORS, Evidence
 from recalib.experiments.benchmark import BLACK_BOX
 from recalib.learners.peers import NEEDS
 

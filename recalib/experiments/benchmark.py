@@ -11,7 +11,8 @@ import pandas as pd
 from recalib.errors import UnknownName
 from recalib.experiments import tuned
 from recalib.experiments.tuned import Training
-from recalib.learners import Learner, peers
+from recalib.learners import peers
+from recalib.learners.learner import Learner
 from recalib.nominal.controller import Controller
 
 BLACK_BOX = "measured poses, two moves for each"

@@ -1,4 +1,4 @@
-"""Trainings of one learner on one scenario over many seeds, as the workflow runs them."""
+"""Trainings of one learner over many seeds, on one scenario or several side by side, as the workflow runs them."""
 
 import json
 from collections.abc import Mapping, Sequence

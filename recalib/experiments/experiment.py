@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from recalib.damaged.fleet import Fleet
 from recalib.damaged.plant import Plant
-from recalib.learners import Learner
+from recalib.learners.learner import Learner
 from recalib.nominal.poses import orientation_error, position_error
 
 SUMMARIES = {
@@ -51,7 +52,7 @@ class History:
         return frame
 
 
-def measure(plant: Plant, learner: Learner, tests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def measure(plant: Plant | Fleet, learner: Learner, tests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at the test poses (run, pose, 6), by (1).
 
     Measuring is no learning: its moves are not counted.
@@ -70,7 +71,7 @@ def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> lis
 
 
 def run(
-    plant: Plant,
+    plant: Plant | Fleet,
     learner: Learner,
     desired: np.ndarray,
     tests: np.ndarray,

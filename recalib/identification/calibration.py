@@ -42,7 +42,7 @@ class Calibration:
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the Jacobians (n, 6, 6) of the arm alone, with the joints as they stand.
 
-        They lack how joint errors and the residual change with the angles, which they do slowly.
+        They leave out that joint errors and the residual change with the angles: that is slow.
         """
         parameters = self.estimate.parameters
         standing = self.model.standing(parameters, angles, self.model.terms(angles))
@@ -91,7 +91,7 @@ def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np
     """
     angles, best, least = start.copy(), start.copy(), np.full(start.shape[:2], np.inf)
     for _ in range(STEPS):
-        unsolved = np.flatnonzero(least.max(axis=1) > TOLERANCE)
+        unsolved = np.flatnonzero((least > TOLERANCE).any(axis=1))
         if not len(unsolved):
             break
         each = (calibrations[run].forward_and_jacobian(angles[run]) for run in unsolved)
@@ -99,7 +99,7 @@ def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np
         misses = twists(reached, poses[unsolved])
         sizes = np.abs(misses).max(axis=-1)
         best[unsolved] = np.where((sizes < least[unsolved])[..., None], angles[unsolved], best[unsolved])
-        least[unsolved] = np.minimum(sizes, least[unsolved])
+        least[unsolved] = np.fmin(sizes, least[unsolved])
         steps = solve_each(jacobians, misses)
         angles[unsolved] += steps * (LONGEST_STEP / np.maximum(LONGEST_STEP, np.abs(steps).max(axis=-1, keepdims=True)))
     return best

@@ -31,7 +31,9 @@ FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
 STEPS = 60
-NEGLIGIBLE = 0.01  # part of the noise below which second-order terms are not worth a new linearisation
+# A new linearisation is due where one parameter alone moves the tool so far that its square exceeds this part of the noise:
+# second-order terms are squares [rad^2] times levers of about a metre, and then reach some hundredths of the noise in all.
+NEGLIGIBLE = 0.01
 CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and of noise, relative
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from recalib.learners import Execute
+from recalib.learners.learner import Execute
 
 
 class UncorrectedLearner:

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib.evidence import Evidence
+from recalib.evidence.results import Evidence
 from recalib.plots.style import BAND, LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
 from recalib.statistics import first_within
 

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from recalib.evidence import ERRORS, Evidence
+from recalib.evidence.results import ERRORS, Evidence
 from recalib.plots.style import ORIENTATION, POSITION, plain, title
 from recalib.studies.propagation import integral_ratios
 

@@ -61,7 +61,7 @@ RUNS = [
 
 try:
     scenarios.check(config)
-    for scenario in dict.fromkeys([*(scenario for scenario, _ in RUNS), *BENCHMARK["scenarios"]]):
+    for scenario in dict.fromkeys(scenario for scenario, _ in RUNS):
         scenarios.robot_of(scenario, config)
     for learner in EXPERIMENTS["ensemble"]:
         tuned.training(learner, config["learners"])

@@ -23,7 +23,7 @@ with job(snakemake):
         )
     )
     budgets = which.measure_at([*config["benchmark"]["moves"], *config["benchmark"]["longer"]])
-    with progress_bar(f"{name} on {len(scenarios)} scenarios", which.iterations) as progress:
+    with progress_bar(f"{name} on {', '.join(scenarios)}", which.iterations) as progress:
         frame = run(fleet, learner, desired, tests, budgets, progress).to_frame()
     frame = frame.assign(
         scenario=np.array(scenarios)[frame["seed"] // len(runs)],

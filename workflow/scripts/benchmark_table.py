@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from recalib.evidence import ERRORS
+from recalib.evidence.results import ERRORS
 from recalib.experiments.benchmark import BLACK_BOX, moves_to_reach
 from recalib.learners.peers import NEEDS
 from recalib.randomness import generator

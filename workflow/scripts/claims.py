@@ -5,8 +5,8 @@ from pathlib import Path
 
 import yaml
 
-from recalib.evidence import Evidence
 from recalib.evidence.claims import judge
+from recalib.evidence.results import Evidence
 from recalib.storage import whole
 from workflow.scripts.job import job
 

@@ -1,8 +1,8 @@
 """Render the page of guidance."""
 
-from recalib.evidence import Evidence
 from recalib.evidence.guidance import context
 from recalib.evidence.pages import render
+from recalib.evidence.results import Evidence
 from recalib.storage import whole
 from workflow.scripts.job import job
 

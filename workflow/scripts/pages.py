@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from recalib.evidence import Evidence
 from recalib.evidence.pages import context, render
+from recalib.evidence.results import Evidence
 from recalib.storage import whole
 from workflow.scripts.job import job
 
