@@ -12,8 +12,7 @@ from recalib.damaged.scenarios import parse_damage
 from recalib.evidence.checks import check
 from recalib.experiments import campaign, tuned
 from recalib.experiments.experiment import run
-from recalib.learners import schedules
-from recalib.learners.learner import hierarchical
+from recalib.learners import hierarchical, schedules
 from recalib.learners.maps import HierarchicalMap
 from tests.conftest import ROOT
 
