@@ -68,7 +68,7 @@ def figure12(evidence: Evidence) -> Figure:
 def figure13(evidence: Evidence) -> Figure:
     """The real UR5: errors on the test poses against the number of recorded poses."""
     table = pd.read_csv(evidence.results / "real.csv")
-    figure, axes = plt.subplots(figsize=(8, 4.6))
+    figure, axes = plt.subplots(figsize=(9, 4.6))
     for learner, own in table.groupby("learner", sort=False):
         color, marker = ENTRANTS[learner.split()[0]]
         linestyle = (0, (4, 2)) if " on a twin" in learner else "-"
@@ -91,7 +91,7 @@ def figure13(evidence: Evidence) -> Figure:
     plain(axes.xaxis, 5, 10, 20, 50, 100, 200, 500, 1000, 20_000)
     plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
     axes.tick_params(axis="x", labelsize=9)
-    axes.legend(fontsize=8, loc="upper right", bbox_to_anchor=(1, 0.9))
+    figure.legend(loc="outside right center", fontsize=9)
     title(
         figure,
         f"Figure 13: a real UR5, identified from {enough} poses, beats the published error",
