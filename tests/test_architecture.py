@@ -14,6 +14,7 @@ def imported(path) -> set[str]:
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
+            assert not node.level, f"{path}: a relative import hides where it points"
             names |= {f"{node.module}.{alias.name}" for alias in node.names}
     return names
 

@@ -14,19 +14,20 @@ class Fleet:
     Args:
         controller: of all the plants.
         plants: with the same number of runs each.
-
-    Attributes:
-        moves: how many moves were commanded in each run.
     """
 
     def __init__(self, controller: Controller, plants: Sequence[Plant]):
         self._controller, self._plants = controller, plants
-        self.moves = 0
 
     @property
     def workspace(self):
         """The workspace in whose coordinates commands and achieved poses are given."""
         return self._controller.robot.workspace
+
+    @property
+    def moves(self) -> int:
+        """How many moves were commanded in each run."""
+        return self._plants[0].moves
 
     @property
     def refused(self) -> np.ndarray | int:
@@ -36,7 +37,6 @@ class Fleet:
     def execute(self, commands: np.ndarray) -> Outcome:
         """As a plant's."""
         outcomes = [plant.execute_targets(targets) for plant, targets in self._shares(commands)]
-        self.moves += commands.shape[1]
         return Outcome(*map(np.concatenate, zip(*outcomes, strict=True)))
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -102,7 +102,8 @@ class ErrorModel:
         A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad] along the base's axes.
         `terms` are those of the angles: they depend on no parameter, so that one evaluation serves all linearisations.
         """
-        poses, joints, placements = _walk(self.arm(parameters), self.standing(parameters, angles, terms))
+        standing = self.standing(parameters, angles, terms)
+        poses, joints, placements = self.arm(parameters).forward_and_all_jacobians(standing)
         # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): a change of a twist as a motion of what it places
         motions = [
             nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
@@ -113,17 +114,3 @@ class ErrorModel:
         jacobians[..., :TWISTS] = by_link.swapaxes(0, 1).reshape(len(angles), 6, TWISTS)
         jacobians[..., TWISTS:] = (joints[:, :, None] * terms[:, None]).reshape(len(angles), 6, -1)
         return poses, jacobians
-
-
-def _walk(arm: Arm, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Poses (n, 4, 4) of the tool, and its Jacobians with respect to joints (n, 6, 6) and to placements (n, 6, 7 * 6)."""
-    model, data = arm.model, arm.model.createData()
-    frame = tool_frame(model, arm.tool)
-    poses, joints, placements = [], [], []
-    for q in angles:
-        joints.append(pin.computeFrameJacobian(model, data, q, frame, pin.LOCAL_WORLD_ALIGNED))
-        poses.append(pin.updateFramePlacement(model, data, frame).homogeneous)
-        placements.append(pin.computeFrameKinematicRegressor(model, data, frame, pin.LOCAL_WORLD_ALIGNED))
-    poses, tools = np.array(poses), np.zeros((len(angles), 6, 6))
-    tools[:, :3, :3] = tools[:, 3:, 3:] = poses[:, :3, :3]
-    return poses, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
