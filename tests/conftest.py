@@ -15,9 +15,9 @@ import pytest
 import yaml
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
-from recalib.damaged.scenarios import load_controller
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, load_robot
+from recalib.study.scenarios import load_controller
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "tests/tiny.yaml"]

@@ -4,7 +4,9 @@ import pytest
 
 from tests.conftest import ROOT
 
-LAYERS = "nominal", "damaged", "identification", "learners", "studies", "experiments", "evidence", "plots", "recording"
+LIBRARY = "nominal", "damaged", "identification", "learners"
+STUDY = "mapping", "experiments", "evidence", "plots", "recording"
+FOR_STUDIES_ALONE = {"jinja2", "matplotlib", "pandas", "pyarrow", "pydantic", "rerun", "snakemake", "tqdm", "yaml"}
 
 
 def imported(path) -> set[str]:
@@ -19,17 +21,29 @@ def imported(path) -> set[str]:
     return names
 
 
-@pytest.mark.parametrize("layer", ["", *LAYERS])
-def test_imports_point_one_way(layer):
-    above = LAYERS[LAYERS.index(layer) + 1 :] if layer else LAYERS
-    paths = sorted((ROOT / "recalib" / layer).glob("*.py"))
-    assert paths
-    for path in paths:
-        assert not {name for name in imported(path) if name.startswith("recalib.") and name.split(".")[1] in above}, path
+@pytest.mark.parametrize(("root", "layers"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"])
+def test_imports_point_one_way(root, layers):
+    folder = ROOT.joinpath(*root.split("."))
+    for index, layer in enumerate(layers):
+        above = tuple(f"{root}.{each}." for each in layers[index + 1 :])
+        paths = sorted((folder / layer).glob("*.py"))
+        assert paths
+        for path in paths:
+            assert not [name for name in imported(path) if name.startswith(above)], path
 
 
 def test_every_package_has_its_layer():
-    assert {path.parent.name for path in (ROOT / "recalib").glob("*/__init__.py")} == set(LAYERS)
+    packages = {path.parent.name for path in (ROOT / "recalib").glob("*/__init__.py")}
+    assert packages == {*LIBRARY, "study"}
+    assert {*STUDY} <= {path.parent.name for path in (ROOT / "recalib" / "study").glob("*/__init__.py")}
+
+
+def test_the_library_knows_of_no_study_and_needs_none_of_its_packages():
+    for path in (ROOT / "recalib").rglob("*.py"):
+        if "study" not in path.relative_to(ROOT).parts:
+            names = imported(path)
+            assert not [name for name in names if name.startswith("recalib.study")], path
+            assert not {name.split(".")[0] for name in names} & FOR_STUDIES_ALONE, path
 
 
 def test_rerun_is_imported_by_the_recordings_alone():

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.assignments import damages_of, distance_to, enumerate_assignments, shifts, shortenings
 from recalib.damaged.damage import apply
 from recalib.nominal.poses import orientation_error, position_error
+from recalib.study.assignments import damages_of, distance_to, enumerate_assignments, shifts, shortenings
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 

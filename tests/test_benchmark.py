@@ -4,10 +4,10 @@ import pytest
 
 from recalib.damaged.plant import Outcome
 from recalib.errors import UnknownName
-from recalib.evidence.guidance import moves_text, where_worse
-from recalib.evidence.results import ERRORS
-from recalib.experiments.benchmark import Timed, entrant, moves_to_reach
 from recalib.learners import peers
+from recalib.study.evidence.guidance import moves_text, where_worse
+from recalib.study.evidence.results import ERRORS
+from recalib.study.experiments.benchmark import Timed, entrant, moves_to_reach
 from tests.conftest import ROOT
 
 
@@ -43,7 +43,7 @@ def test_only_the_time_of_the_learner_is_taken():
 
     clock = iter([0.0, 1.0, 11.0, 13.0])  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("recalib.experiments.benchmark.time.perf_counter", lambda: next(clock))
+        patch.setattr("recalib.study.experiments.benchmark.time.perf_counter", lambda: next(clock))
         timed = Timed(Slow())
         timed.learn(np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0)
     assert timed.seconds == 3.0

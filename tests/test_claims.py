@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 import yaml
 
-from recalib.evidence.claims import MEASURES, judge
-from recalib.evidence.pages import measured
-from recalib.evidence.results import ERRORS, Evidence
+from recalib.study.evidence.claims import MEASURES, judge
+from recalib.study.evidence.pages import measured
+from recalib.study.evidence.results import ERRORS, Evidence
 from tests.conftest import ROOT
 
 CRITERIA = yaml.safe_load((ROOT / "workflow" / "criteria.yaml").read_text())

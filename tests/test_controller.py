@@ -3,10 +3,10 @@ import copy
 import numpy as np
 import pytest
 
-from recalib.damaged.scenarios import load_controller
 from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
+from recalib.study.scenarios import load_controller
 
 
 @pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])

@@ -2,10 +2,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.evidence.checks import CheckFailed, check, expect
 from recalib.randomness import generator
-from recalib.statistics import bootstrap, first_within
 from recalib.storage import whole
+from recalib.study.evidence.checks import CheckFailed, check, expect
+from recalib.study.statistics import bootstrap, first_within
 
 
 def test_the_interval_covers_the_mean_as_often_as_it_says():

@@ -1,10 +1,11 @@
 import numpy as np
+import pandas as pd
 import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.experiments.experiment import measuring_grid, run
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.training import measuring_grid, run
 
 IMPROVED = Rules(True, True, True, True)
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
@@ -79,7 +80,7 @@ def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
 
 
 def test_the_table_has_a_row_for_each_run_and_measurement(history):
-    frame = history.to_frame()
+    frame = pd.DataFrame(history.columns())
     assert len(frame) == 3 * len(history.iterations)
     last = frame[(frame["seed"] == 2) & (frame["iteration"] == 60)].iloc[0]
     assert last["position_error_cm"] == 100 * history.position[2, -1, 0]

@@ -3,7 +3,7 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.studies.mapping import mapping_jacobians, true_commands
+from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 
 
 @pytest.fixture(scope="module")

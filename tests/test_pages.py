@@ -6,8 +6,8 @@ import re
 import pandas as pd
 import pytest
 
-from recalib.evidence.pages import context, measured, n, pair, render
-from recalib.evidence.results import Evidence
+from recalib.study.evidence.pages import context, measured, n, pair, render
+from recalib.study.evidence.results import Evidence
 from tests.conftest import ROOT
 
 RESULTS = ROOT / "results"

@@ -8,12 +8,12 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.damaged.scenarios import parse_damage
-from recalib.evidence.checks import check
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import run
 from recalib.learners import hierarchical, schedules
 from recalib.learners.maps import HierarchicalMap
+from recalib.study.evidence.checks import check
+from recalib.study.experiments import campaign, tuned
+from recalib.study.scenarios import parse_damage
+from recalib.training import run
 from tests.conftest import ROOT
 
 SEEDS = range(20)

@@ -7,9 +7,9 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.experiments import recorded
-from recalib.experiments.recorded import LEARNERS, read_recording, remaining_errors, with_tool_point
 from recalib.nominal.robots import load_robot
+from recalib.study.experiments import recorded
+from recalib.study.experiments.recorded import LEARNERS, read_recording, remaining_errors, with_tool_point
 
 # As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0

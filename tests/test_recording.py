@@ -3,6 +3,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import rerun_cli
 from PIL import Image
@@ -11,10 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
-from recalib.experiments.experiment import run
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
 from recalib.nominal.poses import position_error
-from recalib.recording import (
+from recalib.study.recording import (
     AFTER,
     BEFORE,
     BrokenRecording,
@@ -25,6 +25,7 @@ from recalib.recording import (
     take_pictures,
     write_recording,
 )
+from recalib.training import run
 
 RERUN = Path(rerun_cli.__file__).with_name("rerun")
 MEASURE_AT = range(0, 41, 4)
@@ -85,7 +86,8 @@ def results(controller):
     desired, tests = poses()
     plant = Plant(controller, [apply(controller.robot, DAMAGES)])
     return {
-        name: run(plant, learner, desired[None], tests[None], MEASURE_AT).to_frame() for name, learner in learners().items()
+        name: pd.DataFrame(run(plant, learner, desired[None], tests[None], MEASURE_AT).columns())
+        for name, learner in learners().items()
     }
 
 

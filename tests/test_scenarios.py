@@ -3,13 +3,13 @@ import copy
 import numpy as np
 import pytest
 
-from recalib.damaged import scenarios
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Disturbances
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.errors import InvalidQuantity, InvalidSetting, UnfitWorkspace, UnknownName
-from recalib.evidence.claims import missing
-from recalib.experiments import campaign
+from recalib.study import scenarios
+from recalib.study.evidence.claims import missing
+from recalib.study.experiments import campaign
 
 ASSIGNMENT = [{"link": "forearm_link", "shorten": "4 cm"}, {"encoder": "elbow_joint", "shift": "-3 deg"}]
 

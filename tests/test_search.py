@@ -3,8 +3,8 @@ import pandas as pd
 import pytest
 
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.experiments import search, tuned
 from recalib.learners.hierarchical import Rules
+from recalib.study.experiments import search, tuned
 
 RANGES = {"initial_width": [0.2, 5], "final_width": [0.1, 1], "initial_rate": [0.2, 1], "final_rate": [0.05, 1]}
 RULES = Rules(True, True, True, True)

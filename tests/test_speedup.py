@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.evidence.speedup import iterations_needed, speed_up
-from recalib.statistics import paired_ratio, share
+from recalib.study.evidence.speedup import iterations_needed, speed_up
+from recalib.study.statistics import paired_ratio, share
 
 RUNGS = np.array([100, 200, 400])
 

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from recalib.damaged.damage import BaseShift, EncoderShift, apply
-from recalib.studies.coupling import coupling
-from recalib.studies.propagation import ball, propagation_errors
-from recalib.studies.visits import visits
+from recalib.study.mapping.coupling import coupling
+from recalib.study.mapping.propagation import ball, propagation_errors
+from recalib.study.mapping.visits import visits
 
 
 def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.experiments import campaign
-from recalib.experiments.benchmark import entrant
-from recalib.experiments.experiment import run
+from recalib.study.experiments import campaign
+from recalib.study.experiments.benchmark import entrant
+from recalib.training import run
 from tests.conftest import copy_project, snakemake
 
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy

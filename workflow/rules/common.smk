@@ -15,11 +15,11 @@ validate(config, schema="../schemas/config.schema.yaml")
 # A job has one core: without this, every job's linear algebra starts a thread for each core of the machine.
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
-from recalib.damaged import scenarios
+from recalib.study import scenarios
 from recalib.errors import InvalidSetting, RecalibError
-from recalib.evidence.claims import missing
-from recalib.experiments import tuned
-from recalib.experiments.benchmark import training_of
+from recalib.study.evidence.claims import missing
+from recalib.study.experiments import tuned
+from recalib.study.experiments.benchmark import training_of
 
 ROOT = Path(workflow.basedir)
 RESULTS, FIGURE_FOLDER = config["results"], config["figures"]

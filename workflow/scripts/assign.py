@@ -5,10 +5,10 @@ import json
 import pandas as pd
 
 from recalib import quantities
-from recalib.damaged import scenarios
-from recalib.damaged.assignments import damages_of, distance_to, enumerate_assignments
 from recalib.randomness import generator
 from recalib.storage import whole
+from recalib.study import scenarios
+from recalib.study.assignments import damages_of, distance_to, enumerate_assignments
 from workflow.scripts.job import job
 
 with job(snakemake):

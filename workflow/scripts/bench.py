@@ -6,10 +6,10 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.damaged.plant import Plant
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import run
 from recalib.nominal.kinematics import tool_frame
 from recalib.storage import whole
+from recalib.study.experiments import campaign, tuned
+from recalib.training import run
 from workflow.scripts.job import job
 
 RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500

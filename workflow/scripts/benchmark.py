@@ -1,12 +1,13 @@
 """Let one learner work through scenarios of the benchmark, and measure it at every budget of moves."""
 
 import numpy as np
+import pandas as pd
 
-from recalib.experiments import campaign
-from recalib.experiments.benchmark import Timed, entrant
-from recalib.experiments.experiment import run
-from recalib.progress import progress_bar
 from recalib.storage import whole
+from recalib.study.experiments import campaign
+from recalib.study.experiments.benchmark import Timed, entrant
+from recalib.study.progress import progress_bar
+from recalib.training import run
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -24,7 +25,7 @@ with job(snakemake):
     )
     budgets = which.measure_at([*config["benchmark"]["moves"], *config["benchmark"]["longer"]])
     with progress_bar(f"{name} on {', '.join(scenarios)}", which.iterations) as progress:
-        frame = run(fleet, learner, desired, tests, budgets, progress).to_frame()
+        frame = pd.DataFrame(run(fleet, learner, desired, tests, budgets, progress).columns())
     frame = frame.assign(
         scenario=np.array(scenarios)[frame["seed"] // len(runs)],
         seed=frame["seed"] % len(runs),

@@ -5,12 +5,12 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from recalib.evidence.results import ERRORS
-from recalib.experiments.benchmark import BLACK_BOX, moves_to_reach
 from recalib.learners.peers import NEEDS
 from recalib.randomness import generator
-from recalib.statistics import bootstrap
 from recalib.storage import whole
+from recalib.study.evidence.results import ERRORS
+from recalib.study.experiments.benchmark import BLACK_BOX, moves_to_reach
+from recalib.study.statistics import bootstrap
 from workflow.scripts.job import job
 
 with job(snakemake):

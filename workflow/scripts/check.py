@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from recalib.evidence.checks import CheckFailed, check
 from recalib.storage import whole
+from recalib.study.evidence.checks import CheckFailed, check
 from workflow.scripts.job import job
 
 with job(snakemake):

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import yaml
 
-from recalib.evidence.claims import judge
-from recalib.evidence.results import Evidence
 from recalib.storage import whole
+from recalib.study.evidence.claims import judge
+from recalib.study.evidence.results import Evidence
 from workflow.scripts.job import job
 
 with job(snakemake):

@@ -5,15 +5,15 @@ from itertools import islice
 import numpy as np
 import pandas as pd
 
-from recalib.damaged import scenarios
-from recalib.damaged.assignments import damages_of
 from recalib.damaged.damage import EncoderShift, apply
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import run
 from recalib.randomness import generator
 from recalib.storage import whole
+from recalib.study import scenarios
+from recalib.study.assignments import damages_of
+from recalib.study.experiments import campaign, tuned
+from recalib.training import run
 from workflow.scripts.job import job
 
 

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from recalib.evidence.checks import expect
 from recalib.storage import whole
+from recalib.study.evidence.checks import expect
 from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:

@@ -1,7 +1,7 @@
 """Draw one figure from the evidence."""
 
-from recalib import plots
-from recalib.evidence.results import Evidence
+from recalib.study import plots
+from recalib.study.evidence.results import Evidence
 from workflow.scripts.job import job
 
 with job(snakemake), plots.plt.rc_context(plots.STYLE):

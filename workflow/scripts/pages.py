@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from recalib.evidence.pages import context, render
-from recalib.evidence.results import Evidence
 from recalib.storage import whole
+from recalib.study.evidence.pages import context, render
+from recalib.study.evidence.results import Evidence
 from workflow.scripts.job import job
 
 with job(snakemake):

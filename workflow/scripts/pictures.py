@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from recalib.recording import AFTER, BEFORE, take_pictures
+from recalib.study.recording import AFTER, BEFORE, take_pictures
 from workflow.scripts.job import job
 
 with job(snakemake):

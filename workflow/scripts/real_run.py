@@ -2,10 +2,10 @@
 
 import pandas as pd
 
-from recalib.experiments.recorded import read_recording, remaining_errors, with_tool_point
 from recalib.nominal.robots import load_robot
 from recalib.randomness import generator
 from recalib.storage import whole
+from recalib.study.experiments.recorded import read_recording, remaining_errors, with_tool_point
 from workflow.scripts.job import job
 
 with job(snakemake):

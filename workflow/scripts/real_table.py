@@ -3,8 +3,8 @@
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.statistics import bootstrap
 from recalib.storage import whole
+from recalib.study.statistics import bootstrap
 from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:

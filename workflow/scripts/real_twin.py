@@ -4,12 +4,12 @@ import numpy as np
 import pandas as pd
 
 from recalib.damaged.plant import Plant
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import run
-from recalib.experiments.recorded import calibrate_hybrid, read_recording, with_tool_point
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import load_robot
 from recalib.storage import whole
+from recalib.study.experiments import campaign, tuned
+from recalib.study.experiments.recorded import calibrate_hybrid, read_recording, with_tool_point
+from recalib.training import run
 from workflow.scripts.job import job
 
 with job(snakemake):

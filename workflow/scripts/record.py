@@ -5,10 +5,10 @@ import importlib.metadata
 import json
 from pathlib import Path
 
-from recalib.damaged import scenarios
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import measuring_grid
-from recalib.recording import write_recording
+from recalib.study import scenarios
+from recalib.study.experiments import campaign, tuned
+from recalib.study.recording import write_recording
+from recalib.training import measuring_grid
 from workflow.scripts.job import job
 
 SEED = 0

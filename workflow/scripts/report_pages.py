@@ -9,8 +9,8 @@ import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from recalib.experiments import tuned
 from recalib.storage import whole
+from recalib.study.experiments import tuned
 from workflow.scripts.job import job
 
 

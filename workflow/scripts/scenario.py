@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.damaged import scenarios
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.randomness import generator
 from recalib.storage import whole
+from recalib.study import scenarios
 from workflow.scripts.job import job
 
 with job(snakemake):

@@ -3,8 +3,8 @@
 import pandas as pd
 import yaml
 
-from recalib.experiments import search
 from recalib.storage import whole
+from recalib.study.experiments import search
 from workflow.scripts.job import job
 
 with job(snakemake):

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 
 from recalib.damaged.plant import Plant
-from recalib.experiments import campaign, search, tuned
-from recalib.experiments.experiment import run
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.storage import whole
+from recalib.study.experiments import campaign, search, tuned
+from recalib.training import run
 from workflow.scripts.job import job
 
 with job(snakemake):

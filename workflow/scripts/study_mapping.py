@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pandas as pd
 
-from recalib.damaged import scenarios
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.experiments import campaign
 from recalib.randomness import generator
 from recalib.storage import whole
-from recalib.studies.coupling import coupling
-from recalib.studies.mapping import mapping_jacobians, true_commands
-from recalib.studies.propagation import ball, propagation_errors
+from recalib.study import scenarios
+from recalib.study.experiments import campaign
+from recalib.study.mapping.coupling import coupling
+from recalib.study.mapping.propagation import ball, propagation_errors
+from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from workflow.scripts.job import job
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 
 from recalib.damaged.plant import Plant
-from recalib.experiments import campaign, tuned
 from recalib.storage import whole
+from recalib.study.experiments import campaign, tuned
 from workflow.scripts.job import job
 
 with job(snakemake):

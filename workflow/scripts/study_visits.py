@@ -4,7 +4,7 @@ import numpy as np
 
 from recalib.randomness import generator
 from recalib.storage import whole
-from recalib.studies.visits import visits
+from recalib.study.mapping.visits import visits
 from workflow.scripts.job import job
 
 with job(snakemake):

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pandas as pd
 
-from recalib.experiments import tuned
 from recalib.randomness import generator
-from recalib.statistics import bootstrap
 from recalib.storage import whole
+from recalib.study.experiments import tuned
+from recalib.study.statistics import bootstrap
 from workflow.scripts.job import job
 
 ERRORS = ("position_error_cm", "orientation_error_deg")

@@ -3,11 +3,12 @@
 import sys
 
 import numpy as np
+import pandas as pd
 
-from recalib.experiments import campaign, tuned
-from recalib.experiments.experiment import measuring_grid, run
-from recalib.progress import progress_bar
 from recalib.storage import whole
+from recalib.study.experiments import campaign, tuned
+from recalib.study.progress import progress_bar
+from recalib.training import measuring_grid, run
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -30,7 +31,7 @@ with job(snakemake):
         )
     if refused := history.refused[:, -1].sum():
         print(f"{which} on {scenario}: the controller refused {refused} moves", file=sys.stderr)
-    frame = history.to_frame()
+    frame = pd.DataFrame(history.columns())
     frame["seed"] += runs.start
     with whole(snakemake.output.history) as path:
         frame.to_parquet(path, index=False)

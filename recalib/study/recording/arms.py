@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
-from recalib.recording.story import Motion, Training
+from recalib.study.recording.story import Motion, Training
 
 GHOST = (140, 190, 255, 70)
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities

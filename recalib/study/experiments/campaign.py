@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.damaged import scenarios
 from recalib.damaged.damage import DamagedArm, apply
 from recalib.damaged.fleet import Fleet
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
 from recalib.randomness import generator
+from recalib.study import scenarios
 
 
 def load_scenario(path: str | Path, config: Mapping) -> tuple[Controller, DamagedArm]:

@@ -7,7 +7,7 @@ import jinja2
 import numpy as np
 import pandas as pd
 
-from recalib.evidence.results import ERRORS, Evidence
+from recalib.study.evidence.results import ERRORS, Evidence
 
 UNITS = ("cm", "degrees")
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from recalib.evidence.results import ERRORS, Evidence
-from recalib.experiments.benchmark import BLACK_BOX
 from recalib.learners.peers import NEEDS
+from recalib.study.evidence.results import ERRORS, Evidence
+from recalib.study.experiments.benchmark import BLACK_BOX
 
 THRESHOLD = 0.1  # cm and degrees
 WORSE = 1.1  # times the best peer's error is worse

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 
 from recalib.errors import UnknownName
-from recalib.experiments import tuned
-from recalib.experiments.tuned import Training
 from recalib.learners import peers
 from recalib.learners.learner import Learner
 from recalib.nominal.controller import Controller
+from recalib.study.experiments import tuned
+from recalib.study.experiments.tuned import Training
 
 BLACK_BOX = "measured poses, two moves for each"
 

@@ -4,8 +4,8 @@ import matplotlib.pyplot as plt
 import pandas as pd
 from matplotlib.figure import Figure
 
-from recalib.evidence.results import Evidence
-from recalib.plots.style import LABELS, plain, title
+from recalib.study.evidence.results import Evidence
+from recalib.study.plots.style import LABELS, plain, title
 
 # Colours of Okabe and Ito and a marker each, for black and white.
 ENTRANTS = {

@@ -6,9 +6,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib.evidence.results import Evidence
-from recalib.plots.style import BAND, LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
-from recalib.statistics import first_within
+from recalib.study.evidence.results import Evidence
+from recalib.study.plots.style import BAND, LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
+from recalib.study.statistics import first_within
 
 
 def curves(history: pd.DataFrame, error: str) -> pd.DataFrame:

@@ -6,7 +6,7 @@ import pandas as pd
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import ORIENTATION, POSITION
-from recalib.studies.mapping import mapping_jacobians
+from recalib.study.mapping.true_mapping import mapping_jacobians
 
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import yaml
 
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.experiments import search
 from recalib.learners.hierarchical import HierarchicalLearner, Rules
+from recalib.study.experiments import search
 
 
 class Training(NamedTuple):

@@ -7,11 +7,11 @@ import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
-from recalib.experiments.experiment import History, run
 from recalib.learners import schedules
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
+from recalib.training import History, run
 
 FRAMES_A_SECOND = 25
 MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there

@@ -6,11 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from recalib.evidence.results import ERRORS, Evidence
-from recalib.evidence.speedup import speed_up
-from recalib.experiments import search
-from recalib.statistics import Estimate, paired_ratio, share
-from recalib.studies.propagation import integral_ratios
+from recalib.study.evidence.results import ERRORS, Evidence
+from recalib.study.evidence.speedup import speed_up
+from recalib.study.experiments import search
+from recalib.study.mapping.propagation import integral_ratios
+from recalib.study.statistics import Estimate, paired_ratio, share
 
 SUPPORTED, NOT_SUPPORTED = "supported", "not supported"
 

@@ -18,7 +18,7 @@ import numpy as np
 import rerun as rr
 
 from recalib.nominal.poses import POSITION, Workspace
-from recalib.recording.story import Motion, Training
+from recalib.study.recording.story import Motion, Training
 
 PAPER = {"position_error_cm": (8.3, "cm"), "orientation_error_deg": (4.7, "deg")}  # section 7: before recalibration
 LEAST_ERROR = 1e-3
@@ -49,7 +49,7 @@ def log_surroundings(rec: rr.RecordingStream, workspace: Workspace, desired: np.
 def send_errors(rec: rr.RecordingStream, learner: str, colour: tuple, training: Training, motion: Motion) -> None:
     """Mean errors over all test poses, as measured and as logarithms, since the viewer's plots are linear."""
     clock, rows = _measurements(training, motion)
-    results = training.history.to_frame()
+    results = training.history.columns()
     for quantity in PAPER:
         values = results[quantity].to_numpy()[rows]
         rec.send_columns(f"errors/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=values))

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from recalib.experiments import tuned
 from recalib.randomness import generator
+from recalib.study.experiments import tuned
 
 ERRORS = ["position_error_cm", "orientation_error_deg"]
 

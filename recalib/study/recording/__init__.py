@@ -10,12 +10,12 @@ import rerun as rr
 from recalib.damaged.damage import Damage, apply
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
-from recalib.recording import arms, scene, story
-from recalib.recording.blueprint import arrange
-from recalib.recording.picture import ViewerUnavailable, take_pictures
-from recalib.recording.seal import BrokenRecording, check_recording, write_sealed
-from recalib.recording.story import AFTER, BEFORE, Training
 from recalib.storage import whole
+from recalib.study.recording import arms, scene, story
+from recalib.study.recording.blueprint import arrange
+from recalib.study.recording.picture import ViewerUnavailable, take_pictures
+from recalib.study.recording.seal import BrokenRecording, check_recording, write_sealed
+from recalib.study.recording.story import AFTER, BEFORE, Training
 
 __all__ = [
     "AFTER",
@@ -90,5 +90,5 @@ def write_recording(
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
         write_sealed(temporary, path.stem, arrange(trainings, robot.workspace), fill)
-        check_recording(temporary, {name: training.history.to_frame() for name, training in trainings.items()})
+        check_recording(temporary, {name: training.history.columns() for name, training in trainings.items()})
     return trainings

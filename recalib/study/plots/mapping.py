@@ -4,9 +4,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from recalib.evidence.results import ERRORS, Evidence
-from recalib.plots.style import ORIENTATION, POSITION, plain, title
-from recalib.studies.propagation import integral_ratios
+from recalib.study.evidence.results import ERRORS, Evidence
+from recalib.study.mapping.propagation import integral_ratios
+from recalib.study.plots.style import ORIENTATION, POSITION, plain, title
 
 
 def figure5(evidence: Evidence) -> Figure:

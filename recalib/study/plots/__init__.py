@@ -1,10 +1,10 @@
 """Figures: evidence in, a drawing out."""
 
-from recalib.plots.benchmark import figure12, figure13
-from recalib.plots.comparisons import figure4, figure6, figure9, figure11
-from recalib.plots.learning import figure1, figure2, figure3
-from recalib.plots.mapping import figure5, figure7, figure8, figure10
-from recalib.plots.style import STYLE, plt, save
+from recalib.study.plots.benchmark import figure12, figure13
+from recalib.study.plots.comparisons import figure4, figure6, figure9, figure11
+from recalib.study.plots.learning import figure1, figure2, figure3
+from recalib.study.plots.mapping import figure5, figure7, figure8, figure10
+from recalib.study.plots.style import STYLE, plt, save
 
 __all__ = ["FIGURES", "STYLE", "plt", "save"]
 

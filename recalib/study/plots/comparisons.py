@@ -5,12 +5,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib.evidence.claims import combined
-from recalib.evidence.results import ERRORS, Evidence
-from recalib.evidence.speedup import speed_up
-from recalib.experiments import search
-from recalib.plots.style import LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
-from recalib.statistics import paired_ratio
+from recalib.study.evidence.claims import combined
+from recalib.study.evidence.results import ERRORS, Evidence
+from recalib.study.evidence.speedup import speed_up
+from recalib.study.experiments import search
+from recalib.study.plots.style import LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
+from recalib.study.statistics import paired_ratio
 
 SWITCHES = {
     "separate maps": ("improved_single_map", "ritter_separate_maps"),

@@ -6,8 +6,8 @@ import numpy as np
 import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
-from recalib.recording.scene import PAPER, logarithm
-from recalib.recording.story import Training
+from recalib.study.recording.scene import PAPER, logarithm
+from recalib.study.recording.story import Training
 
 TITLES = {
     "position_error_cm": "position error, log10 of cm  (1 = 10 cm, 0 = 1 cm, -1 = 1 mm)",
@@ -63,7 +63,7 @@ def _scene(name: str, entities: Iterable[str], workspace: Workspace, share: floa
 
 def _plots(learners: list[str], trainings: Mapping[str, Training]) -> Iterable[rrb.TimeSeriesView]:
     for quantity, title in TITLES.items():
-        shown = [logarithm(trainings[learner].history.to_frame()[quantity]) for learner in learners]
+        shown = [logarithm(trainings[learner].history.columns()[quantity]) for learner in learners]
         values = np.concatenate([*shown, [np.log10(PAPER[quantity][0])]])
         yield rrb.TimeSeriesView(
             origin=f"log10/{quantity}",

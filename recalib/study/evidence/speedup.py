@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from recalib.statistics import LEVEL, RESAMPLES, Estimate
+from recalib.study.statistics import LEVEL, RESAMPLES, Estimate
 
 
 def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray) -> float:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.fleet import Fleet
 from recalib.damaged.plant import Plant
@@ -35,21 +34,19 @@ class History:
     position: np.ndarray
     orientation: np.ndarray
 
-    def to_frame(self) -> pd.DataFrame:
-        """A row for each run and measurement, errors in centimetres and degrees."""
+    def columns(self) -> dict[str, np.ndarray]:
+        """A table by its columns, a row for each run and measurement, errors in centimetres and degrees."""
         runs = len(self.position)
-        frame = pd.DataFrame(
-            {
-                "seed": np.repeat(np.arange(runs), len(self.iterations)),
-                "iteration": np.tile(self.iterations, runs),
-                "moves": np.tile(self.moves, runs),
-                "refused": self.refused.ravel(),
-            }
-        )
+        table = {
+            "seed": np.repeat(np.arange(runs), len(self.iterations)),
+            "iteration": np.tile(self.iterations, runs),
+            "moves": np.tile(self.moves, runs),
+            "refused": self.refused.ravel(),
+        }
         for index, suffix in enumerate(SUMMARIES):
-            frame[f"position_error{suffix}_cm"] = 100 * self.position[..., index].ravel()
-            frame[f"orientation_error{suffix}_deg"] = np.degrees(self.orientation[..., index].ravel())
-        return frame
+            table[f"position_error{suffix}_cm"] = 100 * self.position[..., index].ravel()
+            table[f"orientation_error{suffix}_deg"] = np.degrees(self.orientation[..., index].ravel())
+        return table
 
 
 def measure(plant: Plant | Fleet, learner: Learner, tests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

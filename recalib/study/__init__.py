@@ -1,0 +1,1 @@
+"""A study of the paper: a function from one configuration to figures, tables and verdicts."""
