@@ -20,7 +20,9 @@ class InvalidQuantity(RecalibError):
 
     def __init__(self, text: object, units: Iterable[str]):
         self.text, self.units = text, sorted(units)
-        super().__init__(f"{text!r} is no quantity: a number and one of {', '.join(self.units)}, as in '4 {self.units[0]}'")
+        super().__init__(
+            f"{text!r} is no quantity: a number and one of {', '.join(self.units)}, as in '4 {self.units[0]}'"
+        )
 
 
 class InvalidSetting(RecalibError):
@@ -47,7 +49,9 @@ class Unreachable(RecalibError):
         self.residual, self.reason = float(residual), reason
         place = ", ".join(f"{x:.3f}" for x in self.position)
         axes = "; ".join(", ".join(f"{x:.3f}" for x in row) for row in self.rotation)
-        super().__init__(f"pose at ({place}) m, rotation [{axes}], cannot be commanded: {reason} (residual {residual:.2g})")
+        super().__init__(
+            f"pose at ({place}) m, rotation [{axes}], cannot be commanded: {reason} (residual {residual:.2g})"
+        )
 
 
 class UnfitWorkspace(RecalibError):

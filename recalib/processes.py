@@ -13,11 +13,17 @@ from sklearn.gaussian_process.kernels import Kernel
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
-FIRST_NOISES = 1e-3, 1e-1, 1e-6  # where searches start: to take all for noise is a local optimum of few data
+FIRST_NOISES = (
+    1e-3,
+    1e-1,
+    1e-6,
+)  # where searches start: to take all for noise is a local optimum of few data
 FEWEST = 6  # points to judge hyperparameters by
 MOST = 128  # points to judge hyperparameters by: the time grows with their cube, and more tell little more
 STEPS = 50  # of a search
-ROUNDING = 10 * np.finfo(float).eps  # deviations of an output that is constant: not to be blown up to one
+ROUNDING = (
+    10 * np.finfo(float).eps
+)  # deviations of an output that is constant: not to be blown up to one
 
 
 def is_time_to_search(before: int, points: int) -> bool:
@@ -78,13 +84,23 @@ class Process:
             hyperparameters gain by chance (Schwarz's criterion).
     """
 
-    def __init__(self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None):
+    def __init__(
+        self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None
+    ):
         self._inputs, self._outputs = inputs, outputs
-        self._centre, self._mean, deviations = inputs.mean(axis=0), outputs.mean(axis=0), outputs.std(axis=0)
+        self._centre, self._mean, deviations = (
+            inputs.mean(axis=0),
+            outputs.mean(axis=0),
+            outputs.std(axis=0),
+        )
         self._scale = np.where(deviations > ROUNDING, deviations, 1)
         inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
-            hyperparameters = _search(inputs[:MOST], outputs[:MOST]) if len(inputs) >= FEWEST else _start(inputs.shape[1])
+            hyperparameters = (
+                _search(inputs[:MOST], outputs[:MOST])
+                if len(inputs) >= FEWEST
+                else _start(inputs.shape[1])
+            )
         self.hyperparameters = hyperparameters
         self._regressor = _regressor(inputs, outputs, hyperparameters)
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
@@ -93,21 +109,31 @@ class Process:
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        regressor = self._regressor  # whose own `predict` checks and copies for longer than it computes
+        regressor = (
+            self._regressor
+        )  # whose own `predict` checks and copies for longer than it computes
         expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
         return self._mean + expected * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
         """The arguments that make it again, as named arrays."""
-        return {"inputs": self._inputs, "outputs": self._outputs, "hyperparameters": self.hyperparameters}
+        return {
+            "inputs": self._inputs,
+            "outputs": self._outputs,
+            "hyperparameters": self.hyperparameters,
+        }
 
 
 def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
     return np.log([1.0, 1.0, *[FIRST_LENGTH] * dimensions, noise])
 
 
-def _regressor(inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray) -> GaussianProcessRegressor:
-    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(inputs, outputs)
+def _regressor(
+    inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
+) -> GaussianProcessRegressor:
+    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(
+        inputs, outputs
+    )
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
@@ -120,9 +146,14 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     regressor = _regressor(inputs, outputs, starts[0])
 
     def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:
-        value, slope = regressor.log_marginal_likelihood(hyperparameters, eval_gradient=True, clone_kernel=False)
+        value, slope = regressor.log_marginal_likelihood(
+            hyperparameters, eval_gradient=True, clone_kernel=False
+        )
         return -value, -slope
 
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
-    found = [minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS}) for start in starts]
+    found = [
+        minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS})
+        for start in starts
+    ]
     return min(found, key=lambda result: result.fun).x

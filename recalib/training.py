@@ -45,11 +45,15 @@ class History:
         }
         for index, suffix in enumerate(SUMMARIES):
             table[f"position_error{suffix}_cm"] = 100 * self.position[..., index].ravel()
-            table[f"orientation_error{suffix}_deg"] = np.degrees(self.orientation[..., index].ravel())
+            table[f"orientation_error{suffix}_deg"] = np.degrees(
+                self.orientation[..., index].ravel()
+            )
         return table
 
 
-def measure(plant: Plant | Fleet, learner: Learner, tests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def measure(
+    plant: Plant | Fleet, learner: Learner, tests: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at the test poses (run, pose, 6), by (1).
 
     Measuring is no learning: its moves are not counted.
@@ -57,7 +61,9 @@ def measure(plant: Plant | Fleet, learner: Learner, tests: np.ndarray) -> tuple[
     achieved, _ = plant.achieve(learner.command(tests))
     desired = plant.workspace.to_poses(tests)
     errors = position_error(achieved, desired), orientation_error(achieved, desired)
-    return tuple(np.stack([summary(error) for summary in SUMMARIES.values()], axis=-1) for error in errors)
+    return tuple(
+        np.stack([summary(error) for summary in SUMMARIES.values()], axis=-1) for error in errors
+    )
 
 
 def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:

@@ -8,7 +8,9 @@ import sys
 import time
 from pathlib import Path
 
-os.environ["OMP_NUM_THREADS"] = "1"  # before NumPy is there: small matrices are slower on many threads than on one
+os.environ["OMP_NUM_THREADS"] = (
+    "1"  # before NumPy is there: small matrices are slower on many threads than on one
+)
 
 import numpy as np
 import pytest
@@ -42,13 +44,21 @@ def controller(config) -> Controller:
 @pytest.fixture(scope="session")
 def damaged(robot) -> DamagedArm:
     """A damage as serious as the paper's."""
-    shift = EncoderShift("elbow_joint", np.radians(4)), EncoderShift("wrist_3_joint", np.radians(-3))
+    shift = (
+        EncoderShift("elbow_joint", np.radians(4)),
+        EncoderShift("wrist_3_joint", np.radians(-3)),
+    )
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
 
 
 def snakemake(project, *arguments) -> subprocess.CompletedProcess:
     return subprocess.run(
-        [*SNAKEMAKE, *arguments], cwd=project, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False
+        [*SNAKEMAKE, *arguments],
+        cwd=project,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        check=False,
     )
 
 
@@ -64,7 +74,11 @@ def project(tmp_path_factory) -> Path:
     """A copy of the project whose run was killed in the middle and started again."""
     folder = copy_project(tmp_path_factory.mktemp("project"))
     process = subprocess.Popen(
-        SNAKEMAKE, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        SNAKEMAKE,
+        cwd=folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
     )
     whole = "results/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
     deadline = time.monotonic() + 120
@@ -74,9 +88,15 @@ def project(tmp_path_factory) -> Path:
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     gathered = [path.relative_to(folder / "results" / "runs") for path in folder.glob(whole)]
-    chunks = [path for run in gathered for path in folder.glob(f"results/chunks/{run.parent}/{run.stem}.*.parquet")]
+    chunks = [
+        path
+        for run in gathered
+        for path in folder.glob(f"results/chunks/{run.parent}/{run.stem}.*.parquet")
+    ]
     done = {path: path.stat().st_mtime_ns for path in chunks}
     finished = snakemake(folder)
     assert finished.returncode == 0, finished.stdout
-    assert done and all(path.stat().st_mtime_ns == then for path, then in done.items()), "what was done is kept"
+    assert done and all(path.stat().st_mtime_ns == then for path, then in done.items()), (
+        "what was done is kept"
+    )
     return folder

@@ -8,7 +8,11 @@ class SlowMap:
 
     def __init__(self, w_k, w_kl, rows):
         self.w_k, self.w_kl = w_k, w_kl
-        self.theta = {(k, l): np.concatenate([w_k[k], w_kl[l]])[rows] for k in range(len(w_k)) for l in range(len(w_kl))}
+        self.theta = {
+            (k, l): np.concatenate([w_k[k], w_kl[l]])[rows]
+            for k in range(len(w_k))
+            for l in range(len(w_kl))
+        }
         self.A = {cell: np.eye(6)[rows] for cell in self.theta}
 
     def winner(self, u):
@@ -17,7 +21,9 @@ class SlowMap:
 
     def output(self, u):
         k, l = self.winner(u)
-        return self.theta[k, l] + self.A[k, l] @ (u - np.concatenate([self.w_k[k], self.w_kl[l]]))  # (1)
+        return self.theta[k, l] + self.A[k, l] @ (
+            u - np.concatenate([self.w_k[k], self.w_kl[l]])
+        )  # (1)
 
 
 def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments):
@@ -40,4 +46,6 @@ def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments)
             m.theta[i, j] = m.theta[i, j] + c * (
                 theta_star if theta_increments else theta_star - m.theta[i, j]
             )  # (7) or (4)
-            m.A[i, j] = m.A[i, j] + c * (A_star if jacobian_increments else A_star - m.A[i, j])  # (9) or (5)
+            m.A[i, j] = m.A[i, j] + c * (
+                A_star if jacobian_increments else A_star - m.A[i, j]
+            )  # (9) or (5)

@@ -6,7 +6,17 @@ from tests.conftest import ROOT
 
 LIBRARY = "nominal", "damaged", "identification", "learners"
 STUDY = "mapping", "experiments", "evidence", "plots", "recording"
-FOR_STUDIES_ALONE = {"jinja2", "matplotlib", "pandas", "pyarrow", "pydantic", "rerun", "snakemake", "tqdm", "yaml"}
+FOR_STUDIES_ALONE = {
+    "jinja2",
+    "matplotlib",
+    "pandas",
+    "pyarrow",
+    "pydantic",
+    "rerun",
+    "snakemake",
+    "tqdm",
+    "yaml",
+}
 
 
 def imported(path) -> set[str]:
@@ -21,7 +31,9 @@ def imported(path) -> set[str]:
     return names
 
 
-@pytest.mark.parametrize(("root", "layers"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"])
+@pytest.mark.parametrize(
+    ("root", "layers"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"]
+)
 def test_imports_point_one_way(root, layers):
     folder = ROOT.joinpath(*root.split("."))
     for index, layer in enumerate(layers):
@@ -35,7 +47,9 @@ def test_imports_point_one_way(root, layers):
 def test_every_package_has_its_layer():
     packages = {path.parent.name for path in (ROOT / "recalib").glob("*/__init__.py")}
     assert packages == {*LIBRARY, "study"}
-    assert {*STUDY} <= {path.parent.name for path in (ROOT / "recalib" / "study").glob("*/__init__.py")}
+    assert {*STUDY} <= {
+        path.parent.name for path in (ROOT / "recalib" / "study").glob("*/__init__.py")
+    }
 
 
 def test_the_library_knows_of_no_study_and_needs_none_of_its_packages():

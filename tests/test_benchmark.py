@@ -41,16 +41,22 @@ def test_only_the_time_of_the_learner_is_taken():
         def learn(self, desired, execute, fraction):
             execute(desired[:, None])
 
-    clock = iter([0.0, 1.0, 11.0, 13.0])  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
+    clock = iter(
+        [0.0, 1.0, 11.0, 13.0]
+    )  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("recalib.study.experiments.benchmark.time.perf_counter", lambda: next(clock))
         timed = Timed(Slow())
-        timed.learn(np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0)
+        timed.learn(
+            np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0
+        )
     assert timed.seconds == 3.0
 
 
 def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
-    history = pd.DataFrame({"seed": [0, 0, 0, 1, 1, 1], "moves": [1, 2, 3] * 2, ERRORS[0]: [3, 1, 2, 3, 3, 3.0]})
+    history = pd.DataFrame(
+        {"seed": [0, 0, 0, 1, 1, 1], "moves": [1, 2, 3] * 2, ERRORS[0]: [3, 1, 2, 3, 3, 3.0]}
+    )
     assert moves_to_reach(history, ERRORS[0], 1).tolist() == [2, np.inf]
 
 
@@ -67,4 +73,6 @@ def test_where_the_hybrid_is_worse_is_said():
         for learner, value in zip(("hybrid", "affine"), values, strict=True)
     ]
     worse = where_worse(pd.DataFrame(rows), [2, 4, 8])
-    assert [(each["moves"], each["error"], each["learner"]) for each in worse] == [(8, "position", "affine")]
+    assert [(each["moves"], each["error"], each["learner"]) for each in worse] == [
+        (8, "position", "affine")
+    ]

@@ -13,7 +13,10 @@ def calibrations(controller):
     robot, generator = controller.robot, np.random.default_rng(1)
     angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(generator, 40)))
     gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
-    found = [calibrate(robot.arm, (terms,), angles, gear.forward(angles)) for terms in (OFFSETS, JOINT_ERRORS)]
+    found = [
+        calibrate(robot.arm, (terms,), angles, gear.forward(angles))
+        for terms in (OFFSETS, JOINT_ERRORS)
+    ]
     assert [calibration.residual is None for calibration in found] == [False, True]
     return found
 

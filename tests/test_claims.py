@@ -27,7 +27,9 @@ class MadeUp(Evidence):
 
     def history(self, learner, scenario=None):
         scenario = scenario or self.paper
-        final = np.broadcast_to(self.final.get((learner, scenario), self.final.get(learner, 0.3)), 2)
+        final = np.broadcast_to(
+            self.final.get((learner, scenario), self.final.get(learner, 0.3)), 2
+        )
         initial = {"intact": np.zeros(2), "translation": INITIAL * [1, 0]}.get(scenario, INITIAL)
         noise = np.exp(0.02 * np.random.default_rng(len(learner)).normal(size=(SEEDS, 2)))
         frames = [
@@ -69,9 +71,9 @@ def supporting(config):
         ("improved", "translation_rotation"): 0.1,
     }
     final |= {learner: 0.4 for learner in config["learners"] if learner.startswith("improved_")}
-    final |= {learner: [4.0, 2.0] for learner in config["learners"] if learner.startswith("ritter_")} | {
-        "ritter_double": 0.3
-    }
+    final |= {
+        learner: [4.0, 2.0] for learner in config["learners"] if learner.startswith("ritter_")
+    } | {"ritter_double": 0.3}
     ladder = {"improved": 1 / 3, "ritter": 20.0}
     final |= {
         f"{name}_{rung}": 60 / rung * scale * np.ones(2)
@@ -80,9 +82,18 @@ def supporting(config):
     }
     final |= {"improved": 0.1, "ritter": 20 * 60 / 10_000, "ritter_200": [5.0, 3.0]}
     studies = {
-        "coupling": pd.DataFrame({"position": [0.02] * 9, "orientation": [0.05] * 9, "scenario": ["links"] * 9}),
+        "coupling": pd.DataFrame(
+            {"position": [0.02] * 9, "orientation": [0.05] * 9, "scenario": ["links"] * 9}
+        ),
         "propagation": propagation(0.1),
-        "visits": pd.DataFrame({"width": [0.1, 0.1], "distance": [0.0, 0.5], "ratio": [0.5, 1.01], "error": [0.01, 0.01]}),
+        "visits": pd.DataFrame(
+            {
+                "width": [0.1, 0.1],
+                "distance": [0.0, 0.5],
+                "ratio": [0.5, 1.01],
+                "error": [0.01, 0.01],
+            }
+        ),
         "replay": pd.DataFrame({"array": ["theta"], "difference": [0.0]}),
     }
     rng = np.random.default_rng(0)
@@ -121,7 +132,17 @@ def test_supporting_evidence_supports_every_claim(evidence):
 
 def test_the_contract_of_claims_json_holds(evidence):
     for claim in json.loads(json.dumps(judge(CRITERIA, evidence), allow_nan=False)):
-        keys = ["id", "section", "statement", "published", "measured", "interval", "criterion", "verdict", "note"]
+        keys = [
+            "id",
+            "section",
+            "statement",
+            "published",
+            "measured",
+            "interval",
+            "criterion",
+            "verdict",
+            "note",
+        ]
         assert list(claim) == keys and claim["measured"] and measured(claim)
         assert set(claim["interval"]) <= set(claim["measured"])
 
@@ -156,10 +177,24 @@ def test_contradicting_errors_change_the_verdict(evidence, claim, final):
 @pytest.mark.parametrize(
     ("claim", "studies"),
     [
-        ("weak-coupling", {"coupling": pd.DataFrame({"position": [0.2], "orientation": [0.0], "scenario": ["links"]})}),
+        (
+            "weak-coupling",
+            {
+                "coupling": pd.DataFrame(
+                    {"position": [0.2], "orientation": [0.0], "scenario": ["links"]}
+                )
+            },
+        ),
         ("theta-increments", {"propagation": propagation(1.2)}),
         ("jacobian-increments", {"propagation": propagation(1.0)}),
-        ("expected-learning", {"visits": pd.DataFrame({"width": [0.1], "distance": [1.0], "ratio": [1.2], "error": [0.1]})}),
+        (
+            "expected-learning",
+            {
+                "visits": pd.DataFrame(
+                    {"width": [0.1], "distance": [1.0], "ratio": [1.2], "error": [0.1]}
+                )
+            },
+        ),
         ("controller-kept", {"replay": pd.DataFrame({"array": ["theta"], "difference": [1e-9]})}),
     ],
 )
@@ -168,7 +203,9 @@ def test_contradicting_studies_change_the_verdict(evidence, claim, studies):
 
 
 def test_contradicting_trials_change_the_verdict(evidence):
-    swapped = evidence.sample.rename(columns={"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"})
+    swapped = evidence.sample.rename(
+        columns={"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"}
+    )
     assert against(evidence, sample=swapped)["width-order"] == "not supported"
     lucky = evidence.sample.assign(**{ERRORS[0]: [0.01, *[3.0] * 99], ERRORS[1]: 0.01})
     assert against(evidence, sample=lucky)["rough-search"] == "not supported"

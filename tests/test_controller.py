@@ -13,7 +13,9 @@ from recalib.study.scenarios import load_controller
 def test_forward_of_inverse_is_the_pose(name, config):
     controller = load_controller(name, config)
     workspace = controller.robot.workspace
-    poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 10_000 if name == "ur10" else 1000))
+    poses = workspace.to_poses(
+        workspace.sample(np.random.default_rng(1), 10_000 if name == "ur10" else 1000)
+    )
     reached = controller.robot.arm.forward(controller.inverse(poses))
     assert position_error(reached, poses).max() < 1e-9
     assert orientation_error(reached, poses).max() < 1e-9
@@ -37,7 +39,9 @@ def test_neighbouring_commands_stay_on_the_branch_of_home(controller):
 def test_a_pose_out_of_reach_is_an_error_that_names_it(controller):
     pose = controller.robot.workspace.centre.copy()
     pose[0, 3] = 3.0
-    with pytest.raises(Unreachable, match=r"\(3.000, .*no joint angles reach it \(residual") as caught:
+    with pytest.raises(
+        Unreachable, match=r"\(3.000, .*no joint angles reach it \(residual"
+    ) as caught:
         controller.inverse(np.stack([controller.robot.workspace.centre, pose]))
     assert caught.value.residual > 1 and caught.value.position[0] == 3.0
 
@@ -54,14 +58,18 @@ def test_a_pose_beyond_the_joint_limits_is_an_error(config):
 def test_a_workspace_out_of_reach_is_refused(config):
     far = copy.deepcopy(config)
     far["robots"]["ur10"]["workspace"]["position"] = ["150 cm"] * 3
-    with pytest.raises(UnfitWorkspace, match=r"cannot reach \d+ of the 729 poses.*robots.ur10.workspace"):
+    with pytest.raises(
+        UnfitWorkspace, match=r"cannot reach \d+ of the 729 poses.*robots.ur10.workspace"
+    ):
         load_controller("ur10", far)
 
 
 def test_a_workspace_beyond_the_joint_limits_is_refused(config):
     narrow = copy.deepcopy(config)
     narrow["robots"]["ur10"]["limits"] = {"elbow_joint": ["110 deg", "130 deg"]}
-    with pytest.raises(UnfitWorkspace, match="turn elbow_joint to .* beyond its limits of 110.0 to 130.0 deg"):
+    with pytest.raises(
+        UnfitWorkspace, match="turn elbow_joint to .* beyond its limits of 110.0 to 130.0 deg"
+    ):
         load_controller("ur10", narrow)
 
 

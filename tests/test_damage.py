@@ -28,7 +28,12 @@ def test_base_shifts_follow_each_other(robot):
 
 
 @pytest.mark.parametrize(
-    ("link", "whole"), [("forearm_link", 0.5723), ("upper_arm_link", np.hypot(0.1719, 0.612)), ("wrist_3_link", 0.0922)]
+    ("link", "whole"),
+    [
+        ("forearm_link", 0.5723),
+        ("upper_arm_link", np.hypot(0.1719, 0.612)),
+        ("wrist_3_link", 0.0922),
+    ],
 )
 def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
     damaged = apply(robot, [LinkShortening(link, 0.04)]).forward(ANGLES)
@@ -49,7 +54,11 @@ def test_the_nominal_robot_stays_whole(robot):
     before = robot.arm.forward(ANGLES)
     apply(
         robot,
-        [LinkShortening("forearm_link", 0.04), LinkShortening("wrist_3_link", 0.01), BaseShift((1, 1, 1), (1, 1, 1))],
+        [
+            LinkShortening("forearm_link", 0.04),
+            LinkShortening("wrist_3_link", 0.01),
+            BaseShift((1, 1, 1), (1, 1, 1)),
+        ],
     )
     assert np.array_equal(robot.arm.forward(ANGLES), before)
 

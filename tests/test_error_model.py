@@ -4,7 +4,13 @@ from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, TWISTS, ErrorModel
+from recalib.identification.error_model import (
+    JOINT_ERRORS,
+    JOINT_WAVES,
+    OFFSETS,
+    TWISTS,
+    ErrorModel,
+)
 from recalib.nominal.robots import load_robot
 
 
@@ -25,7 +31,12 @@ def test_jacobians_agree_with_finite_differences(name, at_nominal, config):
         # central differences of the fourth order; the torques of the compliance make its column large
         step = 1e-3 / max(1, np.abs(jacobians[..., index]).max())
         near, far = (
-            (_turn(model.predict(parameters - d * unit, angles), model.predict(parameters + d * unit, angles)))
+            (
+                _turn(
+                    model.predict(parameters - d * unit, angles),
+                    model.predict(parameters + d * unit, angles),
+                )
+            )
             for d in (step, 2 * step)
         )
         assert np.allclose(jacobians[..., index], (8 * near - far) / (12 * step), atol=1e-6)
@@ -39,7 +50,9 @@ def _turn(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 def test_zero_parameters_are_the_nominal_arm(robot):
     angles = np.random.default_rng(3).uniform(-1, 1, (5, 6))
     model = ErrorModel(robot.arm, JOINT_WAVES)
-    assert np.allclose(model.predict(np.zeros_like(model.deviations), angles), robot.arm.forward(angles))
+    assert np.allclose(
+        model.predict(np.zeros_like(model.deviations), angles), robot.arm.forward(angles)
+    )
 
 
 def test_offsets_are_encoder_shifts(robot):
@@ -77,6 +90,7 @@ def test_the_nominal_arm_stays_as_it_is(robot):
     before = robot.arm.forward(angles)
     model = ErrorModel(robot.arm, OFFSETS)
     assert not np.allclose(
-        model.predict(drawn(model, 8), angles), apply(robot, [LinkShortening("forearm_link", 0.01)]).forward(angles)
+        model.predict(drawn(model, 8), angles),
+        apply(robot, [LinkShortening("forearm_link", 0.01)]).forward(angles),
     )
     assert np.array_equal(robot.arm.forward(angles), before)

@@ -15,7 +15,9 @@ def test_the_interval_covers_the_mean_as_often_as_it_says():
         estimate = bootstrap(values, np.random.default_rng(0))
         assert estimate.low < estimate.mean < estimate.high
         covered += estimate.low <= 3.0 <= estimate.high
-    assert 178 <= covered <= 198  # 95 % less the known optimism of the percentile bootstrap at 30 values
+    assert (
+        178 <= covered <= 198
+    )  # 95 % less the known optimism of the percentile bootstrap at 30 values
 
 
 def test_one_seed_has_no_interval():
@@ -31,7 +33,15 @@ def test_a_threshold_counts_where_all_errors_are_within():
 
 def test_generators_differ_by_key_and_repeat():
     assert generator(1, "a", 2).random() == generator(1, "a", 2).random()
-    assert len({generator(*keys).random() for keys in [(1, "a", 2), (2, "a", 2), (1, "b", 2), (1, "a", 3)]}) == 4
+    assert (
+        len(
+            {
+                generator(*keys).random()
+                for keys in [(1, "a", 2), (2, "a", 2), (1, "b", 2), (1, "a", 3)]
+            }
+        )
+        == 4
+    )
 
 
 SUMMARY = pd.DataFrame(
@@ -53,13 +63,17 @@ def test_results_pass_their_own_bands_and_a_change_does_not():
     assert check(SUMMARY, bands)["ok"].all()
     for column, value in (("final_position_error_cm", 0.30), ("final_orientation_error_deg", 0.15)):
         table = check(SUMMARY.assign(**{column: value}), bands)
-        assert not table[(table["scenario"] == "links") & (table["error"] == column[6:])]["ok"].any()
+        assert not table[(table["scenario"] == "links") & (table["error"] == column[6:])][
+            "ok"
+        ].any()
 
 
 def test_what_is_negligible_only_has_to_stay_so():
     bands = expect(SUMMARY)
     table = check(SUMMARY.assign(final_position_error_cm=[0.25, 2e-3]), bands)
-    assert table.loc[~table["ok"], ["scenario", "error"]].values.tolist() == [["intact", "position_error_cm"]]
+    assert table.loc[~table["ok"], ["scenario", "error"]].values.tolist() == [
+        ["intact", "position_error_cm"]
+    ]
 
 
 def test_a_training_without_a_band_and_a_band_without_a_training_fail():
@@ -75,7 +89,9 @@ def test_nan_is_outside_of_every_band():
 
 def test_a_failure_names_the_row_the_value_and_the_band():
     table = check(SUMMARY.assign(final_position_error_cm=[7.0, 0]), expect(SUMMARY))
-    with pytest.raises(CheckFailed, match="links improved: position_error_cm is 7, expected 0.2296 to 0.2704"):
+    with pytest.raises(
+        CheckFailed, match="links improved: position_error_cm is 7, expected 0.2296 to 0.2704"
+    ):
         raise CheckFailed(table[~table["ok"]])
 
 

@@ -31,9 +31,15 @@ def test_a_fleet_does_what_its_plants_do_one_by_one(controller, plants, commands
     fleet, alone = Fleet(controller, plants()), plants()
     for _ in range(2):
         together = fleet.execute(commands)
-        apart = [plant.execute(share) for plant, share in zip(alone, np.split(commands, 2), strict=True)]
-        assert np.array_equal(together.achieved, np.concatenate([outcome.achieved for outcome in apart]))
-        assert np.array_equal(together.executed, np.concatenate([outcome.executed for outcome in apart]))
+        apart = [
+            plant.execute(share) for plant, share in zip(alone, np.split(commands, 2), strict=True)
+        ]
+        assert np.array_equal(
+            together.achieved, np.concatenate([outcome.achieved for outcome in apart])
+        )
+        assert np.array_equal(
+            together.executed, np.concatenate([outcome.executed for outcome in apart])
+        )
     assert fleet.moves == 6 == alone[0].moves
     assert fleet.refused.tolist() == [0, 2, 0, 2] == [*alone[0].refused, *alone[1].refused]
 

@@ -16,11 +16,15 @@ SIZES = {"supernet": (2, 3, 2), "subnet": (3, 1, 2)}
 
 def strange_world(commands):
     """A smooth damage of its own for each coordinate; (run, move, 6)."""
-    mixed = commands + 0.1 * np.sin(commands[..., [1, 2, 3, 4, 5, 0]] + 0.3) - 0.05 * commands**2 + 0.2
+    mixed = (
+        commands + 0.1 * np.sin(commands[..., [1, 2, 3, 4, 5, 0]] + 0.3) - 0.05 * commands**2 + 0.2
+    )
     return Outcome(mixed, np.ones(commands.shape[:2], dtype=bool))
 
 
-@pytest.mark.parametrize(("separate", "theta", "jacobian", "equal"), [*product([False, True], repeat=4)])
+@pytest.mark.parametrize(
+    ("separate", "theta", "jacobian", "equal"), [*product([False, True], repeat=4)]
+)
 def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta, jacobian, equal):
     runs, iterations = 2, 6
     rules = Rules(separate, theta, jacobian, equal, **SIZES)
@@ -28,7 +32,10 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta
     learner = HierarchicalLearner(runs, rules, Schedule(1.5, widths, 0.9, 0.3))
     slices = SEPARATE.values() if separate else [slice(0, 6)]
     slow = [
-        [SlowMap(regular_grid(SIZES["supernet"]), regular_grid(SIZES["subnet"]), rows) for rows in slices]
+        [
+            SlowMap(regular_grid(SIZES["supernet"]), regular_grid(SIZES["subnet"]), rows)
+            for rows in slices
+        ]
         for _ in range(runs)
     ]
     desired = np.random.default_rng(5).uniform(-1, 1, (runs, iterations, 6))
@@ -37,7 +44,10 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta
         learner.learn(desired[:, t], strange_world, fraction)
         if equal:
             rate = 0.9 + (0.3 - 0.9) * fraction
-            now = [tuple((1.5**-2 + (end**-2 - 1.5**-2) * fraction) ** -0.5 for end in pair) for pair in widths.values()]
+            now = [
+                tuple((1.5**-2 + (end**-2 - 1.5**-2) * fraction) ** -0.5 for end in pair)
+                for pair in widths.values()
+            ]
         else:
             rate = 0.9 * (0.3 / 0.9) ** fraction
             now = [tuple(1.5 * (end / 1.5) ** fraction for end in pair) for pair in widths.values()]
@@ -52,7 +62,10 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta
                 jacobian,
             )
     tests = np.random.default_rng(6).uniform(-1, 1, (runs, 20, 6))
-    expected = [[np.concatenate([m.output(u) for m in slow[run]]) for u in tests[run]] for run in range(runs)]
+    expected = [
+        [np.concatenate([m.output(u) for m in slow[run]]) for u in tests[run]]
+        for run in range(runs)
+    ]
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
     for name, each in enumerate(learner.maps.values()):
         for run, k, l in product(range(runs), range(12), range(6)):
@@ -60,7 +73,14 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta
 
 
 @pytest.mark.parametrize(
-    ("widths", "rate"), [((0, 1), 0.5), ((1, -0.1), 0.5), ((1, 1), 0), ((1, 1), 1.01), ((1, np.array([1, np.nan])), 0.5)]
+    ("widths", "rate"),
+    [
+        ((0, 1), 0.5),
+        ((1, -0.1), 0.5),
+        ((1, 1), 0),
+        ((1, 1), 1.01),
+        ((1, np.array([1, np.nan])), 0.5),
+    ],
 )
 def test_impossible_widths_and_rates_are_refused(widths, rate):
     with pytest.raises(InvalidSetting, match=r"width of a neighbourhood|learning rate"):
@@ -90,13 +110,17 @@ def test_nothing_is_learned_from_a_refused_move():
     for name, before in fresh.state().items():
         assert np.array_equal(refused_first.state()[name], before)
         changed = not np.array_equal(refused_second.state()[name], before)
-        assert changed == name.endswith("theta"), "the first move teaches theta, the second the Jacobians"
+        assert changed == name.endswith("theta"), (
+            "the first move teaches theta, the second the Jacobians"
+        )
 
 
 def test_a_refused_run_does_not_disturb_the_others():
     desired = np.random.default_rng(8).uniform(-1, 1, (2, 6))
     both, alone = improved(2), improved(1)
-    both.learn(desired, lambda c: strange_world(c)._replace(executed=np.array([[False], [True]])), 0.0)
+    both.learn(
+        desired, lambda c: strange_world(c)._replace(executed=np.array([[False], [True]])), 0.0
+    )
     alone.learn(desired[1:], strange_world, 0.0)
     for name, learned in alone.state().items():
         assert np.allclose(both.state()[name][1:], learned, atol=1e-15)

@@ -38,8 +38,12 @@ def test_exact_poses_identify_the_arm(model, damaged, angles):
 
 def test_one_pose_is_better_than_none(model, damaged, angles):
     estimate = identify(model, angles[:1], damaged.forward(angles[:1]))
-    before = position_error(damaged.forward(angles), model.predict(0 * estimate.parameters, angles)).mean()
-    after = position_error(damaged.forward(angles), model.predict(estimate.parameters, angles)).mean()
+    before = position_error(
+        damaged.forward(angles), model.predict(0 * estimate.parameters, angles)
+    ).mean()
+    after = position_error(
+        damaged.forward(angles), model.predict(estimate.parameters, angles)
+    ).mean()
     assert after < before / 2
 
 
@@ -69,7 +73,9 @@ def test_positions_alone_identify_where_the_tool_gets_to(model, damaged, angles)
 def test_the_start_changes_the_time_and_not_the_answer(model, damaged, angles):
     measured = noisy(NOISY, damaged, angles, 4)
     cold = identify(model, angles, measured)
-    richer = identify(ErrorModel(model.arm(np.zeros_like(model.deviations)), JOINT_ERRORS), angles, measured)
+    richer = identify(
+        ErrorModel(model.arm(np.zeros_like(model.deviations)), JOINT_ERRORS), angles, measured
+    )
     for start in (identify(model, angles[:30], measured[:30]), richer):
         warm = identify(model, angles, measured, start)
         apart = model.predict(warm.parameters, angles) - model.predict(cold.parameters, angles)
@@ -78,9 +84,15 @@ def test_the_start_changes_the_time_and_not_the_answer(model, damaged, angles):
 
 def test_the_evidence_tells_sag_from_a_stiff_arm(robot, model, damaged, angles):
     richer = ErrorModel(robot.arm, JOINT_ERRORS)
-    for arm, sagging in ((damaged, False), (apply(robot, [Sag(joint, 1e-4) for joint in robot.joints]), True)):
+    for arm, sagging in (
+        (damaged, False),
+        (apply(robot, [Sag(joint, 1e-4) for joint in robot.joints]), True),
+    ):
         measured = noisy(NOISY, arm, angles[:24], 5)
-        gain = identify(richer, angles[:24], measured).log_evidence - identify(model, angles[:24], measured).log_evidence
+        gain = (
+            identify(richer, angles[:24], measured).log_evidence
+            - identify(model, angles[:24], measured).log_evidence
+        )
         assert gain > 50 if sagging else gain < 5
 
 
@@ -97,5 +109,7 @@ def test_the_covariance_tells_how_wrong_predictions_are(model, controller):
         predicted, jacobians = model.linearise(estimate.parameters, asked, model.terms(asked))
         squares.append(displacements(predicted, model.predict(parameters, asked)) ** 2)
         said.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
-    ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1)))  # for each coordinate
+    ratio = np.sqrt(
+        np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1))
+    )  # for each coordinate
     assert np.all((ratio > 0.8) & (ratio < 1.2))

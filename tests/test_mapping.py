@@ -27,7 +27,9 @@ def test_the_intact_mapping_is_the_identity(controller, robot, desired):
 def test_the_jacobian_is_the_slope_of_the_true_commands(controller, damaged, desired):
     jacobians = mapping_jacobians(controller, damaged, desired)
     step = 1e-4 * np.array([1, -2, 1, 2, -1, 1])
-    change = true_commands(controller, damaged, desired + step) - true_commands(controller, damaged, desired - step)
+    change = true_commands(controller, damaged, desired + step) - true_commands(
+        controller, damaged, desired - step
+    )
     assert np.allclose(jacobians @ (2 * step), change, atol=1e-7)
 
 

@@ -28,13 +28,18 @@ def test_gravity_torque_is_the_slope_of_the_potential_energy(robot, angles):
     torques = robot.arm.gravity_torque(angles)
     for joint in range(6):
         shift = step * np.eye(6)[joint]
-        up, down = (np.array([pin.computePotentialEnergy(model, data, q + s) for q in angles]) for s in (shift, -shift))
+        up, down = (
+            np.array([pin.computePotentialEnergy(model, data, q + s) for q in angles])
+            for s in (shift, -shift)
+        )
         assert np.allclose(torques[:, joint], (up - down) / (2 * step), atol=1e-5)
 
 
 def test_sagging_lowers_the_arm(robot, angles):
     for joint in robot.joints[1:4]:
-        before, after = (apply(robot, damages).forward(angles)[:, 2, 3] for damages in ([], [Sag(joint, 1e-4)]))
+        before, after = (
+            apply(robot, damages).forward(angles)[:, 2, 3] for damages in ([], [Sag(joint, 1e-4)])
+        )
         assert np.all(after < before)
 
 

@@ -13,7 +13,8 @@ from tests.conftest import ROOT
 RESULTS = ROOT / "results"
 README = ROOT / "README.md"
 needs_results = pytest.mark.skipif(
-    not (RESULTS / "claims.json").exists(), reason="needs the results of a full run, which `make` leaves"
+    not (RESULTS / "claims.json").exists(),
+    reason="needs the results of a full run, which `make` leaves",
 )
 
 
@@ -21,7 +22,9 @@ def rows(page: str, heading: str) -> list[list[str]]:
     """Cells of the first table below a heading, without its own head."""
     lines = page.split(f"## {heading}\n", 1)[1].splitlines()
     start = next(index for index, line in enumerate(lines) if line.startswith("| ---")) + 1
-    table = lines[start : next((i for i in range(start, len(lines)) if not lines[i].startswith("|")), None)]
+    table = lines[
+        start : next((i for i in range(start, len(lines)) if not lines[i].startswith("|")), None)
+    ]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
 
 
@@ -45,14 +48,18 @@ def test_the_table_of_trainings_says_what_the_summary_says():
         for cell, moment in zip(cells[5:7], ("initial", "final"), strict=True):
             cm, degrees = (float(number) for number in re.findall(r"[\d.e-]+(?= )", cell))
             assert cm == pytest.approx(row[f"{moment}_position_error_cm"], rel=0.06, abs=0.0051)
-            assert degrees == pytest.approx(row[f"{moment}_orientation_error_deg"], rel=0.06, abs=0.0051)
+            assert degrees == pytest.approx(
+                row[f"{moment}_orientation_error_deg"], rel=0.06, abs=0.0051
+            )
 
 
 @needs_results
 def test_the_table_of_claims_says_what_the_verdicts_say():
     claims = json.loads((RESULTS / "claims.json").read_text())
     table = rows(README.read_text(), "Does the paper hold?")
-    assert [(cells[0], cells[2].strip("*")) for cells in table] == [(each["statement"], each["verdict"]) for each in claims]
+    assert [(cells[0], cells[2].strip("*")) for cells in table] == [
+        (each["statement"], each["verdict"]) for each in claims
+    ]
     for cells, claim in zip(table, claims, strict=True):
         assert cells[3] == measured(claim)
 
@@ -62,4 +69,6 @@ def test_the_table_of_claims_says_what_the_verdicts_say():
 def test_the_pages_are_what_the_templates_make_of_the_results(config, page):
     folders = {key: str(ROOT / config[key]) for key in ("results", "figures", "tuned")}
     template = ROOT / "workflow" / "templates" / f"{page.split('/')[-1]}.j2"
-    assert (ROOT / page).read_text() == render(template, context(Evidence(config | folders), pictures=True))
+    assert (ROOT / page).read_text() == render(
+        template, context(Evidence(config | folders), pictures=True)
+    )

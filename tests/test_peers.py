@@ -116,9 +116,14 @@ def test_errors_fall(name, moves, position, orientation, makers, controller, dam
 
 
 def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
-    arm = apply(robot, [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)])
+    arm = apply(
+        robot,
+        [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)],
+    )
     plant = Plant(controller, [arm])
-    geometric, hybrid = (errors(train(makers[name](RUNS), plant, 16), plant) for name in ("geometric", "hybrid"))
+    geometric, hybrid = (
+        errors(train(makers[name](RUNS), plant, 16), plant) for name in ("geometric", "hybrid")
+    )
     assert geometric[1] > 0.1
     assert max(hybrid) < 0.01
 
@@ -128,7 +133,10 @@ def test_chosen_poses_teach_more_than_the_worst_candidate(makers, controller, da
     learner = train(makers["geometric"](RUNS), plant, 3)
     chosen = learner.choose(TESTS)
     assert chosen.shape == (RUNS, 6)
-    assert all(np.any(np.all(pose == candidates, axis=1)) for pose, candidates in zip(chosen, TESTS, strict=True))
+    assert all(
+        np.any(np.all(pose == candidates, axis=1))
+        for pose, candidates in zip(chosen, TESTS, strict=True)
+    )
     again = np.concatenate([DESIRED[:, 2:3], chosen[:, None]], axis=1)
     assert np.array_equal(learner.choose(again), chosen)
 

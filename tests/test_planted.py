@@ -45,13 +45,17 @@ def final_errors(config, controller, learner="improved"):
             "final_orientation_error_deg": np.degrees(history.orientation[:, -1, 0]).mean(),
         }
     )
-    expected = pd.read_csv(ROOT / config["expected"]).query("scenario == 'links_encoders' and learner == @learner")
+    expected = pd.read_csv(ROOT / config["expected"]).query(
+        "scenario == 'links_encoders' and learner == @learner"
+    )
     return check(summary, expected)
 
 
 def random_winner(net, u):
     rng = np.random.default_rng(0)
-    return rng.integers(len(net.w_k), size=u.shape[:-1]), rng.integers(len(net.w_kl), size=u.shape[:-1])
+    return rng.integers(len(net.w_k), size=u.shape[:-1]), rng.integers(
+        len(net.w_kl), size=u.shape[:-1]
+    )
 
 
 def no_increment(cells, weights, increments):
@@ -61,10 +65,14 @@ def no_increment(cells, weights, increments):
 
 
 PLANTED = {
-    "Jacobian increment off": lambda: mock.patch.object(hierarchical, "propagate_increments", no_increment),
+    "Jacobian increment off": lambda: mock.patch.object(
+        hierarchical, "propagate_increments", no_increment
+    ),
     "winner at random": lambda: mock.patch.object(HierarchicalMap, "winner", random_winner),
     # dt proportional to width^n d(width) instead of width^-n: most of the time at the large widths
-    "equal visits inverted": lambda: mock.patch.object(schedules, "DIMENSIONS", -schedules.DIMENSIONS),
+    "equal visits inverted": lambda: mock.patch.object(
+        schedules, "DIMENSIONS", -schedules.DIMENSIONS
+    ),
 }
 
 

@@ -41,10 +41,16 @@ def test_few_points_constant_inputs_and_exact_data_warn_of_nothing(count):
 
 def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
     theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
-    parts = ConstantKernel(0.5) * DotProduct(1, "fixed") + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0]) + WhiteKernel(0.01)
+    parts = (
+        ConstantKernel(0.5) * DotProduct(1, "fixed")
+        + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0])
+        + WhiteKernel(0.01)
+    )
     assert np.allclose(parts.theta, theta)
     ours = Covariance(theta)
-    for own, theirs in zip(ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True):
+    for own, theirs in zip(
+        ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True
+    ):
         assert np.allclose(own, theirs, atol=1e-12)
     assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
     assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)

@@ -9,7 +9,12 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.robots import load_robot
 from recalib.study.experiments import recorded
-from recalib.study.experiments.recorded import LEARNERS, read_recording, remaining_errors, with_tool_point
+from recalib.study.experiments.recorded import (
+    LEARNERS,
+    read_recording,
+    remaining_errors,
+    with_tool_point,
+)
 
 # As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -22,7 +27,12 @@ def manufacturers_position(angles: np.ndarray) -> np.ndarray:
     pose = np.eye(4)
     for q, a, d, twist in zip(angles, DH_A, DH_D, DH_TWIST, strict=True):
         c, s, ct, st = np.cos(q), np.sin(q), np.cos(twist), np.sin(twist)
-        pose = pose @ [[c, -s * ct, s * st, a * c], [s, c * ct, -c * st, a * s], [0, st, ct, d], [0, 0, 0, 1]]
+        pose = pose @ [
+            [c, -s * ct, s * st, a * c],
+            [s, c * ct, -c * st, a * s],
+            [0, st, ct, d],
+            [0, 0, 0, 1],
+        ]
     return (pose @ [*recorded.TOOL_POINT, 1])[:3]
 
 
@@ -59,19 +69,26 @@ def recording(table, tmp_path_factory):
 
 
 def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
-    distance = np.linalg.norm(ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1)
+    distance = np.linalg.norm(
+        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
+    )
     assert distance.max() < 5e-5
 
 
 def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, config):
     flange = load_robot("ur5", config["robots"])
-    assert np.allclose(np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1], [*recorded.TOOL_POINT, 1])
+    assert np.allclose(
+        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
+        [*recorded.TOOL_POINT, 1],
+    )
 
 
 def test_learners_leave_ever_smaller_errors(recording, ur5):
     known, unknown = recording[:100], recording[100:]
     left = {name: 1e3 * remaining_errors(name, ur5.arm, known, unknown).mean() for name in LEARNERS}
-    assert left["uncorrected"] == pytest.approx(1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean())
+    assert left["uncorrected"] == pytest.approx(
+        1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean()
+    )
     assert left["affine"] < left["uncorrected"] / 2
     assert left["quadratic"] < left["affine"]
     assert left["gaussian_process"] < left["affine"]
@@ -84,7 +101,9 @@ def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
         remaining_errors("oracle", ur5.arm, recording, recording)
 
 
-@pytest.mark.parametrize("spoil", [lambda t: t.drop(columns="y_dif"), lambda t: t.assign(y_dif="far")])
+@pytest.mark.parametrize(
+    "spoil", [lambda t: t.drop(columns="y_dif"), lambda t: t.assign(y_dif="far")]
+)
 def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, tmp_path):
     spoil(table).to_csv(tmp_path / "spoilt.csv")
     with pytest.raises(InvalidSetting, match="y_dif"):

@@ -22,15 +22,15 @@ FLAGS = """--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disab
 PATIENCE = 60  # seconds for what a click brings to appear
 PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
 # The menu slides open and shut, and a click on what moves may meet its neighbour.
-STILL = (
-    "document.head.append(Object.assign(document.createElement('style'), {textContent: '* {transition: none !important}'}))"
-)
+STILL = "document.head.append(Object.assign(document.createElement('style'), {textContent: '* {transition: none !important}'}))"
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
  + [...document.querySelectorAll("svg")].filter(drawing => !drawing.getBoundingClientRect().width).length"""
 
 pytestmark = [
     pytest.mark.xdist_group(name="workflow"),
-    pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="needs Chromium: Debian's chromium and chromium-driver"),
+    pytest.mark.skipif(
+        not (CHROMIUM and DRIVER), reason="needs Chromium: Debian's chromium and chromium-driver"
+    ),
 ]
 
 
@@ -80,7 +80,9 @@ def read(browser, label: str, visit: Visit) -> None:
         browser.switch_to.frame(browser.find_element(By.TAG_NAME, "iframe"))
         return browser.find_element(By.TAG_NAME, "h1").text == label
 
-    WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException]).until(opened, f"no page {label!r}")
+    WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException]).until(
+        opened, f"no page {label!r}"
+    )
     visit.pages[label] = browser.execute_script("return document.body.textContent")
     visit.drawings[label] = len(browser.find_elements(By.TAG_NAME, "svg"))
     visit.broken += browser.execute_script(BROKEN)
@@ -95,12 +97,18 @@ def visit(browser, report) -> Visit:
     browser.get(report.as_uri())
     browser.execute_script(STILL)
     click(browser, "//nav//span[.='Workflow']")
-    WebDriverWait(browser, PATIENCE).until(lambda _: browser.find_elements(By.CSS_SELECTOR, "#rulegraph canvas"))
+    WebDriverWait(browser, PATIENCE).until(
+        lambda _: browser.find_elements(By.CSS_SELECTOR, "#rulegraph canvas")
+    )
     seen.front = browser.find_element(By.CSS_SELECTOR, ".prose").get_attribute("textContent")
-    seen.links = [link.get_attribute("href") for link in browser.find_elements(By.CSS_SELECTOR, ".prose a")]
+    seen.links = [
+        link.get_attribute("href") for link in browser.find_elements(By.CSS_SELECTOR, ".prose a")
+    ]
     seen.broken = browser.execute_script(BROKEN)
     click(browser, "//nav//span[.='Statistics']")
-    WebDriverWait(browser, PATIENCE).until(lambda _: len(browser.find_elements(By.CSS_SELECTOR, "canvas")) == 2)
+    WebDriverWait(browser, PATIENCE).until(
+        lambda _: len(browser.find_elements(By.CSS_SELECTOR, "canvas")) == 2
+    )
     click(browser, "//nav//span[.='About']")
     click(browser, "//nav//span[starts-with(., 'snakemake ')]")
     for category in browser.execute_script("return Object.keys(categories)"):
@@ -112,9 +120,15 @@ def visit(browser, report) -> Visit:
             read(browser, label, seen)
             click(browser, f"(//nav//tbody/tr)[{number}]//a[2]")
             click(browser, f"//nav//ol//a[.='{category}']")
-    seen.console = [entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
+    seen.console = [
+        entry["message"] for entry in browser.get_log("browser") if entry["level"] == "SEVERE"
+    ]
     events = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
-    seen.requests = {event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"}
+    seen.requests = {
+        event["params"]["request"]["url"]
+        for event in events
+        if event["method"] == "Network.requestWillBeSent"
+    }
     return seen
 
 
@@ -125,7 +139,11 @@ def test_there_is_no_error_in_the_console_and_no_broken_image(visit):
 
 def test_nothing_is_asked_of_the_network(visit, report):
     asked = {urlsplit(url) for url in visit.requests}
-    assert {url.scheme for url in asked} <= {"file", "data", "chrome"}  # the last: Chromium's own first tab
+    assert {url.scheme for url in asked} <= {
+        "file",
+        "data",
+        "chrome",
+    }  # the last: Chromium's own first tab
     assert {unquote(url.path) for url in asked if url.scheme == "file"} == {str(report)}
 
 
@@ -134,7 +152,10 @@ def test_every_figure_is_shown_with_a_caption(visit, project):
     assert sorted(re.findall(r"^Figure \d+", label)[0] for label in shown) == sorted(
         path.stem.replace("figure", "Figure ") for path in (project / "figures").glob("figure*.svg")
     )
-    assert {"Errors before and after learning", "The damage in every scenario"} <= visit.pages.keys()
+    assert {
+        "Errors before and after learning",
+        "The damage in every scenario",
+    } <= visit.pages.keys()
 
 
 def test_every_recording_is_linked(visit, report):
@@ -149,17 +170,23 @@ def test_the_table_of_errors_is_the_summary(visit, report):
 
     summary = pd.read_csv(report.parent / "summary.csv").to_dict("records")
     columns = [
-        f"{moment}_{error}" for error in ("position_error_cm", "orientation_error_deg") for moment in ("initial", "final")
+        f"{moment}_{error}"
+        for error in ("position_error_cm", "orientation_error_deg")
+        for moment in ("initial", "final")
     ]
     assert [row[2:] for row in visit.table] == [
-        [str(run["seeds"]), f"{run['iterations']:,}", *(cell(run, column) for column in columns)] for run in summary
+        [str(run["seeds"]), f"{run['iterations']:,}", *(cell(run, column) for column in columns)]
+        for run in summary
     ]
 
 
 def test_every_pair_of_errors_in_a_text_is_one_of_the_summary(visit, report):
     summary = pd.read_csv(report.parent / "summary.csv").set_index(["scenario", "learner"])
     pairs = {
-        (f"{run[f'{moment}_position_error_cm']:.2f}", f"{run[f'{moment}_orientation_error_deg']:.2f}"): (*name, moment)
+        (
+            f"{run[f'{moment}_position_error_cm']:.2f}",
+            f"{run[f'{moment}_orientation_error_deg']:.2f}",
+        ): (*name, moment)
         for name, run in summary.iterrows()
         for moment in ("initial", "final")
     }

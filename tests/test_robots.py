@@ -20,7 +20,9 @@ def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, config):
     _, jacobian = robot.arm.forward_and_jacobian(robot.home[None])
     ahead, behind = (robot.arm.forward(robot.home + sign * step * np.eye(6)) for sign in (1, -1))
     linear = (ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
-    angular = [pin.log3(a[:3, :3] @ b[:3, :3].T) / (2 * step) for a, b in zip(ahead, behind, strict=True)]
+    angular = [
+        pin.log3(a[:3, :3] @ b[:3, :3].T) / (2 * step) for a, b in zip(ahead, behind, strict=True)
+    ]
     assert np.allclose(jacobian[0], np.concatenate([linear.T, np.transpose(angular)]), atol=1e-8)
 
 
@@ -31,11 +33,17 @@ def test_the_workspace_is_centred_on_home(robot):
 
 
 def test_a_locked_gripper_leaves_six_joints(config):
-    assert load_robot("z1", config["robots"]).joints == tuple(f"joint{index}" for index in range(1, 7))
+    assert load_robot("z1", config["robots"]).joints == tuple(
+        f"joint{index}" for index in range(1, 7)
+    )
 
 
 def test_every_link_has_a_length(robot):
-    assert list(robot.links.items())[:3] == [("base_link", 0), ("shoulder_link", 1), ("upper_arm_link", 2)]
+    assert list(robot.links.items())[:3] == [
+        ("base_link", 0),
+        ("shoulder_link", 1),
+        ("upper_arm_link", 2),
+    ]
     assert len(robot.links) == 7
 
 
@@ -45,7 +53,11 @@ def test_every_link_has_a_length(robot):
         ({"urdf": "ur11.urdf"}, UnknownName, "ur10_robot.urdf"),
         ({"tool": "tool9"}, UnknownName, "tool0"),
         ({"urdf": "panda.urdf", "tool": "panda_link8"}, UnsuitableRobot, "7 joints"),
-        ({"urdf": "kinova.urdf", "tool": "j2s6s200_end_effector"}, UnsuitableRobot, "9 coordinates"),
+        (
+            {"urdf": "kinova.urdf", "tool": "j2s6s200_end_effector"},
+            UnsuitableRobot,
+            "9 coordinates",
+        ),
         ({"home": {"elbow": "0 deg"}}, UnknownName, "elbow_joint"),
         ({"home": {"elbow_joint": "0 deg"}}, InvalidSetting, "shoulder_pan_joint"),
         (
@@ -53,7 +65,11 @@ def test_every_link_has_a_length(robot):
             InvalidSetting,
             "elbow_joint is '120 deg'; valid: 0.0 deg to 90.0",
         ),
-        ({"workspace": {"position": ["0 cm"] * 3, "orientation": ["40 deg"] * 3}}, InvalidSetting, "above zero"),
+        (
+            {"workspace": {"position": ["0 cm"] * 3, "orientation": ["40 deg"] * 3}},
+            InvalidSetting,
+            "above zero",
+        ),
     ],
 )
 def test_an_impossible_entry_is_refused_with_what_would_be_valid(entries, change, error, message):

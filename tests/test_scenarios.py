@@ -11,14 +11,20 @@ from recalib.study import scenarios
 from recalib.study.evidence.claims import missing
 from recalib.study.experiments import campaign
 
-ASSIGNMENT = [{"link": "forearm_link", "shorten": "4 cm"}, {"encoder": "elbow_joint", "shift": "-3 deg"}]
+ASSIGNMENT = [
+    {"link": "forearm_link", "shorten": "4 cm"},
+    {"encoder": "elbow_joint", "shift": "-3 deg"},
+]
 
 
 @pytest.mark.parametrize(
     ("entry", "damage"),
     [
         ({"link": "forearm_link", "shorten": "4 cm"}, LinkShortening("forearm_link", 0.04)),
-        ({"encoder": "elbow_joint", "shift": "-3 deg"}, EncoderShift("elbow_joint", -np.radians(3))),
+        (
+            {"encoder": "elbow_joint", "shift": "-3 deg"},
+            EncoderShift("elbow_joint", -np.radians(3)),
+        ),
         ({"translate": ["1 cm", "0 cm", "-2 mm"]}, BaseShift(translation=(0.01, 0.0, -0.002))),
         ({"rotate": ["0 deg", "180 deg", "0 deg"]}, BaseShift(rotation=(0.0, np.pi, 0.0))),
         (
@@ -120,7 +126,10 @@ def test_the_configuration_of_the_project_passes(config):
 
 
 def test_compared_learners_see_the_same_poses_and_never_the_tests():
-    short, long = campaign.desired_poses(1, "links", range(3), 20), campaign.desired_poses(1, "links", range(1, 3), 200)
+    short, long = (
+        campaign.desired_poses(1, "links", range(3), 20),
+        campaign.desired_poses(1, "links", range(1, 3), 200),
+    )
     assert np.array_equal(short[1:], long[:, :20])
     tests = campaign.test_poses(1, "links", range(3), 20)
     assert not np.isclose(tests, short).any()

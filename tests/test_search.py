@@ -6,7 +6,12 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.learners.hierarchical import Rules
 from recalib.study.experiments import search, tuned
 
-RANGES = {"initial_width": [0.2, 5], "final_width": [0.1, 1], "initial_rate": [0.2, 1], "final_rate": [0.05, 1]}
+RANGES = {
+    "initial_width": [0.2, 5],
+    "final_width": [0.1, 1],
+    "initial_rate": [0.2, 1],
+    "final_rate": [0.05, 1],
+}
 RULES = Rules(True, True, True, True)
 
 
@@ -16,7 +21,9 @@ def test_trials_fill_the_ranges_and_widths_and_rates_fall():
     assert trials["initial_width"].between(0.2, 5).all() and trials["initial_width"].min() < 0.25
     for width in search.columns(RULES)[1:-2]:
         assert (trials[width] / trials["initial_width"]).between(0.0999, 1.001).all()
-    assert (trials["final_rate"] <= trials["initial_rate"] * 1.001).all() and trials["initial_rate"].max() <= 1
+    assert (trials["final_rate"] <= trials["initial_rate"] * 1.001).all() and trials[
+        "initial_rate"
+    ].max() <= 1
 
 
 def test_trials_follow_from_their_seed():
@@ -41,12 +48,16 @@ def test_a_frame_of_trials_is_a_schedule_of_runs():
     trials = search.draw(RULES, RANGES, 4, seed=1)
     schedule = search.schedule(trials, RULES, repeat=3)
     assert np.array_equal(schedule.initial_width, np.repeat(trials["initial_width"], 3))
-    assert np.array_equal(schedule.final_widths["orientation"][1], np.repeat(trials["orientation/g_kl"], 3))
+    assert np.array_equal(
+        schedule.final_widths["orientation"][1], np.repeat(trials["orientation/g_kl"], 3)
+    )
     assert isinstance(search.schedule(trials.iloc[0], RULES).final_rate, float)
 
 
 def test_the_score_is_the_worse_of_both_errors():
-    frame = pd.DataFrame({"position_error_cm": [1.0, 2.0, 4.0], "orientation_error_deg": [4.0, 3.0, 2.0]})
+    frame = pd.DataFrame(
+        {"position_error_cm": [1.0, 2.0, 4.0], "orientation_error_deg": [4.0, 3.0, 2.0]}
+    )
     assert search.score(frame).tolist() == [4.0, 3.0, 4.0]
 
 

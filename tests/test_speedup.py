@@ -16,7 +16,9 @@ def test_the_first_rung_that_reaches_both_errors_counts():
 
 def test_between_rungs_the_number_is_interpolated_on_logarithmic_scales():
     errors = np.array([[4, 4], [2, 2], [1, 1.0]])
-    assert iterations_needed(RUNGS, errors, np.array([np.sqrt(2), 9])) == pytest.approx(200 * np.sqrt(2))
+    assert iterations_needed(RUNGS, errors, np.array([np.sqrt(2), 9])) == pytest.approx(
+        200 * np.sqrt(2)
+    )
 
 
 def ladder(rungs, scale, seeds=30, spread=0.1):
@@ -27,12 +29,19 @@ def ladder(rungs, scale, seeds=30, spread=0.1):
 def test_a_learner_fifty_times_as_slow_is_found_to_be():
     slow, fast = ladder([1000, 4000, 16_000, 64_000], 5000), ladder([50, 100, 200, 400], 100)
     estimate = speed_up(slow, fast, 200, np.random.default_rng(1))
-    assert estimate.low < estimate.mean < estimate.high and estimate.mean == pytest.approx(50, rel=0.1)
-    assert speed_up(slow, fast, np.array([0.4, 0.4]), np.random.default_rng(1)).mean == pytest.approx(50, rel=0.1)
+    assert estimate.low < estimate.mean < estimate.high and estimate.mean == pytest.approx(
+        50, rel=0.1
+    )
+    assert speed_up(
+        slow, fast, np.array([0.4, 0.4]), np.random.default_rng(1)
+    ).mean == pytest.approx(50, rel=0.1)
 
 
 def test_a_learner_that_never_gets_there_has_no_finite_factor():
-    assert speed_up(ladder([100, 200], 5000), ladder([200], 100), 200, np.random.default_rng(1)).mean == np.inf
+    assert (
+        speed_up(ladder([100, 200], 5000), ladder([200], 100), 200, np.random.default_rng(1)).mean
+        == np.inf
+    )
 
 
 def test_ratios_are_paired():

@@ -15,8 +15,12 @@ def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damage
 
 
 def test_an_encoder_couples_orientation_commands_to_positions(controller, robot):
-    table = coupling(controller, apply(robot, [EncoderShift("elbow_joint", 0.07)]), np.zeros((1, 6)))
-    assert table["orientation"][0] > 10 * table["position"][0] > 0 or table["orientation"][0] > 0.005
+    table = coupling(
+        controller, apply(robot, [EncoderShift("elbow_joint", 0.07)]), np.zeros((1, 6))
+    )
+    assert (
+        table["orientation"][0] > 10 * table["position"][0] > 0 or table["orientation"][0] > 0.005
+    )
 
 
 def test_the_ball_is_uniform():
@@ -45,7 +49,9 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
         return lambda w: w @ matrix.T
 
     for angle, better in ((59, True), (61, False)):
-        classic, updated = propagation_errors(lambda w: w, turned(np.radians(angle)), np.zeros(6), OFFSETS)
+        classic, updated = propagation_errors(
+            lambda w: w, turned(np.radians(angle)), np.zeros(6), OFFSETS
+        )
         assert (updated < classic) == better
 
 

@@ -28,7 +28,9 @@ def test_the_contract_of_the_outputs_holds(project):
         assert (results / "recordings" / f"{scenario}.rrd").stat().st_size > 1e6
         for learner in ("improved", "ritter", "ritter_200"):
             history = pd.read_parquet(results / "runs" / scenario / f"{learner}.parquet")
-            assert sorted(history["seed"].unique()) == list(range(3 if learner == "improved" else 2))
+            assert sorted(history["seed"].unique()) == list(
+                range(3 if learner == "improved" else 2)
+            )
             assert (results / "runs" / scenario / f"{learner}.npz").exists()
     summary = pd.read_csv(results / "summary.csv")
     assert len(summary) == 6 and (summary["moves"] == 2 * summary["iterations"]).all()
@@ -54,7 +56,10 @@ def test_an_edited_setting_reruns_what_depends_on_it_and_only_that(project):
     text = settings.read_text()
     settings.write_text(text.replace("initial_width: 0.5", "initial_width: 0.6"))
     rules = planned(project)
-    assert {"train", "run", "summary", "figure"} <= rules and not {"scenario", "assignments"} & rules
+    assert {"train", "run", "summary", "figure"} <= rules and not {
+        "scenario",
+        "assignments",
+    } & rules
     settings.write_text(text)
 
 
@@ -71,26 +76,47 @@ def test_the_same_configuration_gives_the_same_bytes(project):
 
 def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_path, config):
     project = copy_project(tmp_path)
-    finished = snakemake(project, "--config", "benchmark={scenarios: [translation, noise]}", "--", "results/benchmark.csv")
+    finished = snakemake(
+        project,
+        "--config",
+        "benchmark={scenarios: [translation, noise]}",
+        "--",
+        "results/benchmark.csv",
+    )
     assert finished.returncode == 0, finished.stdout
     table = pd.read_csv(project / "results" / "benchmark.csv").set_index(["scenario", "moves"])
-    assert table.index.tolist() == [("translation", 1), ("translation", 2), ("noise", 1), ("noise", 2)]
+    assert table.index.tolist() == [
+        ("translation", 1),
+        ("translation", 2),
+        ("noise", 1),
+        ("noise", 2),
+    ]
     runs = range(2)
-    controller, plant = campaign.load_plant(project / "results" / "scenarios" / "noise.json", config, runs)
+    controller, plant = campaign.load_plant(
+        project / "results" / "scenarios" / "noise.json", config, runs
+    )
     desired = campaign.desired_poses(config["seed"], "noise", runs, 2)
     tests = campaign.test_poses(config["seed"], "noise", runs, 20)
     alone = run(plant, entrant("affine", config).make(2, controller), desired, tests, [1, 2])
     # the table has six digits
-    assert np.allclose(table.loc["noise", "position_error_cm"], 100 * alone.position[..., 0].mean(axis=0), rtol=1e-5)
+    assert np.allclose(
+        table.loc["noise", "position_error_cm"],
+        100 * alone.position[..., 0].mean(axis=0),
+        rtol=1e-5,
+    )
 
 
 def test_the_search_gives_the_same_file_with_the_same_trials_for_all(tmp_path):
     project, files = copy_project(tmp_path), []
     for folder in ("first", "second"):
         config = f"tuned={folder}", "experiments={learners: [improved, ritter]}"
-        finished = snakemake(project, "--forcerun", "search_trials", "--config", *config, "--", "tune")
+        finished = snakemake(
+            project, "--forcerun", "search_trials", "--config", *config, "--", "tune"
+        )
         assert finished.returncode == 0, finished.stdout
-        files.append([(project / folder / name).read_text() for name in ("settings.yaml", "trials.csv")])
+        files.append(
+            [(project / folder / name).read_text() for name in ("settings.yaml", "trials.csv")]
+        )
     assert files[0] == files[1]
     assert set(pd.read_csv(project / "first" / "trials.csv").groupby("training").size()) == {4}
 
@@ -102,13 +128,24 @@ def test_a_wrong_sign_in_a_learning_rule_turns_the_check_red(project):
     right = "miss = desired - first.achieved[:, 0]"
     assert right in text
     module.write_text(text.replace(right, "miss = first.achieved[:, 0] - desired"))
-    broken = snakemake(project, "--config", "experiments={scenarios: [links_encoders], learners: [improved]}", "--", "check")
+    broken = snakemake(
+        project,
+        "--config",
+        "experiments={scenarios: [links_encoders], learners: [improved]}",
+        "--",
+        "check",
+    )
     module.write_text(text)
     assert broken.returncode != 0
-    assert "links_encoders improved: position_error_cm is" in broken.stdout and "expected 0.2" in broken.stdout
+    assert (
+        "links_encoders improved: position_error_cm is" in broken.stdout
+        and "expected 0.2" in broken.stdout
+    )
 
 
 @shared
 def test_bad_input_stops_before_anything_runs(project):
     refused = snakemake(project, "-n", "--config", "experiments={learners: [improve]}")
-    assert refused.returncode != 0 and "unknown learner 'improve'; valid: improved," in refused.stdout
+    assert (
+        refused.returncode != 0 and "unknown learner 'improve'; valid: improved," in refused.stdout
+    )

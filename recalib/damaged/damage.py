@@ -57,7 +57,9 @@ class BaseShift:
     rotation: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        shift = pin.SE3(Rotation.from_euler("xyz", self.rotation).as_matrix(), np.array(self.translation))
+        shift = pin.SE3(
+            Rotation.from_euler("xyz", self.rotation).as_matrix(), np.array(self.translation)
+        )
         first = damaged.arm.model.jointPlacements[1]
         damaged.arm.model.jointPlacements[1] = shift * first
 

@@ -32,20 +32,28 @@ class Disturbances:
 
     def __post_init__(self):
         for field in fields(self):
-            value, greatest = getattr(self, field.name), 1 if field.name == "outlier_fraction" else math.inf
+            value, greatest = (
+                getattr(self, field.name),
+                1 if field.name == "outlier_fraction" else math.inf,
+            )
             if not (0 <= value <= greatest and math.isfinite(value)):
                 valid = "from 0 to 1" if greatest == 1 else "a finite number from 0 on"
                 raise InvalidSetting(field.name, value, valid)
 
     def of_joints(self, generators: Sequence[np.random.Generator], moves: int) -> np.ndarray:
         """By how much each joint stops beside its angle, (run, move, 6) rad; a generator for each run."""
-        return self.repeatability * np.stack([generator.standard_normal((moves, 6)) for generator in generators])
+        return self.repeatability * np.stack(
+            [generator.standard_normal((moves, 6)) for generator in generators]
+        )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
         """What the instrument says of the poses (run, move, 4, 4); a generator for each run."""
         moves = poses.shape[1]
         # Every number is drawn whatever the sizes are: runs that differ in one size share all the rest of their luck.
-        luck = [(each.standard_normal((3, moves, 3)), each.uniform(size=(moves, 1))) for each in generators]
+        luck = [
+            (each.standard_normal((3, moves, 3)), each.uniform(size=(moves, 1)))
+            for each in generators
+        ]
         shift, turn, direction = np.stack([normal for normal, _ in luck], axis=1)
         is_outlier = np.stack([uniform for _, uniform in luck]) < self.outlier_fraction
         gross = self.outlier_size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)

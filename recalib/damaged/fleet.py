@@ -41,9 +41,14 @@ class Fleet:
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As a plant's."""
-        poses, executed = zip(*(plant.achieve_targets(targets) for plant, targets in self._shares(commands)), strict=True)
+        poses, executed = zip(
+            *(plant.achieve_targets(targets) for plant, targets in self._shares(commands)),
+            strict=True,
+        )
         return np.concatenate(poses), np.concatenate(executed)
 
     def _shares(self, commands: np.ndarray) -> list[tuple[Plant, Targets]]:
-        angles, executed = (np.split(part, len(self._plants)) for part in self._controller.targets(commands))
+        angles, executed = (
+            np.split(part, len(self._plants)) for part in self._controller.targets(commands)
+        )
         return list(zip(self._plants, map(Targets, angles, executed), strict=True))

@@ -7,7 +7,13 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel, JointTerms
+from recalib.identification.error_model import (
+    JOINT_ERRORS,
+    JOINT_WAVES,
+    OFFSETS,
+    ErrorModel,
+    JointTerms,
+)
 from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
 from recalib.nominal.controller import solve_each, twists
 from recalib.nominal.kinematics import Arm
@@ -65,7 +71,9 @@ class Calibration:
 
     def state(self) -> dict[str, np.ndarray]:
         """All of it, as named arrays."""
-        arrays = {f"estimate/{name}": np.asarray(value) for name, value in vars(self.estimate).items()}
+        arrays = {
+            f"estimate/{name}": np.asarray(value) for name, value in vars(self.estimate).items()
+        }
         if self.residual is not None:
             arrays |= {f"residual/{name}": value for name, value in self.residual.state().items()}
         return arrays
@@ -83,7 +91,9 @@ class Calibration:
         return cls(model, estimate, Process(**groups["residual"]) if groups["residual"] else None)
 
 
-def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray) -> np.ndarray:
+def angles_for(
+    calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
+) -> np.ndarray:
     """Joint angles (run, n, 6) [rad] for the controller to believe in so that each arm's tool gets to its poses.
 
     Newton's method from `start` (run, n, 6) [rad] to the poses (run, n, 4, 4) [m], with the Jacobian of each run's arm
@@ -98,10 +108,14 @@ def angles_for(calibrations: Sequence[Calibration], poses: np.ndarray, start: np
         reached, jacobians = map(np.stack, zip(*each, strict=True))
         misses = twists(reached, poses[unsolved])
         sizes = np.abs(misses).max(axis=-1)
-        best[unsolved] = np.where((sizes < least[unsolved])[..., None], angles[unsolved], best[unsolved])
+        best[unsolved] = np.where(
+            (sizes < least[unsolved])[..., None], angles[unsolved], best[unsolved]
+        )
         least[unsolved] = np.fmin(sizes, least[unsolved])
         steps = solve_each(jacobians, misses)
-        angles[unsolved] += steps * (LONGEST_STEP / np.maximum(LONGEST_STEP, np.abs(steps).max(axis=-1, keepdims=True)))
+        angles[unsolved] += steps * (
+            LONGEST_STEP / np.maximum(LONGEST_STEP, np.abs(steps).max(axis=-1, keepdims=True))
+        )
     return best
 
 
@@ -128,7 +142,9 @@ def calibrate(
     for terms in candidates:
         model = ErrorModel(arm, terms)
         estimate = identify(model, angles, measured, last and last.estimate)
-        if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(best.estimate, estimate):
+        if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(
+            best.estimate, estimate
+        ):
             best = Calibration(model, estimate)
     return replace(best, residual=_residual(best, angles, measured, last))
 
@@ -144,8 +160,14 @@ def _residual(
     estimate = calibration.estimate
     good = estimate.weights > DOUBTFUL
     search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(angles))
-    if good.sum() < FEWEST or np.all(estimate.noise <= LEAST_NOISE) or not (search or last.residual):
+    if (
+        good.sum() < FEWEST
+        or np.all(estimate.noise <= LEAST_NOISE)
+        or not (search or last.residual)
+    ):
         return None
-    misses = displacements(calibration.forward(angles[good]), measured[good]) / np.repeat(estimate.noise, 3)
+    misses = displacements(calibration.forward(angles[good]), measured[good]) / np.repeat(
+        estimate.noise, 3
+    )
     process = Process(angles[good], misses, None if search else last.residual.hyperparameters)
     return process if process.gain > 0 else None

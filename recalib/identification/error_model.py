@@ -40,7 +40,9 @@ def _waves(order: int, amplitude: float) -> JointTerms:
 # Geometry alone; with eccentric gears and compliance [rad/Nm]; with whatever else a gear adds to its turn.
 OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
 JOINT_ERRORS = OFFSETS | {"compliance": (Arm.gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
-JOINT_WAVES = reduce(or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS)
+JOINT_WAVES = reduce(
+    or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS
+)
 
 TWISTS = 6 * (JOINTS + 1)  # how many of the parameters are those of the twists
 
@@ -96,7 +98,9 @@ class ErrorModel:
         """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
         return self.arm(parameters).forward(self.standing(parameters, angles, self.terms(angles)))
 
-    def linearise(self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def linearise(
+        self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) with respect to the parameters.
 
         A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad] along the base's axes.

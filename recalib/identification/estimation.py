@@ -25,10 +25,14 @@ from recalib.identification.error_model import ErrorModel
 DOUBTED = 0.99  # the limit of rho: a measurement farther out than this fraction of good ones is weighted down
 SPARSITY = 0.05  # degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide
 COMMON = 20.0  # further parameters, as large as the error model expects, that hold the common scale of all
-SHARED = 10.0  # degrees of freedom with which position and orientation draw each other's noise together
+SHARED = (
+    10.0  # degrees of freedom with which position and orientation draw each other's noise together
+)
 MEDIAN = chi2.ppf(0.5, 3)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
-LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
+LEAST_NOISE = (
+    1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
+)
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
 STEPS = 60
 # A new linearisation is due where one parameter alone moves the tool so far that its square exceeds this part of the noise:
@@ -64,7 +68,9 @@ def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 
-def identify(model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start: Estimate | None = None) -> Estimate:
+def identify(
+    model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start: Estimate | None = None
+) -> Estimate:
     """The parameters of the model that explain the measurements.
 
     Args:
@@ -87,7 +93,9 @@ def identify(model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start:
     for step in range(STEPS):
         if np.max(np.abs(parameters - origin) * reach) ** 2 > NEGLIGIBLE * noise.min():
             poses, jacobians = model.linearise(parameters * scale, angles, terms)
-            jacobians = (jacobians[:, : 3 * kinds] * scale).reshape(len(angles), kinds, 3, len(scale))
+            jacobians = (jacobians[:, : 3 * kinds] * scale).reshape(
+                len(angles), kinds, 3, len(scale)
+            )
             residuals = displacements(poses, measured).reshape(len(angles), kinds, 3)
             origin, reach = parameters, np.abs(jacobians).max(axis=(0, 1, 2))
         if step > 0:
@@ -104,14 +112,20 @@ def identify(model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start:
         common = (COMMON + len(scale)) / (COMMON + np.sum(1 / variances))
         variances = (SPARSITY * common + parameters**2 + np.diag(covariance)) / (SPARSITY + 1)
         moved = np.sqrt(change @ precision @ change)
-        if step >= ROBUST_STEPS and moved < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0):
+        if (
+            step >= ROBUST_STEPS
+            and moved < CONVERGED
+            and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
+        ):
             break
     log_evidence = (
         _log_likelihood(residuals, noise, limit)
         + _log_prior(parameters, variances, common)
         - np.log(np.diag(factor[0])).sum()  # the volume that the posterior leaves
     )
-    return Estimate(parameters * scale, covariance * np.outer(scale, scale), noise, weights, log_evidence)
+    return Estimate(
+        parameters * scale, covariance * np.outer(scale, scale), noise, weights, log_evidence
+    )
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
@@ -121,7 +135,12 @@ def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
 
 def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> float:
     squares = _squares(residuals, noise)
-    losses = np.where(squares <= limit, squares, limit * (1 + np.log(np.maximum(squares, limit) / limit))) / 2
+    losses = (
+        np.where(
+            squares <= limit, squares, limit * (1 + np.log(np.maximum(squares, limit) / limit))
+        )
+        / 2
+    )
     return -losses.sum() - 3 * len(residuals) * np.log(noise).sum()
 
 
@@ -132,16 +151,24 @@ def _log_prior(parameters: np.ndarray, variances: np.ndarray, common: float) -> 
     return SPARSITY / 2 * belief - np.sum(parameters**2 / variances + np.log(variances)) / 2
 
 
-def _normal_equations(jacobians: np.ndarray, residuals: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _normal_equations(
+    jacobians: np.ndarray, residuals: np.ndarray, weights: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """J' W J (kind, P, P) and J' W r (kind, P) of Jacobians (n, kind, 3, P) and residuals (n, kind, 3)."""
     roots = np.sqrt(weights)[:, None, None]
-    jacobians = (jacobians * roots[..., None]).swapaxes(0, 1).reshape(jacobians.shape[1], -1, jacobians.shape[-1])
+    jacobians = (
+        (jacobians * roots[..., None])
+        .swapaxes(0, 1)
+        .reshape(jacobians.shape[1], -1, jacobians.shape[-1])
+    )
     residuals = (residuals * roots).swapaxes(0, 1).reshape(len(jacobians), -1, 1)
     transposed = jacobians.swapaxes(1, 2)
     return transposed @ jacobians, (transposed @ residuals)[..., 0]
 
 
-def _noise(residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust: bool) -> np.ndarray:
+def _noise(
+    residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust: bool
+) -> np.ndarray:
     """Standard deviations (kind,) along an axis from residuals (n, kind, 3), `taken` (kind,) degrees of freedom used.
 
     The squares of the weights leave nothing of a gross outlier.
@@ -154,4 +181,6 @@ def _noise(residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust
         count = 3 * np.sum(weights**2)
         total = weights**2 @ squares
     free = np.maximum(count - taken, 1e-3 * count)
-    return np.maximum(np.sqrt((total + SHARED * total.sum() / free.sum()) / (free + SHARED)), LEAST_NOISE)
+    return np.maximum(
+        np.sqrt((total + SHARED * total.sum() / free.sum()) / (free + SHARED)), LEAST_NOISE
+    )

@@ -49,4 +49,6 @@ class Experience:
 
     def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
         """Take over what `state` returned."""
-        self._sent, self._achieved, self._executed = (arrays[name] for name in ("sent", "achieved", "executed"))
+        self._sent, self._achieved, self._executed = (
+            arrays[name] for name in ("sent", "achieved", "executed")
+        )

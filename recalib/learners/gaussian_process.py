@@ -65,5 +65,9 @@ class GaussianProcessLearner:
         """Take over what `state` returned."""
         self._experience.restore(arrays)
         for run in range(len(self._processes)):
-            own = {name.split("/")[1]: value for name, value in arrays.items() if name.startswith(f"{run}/")}
+            own = {
+                name.split("/")[1]: value
+                for name, value in arrays.items()
+                if name.startswith(f"{run}/")
+            }
             self._processes[run] = Process(**own) if own else None

@@ -32,11 +32,17 @@ class GeometricLearner:
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         commands = desired.copy()
-        known = [run for run, calibration in enumerate(self._calibrations) if calibration is not None]
+        known = [
+            run for run, calibration in enumerate(self._calibrations) if calibration is not None
+        ]
         if known:
             robot, calibrations = self._controller.robot, [self._calibrations[run] for run in known]
-            needed = angles_for(calibrations, robot.workspace.to_poses(desired[known]), self._angles(desired[known]))
-            commands[known] = robot.workspace.to_coordinates(robot.arm.forward(needed.reshape(-1, 6))).reshape(needed.shape)
+            needed = angles_for(
+                calibrations, robot.workspace.to_poses(desired[known]), self._angles(desired[known])
+            )
+            commands[known] = robot.workspace.to_coordinates(
+                robot.arm.forward(needed.reshape(-1, 6))
+            ).reshape(needed.shape)
         return commands
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
@@ -62,7 +68,9 @@ class GeometricLearner:
         return np.stack(
             [
                 poses[0 if calibration is None else information_gains(calibration, each).argmax()]
-                for poses, each, calibration in zip(candidates, angles, self._calibrations, strict=True)
+                for poses, each, calibration in zip(
+                    candidates, angles, self._calibrations, strict=True
+                )
             ]
         )
 
@@ -78,10 +86,18 @@ class GeometricLearner:
         """Take over what `state` returned."""
         self._experience.restore(arrays)
         for run in range(len(self._calibrations)):
-            own = {name.split("/", 1)[1]: value for name, value in arrays.items() if name.startswith(f"{run}/")}
-            self._calibrations[run] = Calibration.restore(self._controller.robot.arm, own) if own else None
+            own = {
+                name.split("/", 1)[1]: value
+                for name, value in arrays.items()
+                if name.startswith(f"{run}/")
+            }
+            self._calibrations[run] = (
+                Calibration.restore(self._controller.robot.arm, own) if own else None
+            )
 
-    def _calibrate(self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None) -> Calibration:
+    def _calibrate(
+        self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
+    ) -> Calibration:
         model = ErrorModel(self._controller.robot.arm, OFFSETS)
         return Calibration(model, identify(model, angles, measured, last and last.estimate))
 

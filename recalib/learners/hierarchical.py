@@ -65,7 +65,10 @@ class Schedule:
     final_rate: float | np.ndarray
 
     def __post_init__(self):
-        for width in (self.initial_width, *(width for pair in self.final_widths.values() for width in pair)):
+        for width in (
+            self.initial_width,
+            *(width for pair in self.final_widths.values() for width in pair),
+        ):
             if not np.all(np.greater(width, 0)):
                 raise InvalidSetting("width of a neighbourhood", width, "above 0")
         for rate in (self.initial_rate, self.final_rate):
@@ -85,7 +88,8 @@ class HierarchicalLearner:
     def __init__(self, runs: int, rules: Rules, schedule: Schedule):
         self.rules, self.schedule = rules, schedule
         self.maps = {
-            name: HierarchicalMap(runs, rules.supernet, rules.subnet, outputs) for name, outputs in rules.maps.items()
+            name: HierarchicalMap(runs, rules.supernet, rules.subnet, outputs)
+            for name, outputs in rules.maps.items()
         }
 
     def command(self, desired: np.ndarray) -> np.ndarray:
@@ -94,13 +98,19 @@ class HierarchicalLearner:
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`. Nothing is learned from a refused move."""
-        cells = {name: (k[:, 0], l[:, 0]) for name, each in self.maps.items() for k, l in [each.winner(desired[:, None])]}
+        cells = {
+            name: (k[:, 0], l[:, 0])
+            for name, each in self.maps.items()
+            for k, l in [each.winner(desired[:, None])]
+        }
         winners = {name: each.at(*cells[name]) for name, each in self.maps.items()}
         theta = self.command(desired[:, None])
         first = execute(theta)
         miss = desired - first.achieved[:, 0]  # u - u'
         # A_kl (u - u'): the correction of the second movement, and the increment of (6)
-        correction = {name: np.einsum("roi,ri->ro", jacobian, miss) for name, (_, jacobian) in winners.items()}
+        correction = {
+            name: np.einsum("roi,ri->ro", jacobian, miss) for name, (_, jacobian) in winners.items()
+        }
         second = execute(theta + np.concatenate(list(correction.values()), axis=-1)[:, None])
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
         length = np.square(moved).sum(axis=-1)
@@ -112,8 +122,12 @@ class HierarchicalLearner:
             weights = self._weights(name, *cells[name], fraction)
             # Both rules start from the same increments, (6) and (8); Ritter's targets add what the winner held, (2) and (3).
             theta_step = correction[name]
-            jacobian_step = (theta_step - np.einsum("roi,ri->ro", jacobian_kl, moved))[:, :, None] * direction[:, None, :]
-            theta_weights, jacobian_weights = (weights * learn[:, None, None] for learn in (learn_theta, learn_jacobian))
+            jacobian_step = (theta_step - np.einsum("roi,ri->ro", jacobian_kl, moved))[
+                :, :, None
+            ] * direction[:, None, :]
+            theta_weights, jacobian_weights = (
+                weights * learn[:, None, None] for learn in (learn_theta, learn_jacobian)
+            )
             if self.rules.theta_increments:
                 propagate_increments(each.theta, theta_weights, theta_step)
             else:
@@ -140,6 +154,9 @@ class HierarchicalLearner:
         plan = self.schedule
         narrow = schedules.equal_visits if self.rules.equal_visits else schedules.exponential
         weaken = schedules.linear if self.rules.equal_visits else schedules.exponential
-        widths = (np.broadcast_to(narrow(plan.initial_width, end, fraction), k.shape) for end in plan.final_widths[name])
+        widths = (
+            np.broadcast_to(narrow(plan.initial_width, end, fraction), k.shape)
+            for end in plan.final_widths[name]
+        )
         rate = np.broadcast_to(weaken(plan.initial_rate, plan.final_rate, fraction), k.shape)
         return rate[:, None, None] * self.maps[name].neighbourhood(k, l, *widths)

@@ -10,5 +10,9 @@ from recalib.learners.geometric import GeometricLearner
 class HybridLearner(GeometricLearner):
     """A geometric learner that also learns what no geometry explains, such as eccentric gears and sag; see `calibrate`."""
 
-    def _calibrate(self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None) -> Calibration:
-        return calibrate(self._controller.robot.arm, (OFFSETS, JOINT_ERRORS), angles, measured, last)
+    def _calibrate(
+        self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
+    ) -> Calibration:
+        return calibrate(
+            self._controller.robot.arm, (OFFSETS, JOINT_ERRORS), angles, measured, last
+        )

@@ -40,7 +40,13 @@ class HierarchicalMap:
     Both start as the identity, which is right for the intact robot (section 3).
     """
 
-    def __init__(self, runs: int, supernet: Sequence[int], subnet: Sequence[int], outputs: slice = slice(0, 6)):
+    def __init__(
+        self,
+        runs: int,
+        supernet: Sequence[int],
+        subnet: Sequence[int],
+        outputs: slice = slice(0, 6),
+    ):
         self.outputs = outputs
         self.w_k, self.w_kl = regular_grid(supernet), regular_grid(subnet)
         cells = (len(self.w_k), len(self.w_kl))
@@ -48,9 +54,13 @@ class HierarchicalMap:
         centres = np.empty((6, *cells))
         centres[POSITION], centres[ORIENTATION] = self.w_k.T[:, :, None], self.w_kl.T[:, None, :]
         self.theta = np.tile(centres[outputs], (runs, 1, 1, 1))
-        self.jacobian = np.broadcast_to(identity[:, :, None, None], (runs, *identity.shape, *cells)).copy()
+        self.jacobian = np.broadcast_to(
+            identity[:, :, None, None], (runs, *identity.shape, *cells)
+        ).copy()
         self._runs = np.arange(runs)
-        self._near_k, self._near_kl = (-0.5 * ((w[:, None] - w[None]) ** 2).sum(axis=-1) for w in (self.w_k, self.w_kl))
+        self._near_k, self._near_kl = (
+            -0.5 * ((w[:, None] - w[None]) ** 2).sum(axis=-1) for w in (self.w_k, self.w_kl)
+        )
 
     def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The winning cells (k, l), each (run, pose), for poses u (run, pose, 6): by the supernet, then by its subnet."""
@@ -61,13 +71,17 @@ class HierarchicalMap:
         k, l = self.winner(u)
         runs = self._runs[:, None]
         offset = u - np.concatenate([self.w_k[k], self.w_kl[l]], axis=-1)
-        return self.theta[runs, :, k, l] + np.einsum("rpoi,rpi->rpo", self.jacobian[runs, :, :, k, l], offset)
+        return self.theta[runs, :, k, l] + np.einsum(
+            "rpoi,rpi->rpo", self.jacobian[runs, :, :, k, l], offset
+        )
 
     def at(self, k: np.ndarray, l: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """theta (run, output) and Jacobian (run, output, 6) of one cell (k, l) of each run."""
         return self.theta[self._runs, :, k, l], self.jacobian[self._runs, :, :, k, l]
 
-    def neighbourhood(self, k: np.ndarray, l: np.ndarray, width_k: np.ndarray, width_kl: np.ndarray) -> np.ndarray:
+    def neighbourhood(
+        self, k: np.ndarray, l: np.ndarray, width_k: np.ndarray, width_kl: np.ndarray
+    ) -> np.ndarray:
         """g_k g_kl (run, K, L): Gaussians of these widths (run,) about the winning cells (k, l), each (run,)."""
         g_k = np.exp(self._near_k[k] / np.square(width_k)[:, None])
         g_kl = np.exp(self._near_kl[l] / np.square(width_kl)[:, None])

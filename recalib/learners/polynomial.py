@@ -33,7 +33,9 @@ class PolynomialLearner:
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         self._degree = degree
-        degrees = np.repeat(range(degree + 1), [math.comb(5 + each, each) for each in range(degree + 1)])
+        degrees = np.repeat(
+            range(degree + 1), [math.comb(5 + each, each) for each in range(degree + 1)]
+        )
         self._coefficients = np.zeros((runs, len(degrees), 6))
         # posterior covariance of the coefficients over the variance of the noise
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))

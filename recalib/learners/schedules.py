@@ -5,7 +5,9 @@ Every function takes the value at the start, the value at the end and the fracti
 
 import numpy as np
 
-DIMENSIONS = 3  # of the space of each net's centres: positions for a supernet, orientations for a subnet
+DIMENSIONS = (
+    3  # of the space of each net's centres: positions for a supernet, orientations for a subnet
+)
 
 
 def exponential(start, end, fraction):

@@ -18,7 +18,9 @@ from recalib.nominal.robots import Robot
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
-DEGREE = 3  # of the first guess: off by a degree or less, from where Newton's method needs three steps
+DEGREE = (
+    3  # of the first guess: off by a degree or less, from where Newton's method needs three steps
+)
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
@@ -72,9 +74,13 @@ class Controller:
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
-        inside = np.clip(self.robot.workspace.to_coordinates(poses), -1, 1)  # a polynomial knows nothing of what is beyond
+        inside = np.clip(
+            self.robot.workspace.to_coordinates(poses), -1, 1
+        )  # a polynomial knows nothing of what is beyond
         features = monomials(inside, DEGREE)
-        start = (features[:, None] @ self._guess)[:, 0]  # row by row: one product of all would round with the batch's size
+        start = (features[:, None] @ self._guess)[
+            :, 0
+        ]  # row by row: one product of all would round with the batch's size
         angles, residuals = solve_newton(self.robot.arm, poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
@@ -82,7 +88,9 @@ class Controller:
     def targets(self, commands: np.ndarray) -> Targets:
         """What the commands, coordinates (run, move, 6), ask of the joints."""
         solution = self.solve(self.robot.workspace.to_poses(commands.reshape(-1, 6)))
-        return Targets(solution.angles.reshape(commands.shape), solution.reached.reshape(commands.shape[:-1]))
+        return Targets(
+            solution.angles.reshape(commands.shape), solution.reached.reshape(commands.shape[:-1])
+        )
 
     def inverse(self, poses: np.ndarray) -> np.ndarray:
         """Joint angles (n, 6) [rad] for the commanded poses (n, 4, 4).
@@ -91,7 +99,11 @@ class Controller:
         """
         solution = self.solve(poses)
         for index in np.flatnonzero(~solution.reached):
-            reason = "only beyond the joint limits" if solution.residuals[index] <= TOLERANCE else "no joint angles reach it"
+            reason = (
+                "only beyond the joint limits"
+                if solution.residuals[index] <= TOLERANCE
+                else "no joint angles reach it"
+            )
             raise Unreachable(poses[index], solution.residuals[index], reason)
         return solution.angles
 
@@ -107,7 +119,9 @@ class Controller:
     def _check_limits(self, knots: np.ndarray) -> None:
         robot = self.robot
         for knot, joint in np.argwhere((knots < robot.lower) | (knots > robot.upper)):
-            turn, low, high = np.degrees([knots[knot, joint], robot.lower[joint], robot.upper[joint]])
+            turn, low, high = np.degrees(
+                [knots[knot, joint], robot.lower[joint], robot.upper[joint]]
+            )
             raise UnfitWorkspace(
                 f"the {robot.name} would have to turn {robot.joints[joint]} to {turn:.1f} deg in its workspace, beyond its"
                 f" limits of {low:.1f} to {high:.1f} deg. Make robots.{robot.name}.workspace smaller or move its home"

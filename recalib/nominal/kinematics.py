@@ -37,20 +37,32 @@ class Arm:
         """
         poses, jacobians = [], []
         for q in angles:
-            jacobians.append(pin.computeFrameJacobian(self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED))
+            jacobians.append(
+                pin.computeFrameJacobian(
+                    self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED
+                )
+            )
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
         return np.array(poses).reshape(-1, 4, 4), np.array(jacobians).reshape(-1, 6, 6)
 
-    def forward_and_all_jacobians(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def forward_and_all_jacobians(
+        self, angles: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Poses and Jacobians as `forward_and_jacobian`, and the Jacobians (n, 6, 7 * 6) with respect to the placements.
 
         A placement's motion [m, rad] is along the axes of what it places: the six joints, and last the tool.
         """
         poses, joints, placements = [], [], []
         for q in angles:
-            joints.append(pin.computeFrameJacobian(self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED))
+            joints.append(
+                pin.computeFrameJacobian(
+                    self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED
+                )
+            )
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
-            regressor = pin.computeFrameKinematicRegressor(self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED)
+            regressor = pin.computeFrameKinematicRegressor(
+                self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED
+            )
             placements.append(regressor)
         poses, tools = np.array(poses), np.zeros((len(angles), 6, 6))
         tools[:, :3, :3] = tools[:, 3:, 3:] = poses[:, :3, :3]
@@ -58,4 +70,6 @@ class Arm:
 
     def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
         """Torques (n, 6) [N m] with which the motors hold the arm against gravity at joint angles (n, 6) [rad]."""
-        return np.array([pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]).reshape(-1, 6)
+        return np.array(
+            [pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]
+        ).reshape(-1, 6)

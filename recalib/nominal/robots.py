@@ -104,7 +104,9 @@ def load_robot(name: str, entries: Mapping[str, Mapping]) -> Robot:
                 raise UnknownName(f"joint in robots.{name}.{key}", joint, joints)
     missing = [joint for joint in joints if joint not in entry["home"]]
     if missing:
-        raise InvalidSetting(f"robots.{name}.home", entry["home"], f"an angle for {', '.join(missing)} too")
+        raise InvalidSetting(
+            f"robots.{name}.home", entry["home"], f"an angle for {', '.join(missing)} too"
+        )
     home = np.array([quantities.angle(entry["home"][joint]) for joint in joints])
     lower, upper = arm.model.lowerPositionLimit.copy(), arm.model.upperPositionLimit.copy()
     for joint, (low, high) in entry.get("limits", {}).items():
@@ -116,7 +118,9 @@ def load_robot(name: str, entries: Mapping[str, Mapping]) -> Robot:
             raise InvalidSetting(f"robots.{name}.home.{joint}", entry["home"][joint], valid)
     size = [quantities.length(side) for side in entry["workspace"]["position"]]
     size += [quantities.angle(side) for side in entry["workspace"]["orientation"]]
-    for side, given in zip(size, [*entry["workspace"]["position"], *entry["workspace"]["orientation"]], strict=True):
+    for side, given in zip(
+        size, [*entry["workspace"]["position"], *entry["workspace"]["orientation"]], strict=True
+    ):
         if side <= 0:
             raise InvalidSetting(f"robots.{name}.workspace", given, "sides above zero")
     workspace = Workspace(centre=arm.forward(home[None])[0], half_ranges=np.array(size) / 2)

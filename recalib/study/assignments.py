@@ -17,7 +17,10 @@ from recalib.nominal.poses import orientation_error, position_error
 
 def shortenings(links: Sequence[str], lengths: Sequence[float]) -> list[tuple[LinkShortening, ...]]:
     """Every way to take the lengths [m] off as many different links."""
-    ways = dict.fromkeys(tuple(sorted(zip(chosen, lengths, strict=True))) for chosen in permutations(links, len(lengths)))
+    ways = dict.fromkeys(
+        tuple(sorted(zip(chosen, lengths, strict=True)))
+        for chosen in permutations(links, len(lengths))
+    )
     return [tuple(LinkShortening(link, length) for link, length in way) for way in ways]
 
 
@@ -48,8 +51,13 @@ def initial_errors(
     offsets = np.array([apply(robot, shift).offsets for shift in shifted])
     believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
     for shortening in short:
-        achieved = apply(robot, shortening).arm.forward(believed).reshape(len(shifted), len(desired), 4, 4)
-        yield position_error(achieved, desired).mean(axis=1), orientation_error(achieved, desired).mean(axis=1)
+        achieved = (
+            apply(robot, shortening).arm.forward(believed).reshape(len(shifted), len(desired), 4, 4)
+        )
+        yield (
+            position_error(achieved, desired).mean(axis=1),
+            orientation_error(achieved, desired).mean(axis=1),
+        )
 
 
 def enumerate_assignments(
@@ -67,16 +75,25 @@ def enumerate_assignments(
     joints = controller.robot.joints
     short, shifted = shortenings(links, lengths), shifts(joints, angles)
     rows = []
-    for shortening, errors in zip(short, initial_errors(controller, short, shifted, coordinates), strict=True):
+    for shortening, errors in zip(
+        short, initial_errors(controller, short, shifted, coordinates), strict=True
+    ):
         off = {f"shorten {damage.link}": damage.length for damage in shortening}
         for shift, position, orientation in zip(shifted, *errors, strict=True):
-            row = {"position_error_cm": position * 100, "orientation_error_deg": np.degrees(orientation)}
+            row = {
+                "position_error_cm": position * 100,
+                "orientation_error_deg": np.degrees(orientation),
+            }
             rows.append(row | off | {f"shift {damage.joint}": damage.angle for damage in shift})
     columns = [f"shorten {link}" for link in links] + [f"shift {joint}" for joint in joints]
-    return pd.DataFrame(rows, columns=[*columns, "position_error_cm", "orientation_error_deg"]).fillna(0.0)
+    return pd.DataFrame(
+        rows, columns=[*columns, "position_error_cm", "orientation_error_deg"]
+    ).fillna(0.0)
 
 
-def distance_to(table: pd.DataFrame, position_error_cm: float, orientation_error_deg: float) -> pd.Series:
+def distance_to(
+    table: pd.DataFrame, position_error_cm: float, orientation_error_deg: float
+) -> pd.Series:
     """How far each assignment's initial errors are from the published ones: the larger of the two relative deviations."""
     position = (table["position_error_cm"] / position_error_cm - 1).abs()
     orientation = (table["orientation_error_deg"] / orientation_error_deg - 1).abs()
@@ -85,6 +102,14 @@ def distance_to(table: pd.DataFrame, position_error_cm: float, orientation_error
 
 def damages_of(row: pd.Series) -> tuple[LinkShortening | EncoderShift, ...]:
     """The damages of one row of `enumerate_assignments`, links first."""
-    links = [LinkShortening(key[8:], value) for key, value in row.items() if key.startswith("shorten ") and value]
-    encoders = [EncoderShift(key[6:], value) for key, value in row.items() if key.startswith("shift ") and value]
+    links = [
+        LinkShortening(key[8:], value)
+        for key, value in row.items()
+        if key.startswith("shorten ") and value
+    ]
+    encoders = [
+        EncoderShift(key[6:], value)
+        for key, value in row.items()
+        if key.startswith("shift ") and value
+    ]
     return (*links, *encoders)

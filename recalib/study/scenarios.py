@@ -20,8 +20,15 @@ DAMAGES = (
     "sag + compliance",
     "backlash + gap",
 )
-DISTURBANCES = ("noise", "repeatability", "outliers")  # entries that disturb moves and measurements, not the arm
-ASSIGNED = {"links": "link", "encoders": "encoder"}  # which entries of the paper's damage each word stands for
+DISTURBANCES = (
+    "noise",
+    "repeatability",
+    "outliers",
+)  # entries that disturb moves and measurements, not the arm
+ASSIGNED = {
+    "links": "link",
+    "encoders": "encoder",
+}  # which entries of the paper's damage each word stands for
 
 
 def robot_of(scenario: str, config: Mapping) -> tuple[str, str]:
@@ -40,7 +47,9 @@ def robot_of(scenario: str, config: Mapping) -> tuple[str, str]:
 
 def load_controller(robot: str, config: Mapping) -> Controller:
     """The nominal controller of a robot; see `load_robot` and `Controller` for what it raises."""
-    return Controller(load_robot(robot, config["robots"]), config["controller"]["greatest_condition"])
+    return Controller(
+        load_robot(robot, config["robots"]), config["controller"]["greatest_condition"]
+    )
 
 
 def is_assigned(entries: Iterable[Mapping]) -> bool:
@@ -136,7 +145,9 @@ def _check_paper_damage(robot: Robot, config: Mapping) -> None:
     paper, links = config["paper_damage"], config["robots"][robot.name]["links"]
     for key, places in (("shorten", links), ("shift", robot.joints)):
         if len(paper[key]) > len(places):
-            raise InvalidSetting(f"paper_damage.{key}", paper[key], f"at most {len(places)} on the {robot.name}")
+            raise InvalidSetting(
+                f"paper_damage.{key}", paper[key], f"at most {len(places)} on the {robot.name}"
+            )
     for link in links:
         for amount in paper["shorten"]:
             apply(robot, [LinkShortening(link, quantities.length(amount))])

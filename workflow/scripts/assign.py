@@ -15,7 +15,9 @@ with job(snakemake):
     config, robot = snakemake.config, snakemake.wildcards.robot
     paper = config["paper_damage"]
     controller = scenarios.load_controller(robot, config)
-    poses = controller.robot.workspace.sample(generator(config["seed"], "assignments"), paper["poses"])
+    poses = controller.robot.workspace.sample(
+        generator(config["seed"], "assignments"), paper["poses"]
+    )
     table = enumerate_assignments(
         controller,
         config["robots"][robot]["links"],

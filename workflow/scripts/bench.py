@@ -40,7 +40,10 @@ with job(snakemake):
     angles = controller.inverse(controller.robot.workspace.to_poses(commands.reshape(-1, 6)))
     # Both in turn, and the ratio pair by pair: the machine may be shared.
     pairs = [
-        (seconds(lambda: [plant.execute(each) for each in commands]), seconds(bare_loop, controller.robot, arm, angles))
+        (
+            seconds(lambda: [plant.execute(each) for each in commands]),
+            seconds(bare_loop, controller.robot, arm, angles),
+        )
         for _ in range(REPEATS)
     ]
     ours, bare = np.median(pairs, axis=0) / len(angles)
@@ -53,8 +56,12 @@ with job(snakemake):
         which = tuned.training(name, config["learners"])
         desired = campaign.desired_poses(0, "bench", range(RUNS), ITERATIONS)
         learner = tuned.build(which, RUNS, config["learners"], config["tuned"])
-        spent = seconds(run, Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]) / (RUNS * ITERATIONS)
-        lines.append(f"{name}: {1e6 * spent:.0f} us an iteration and seed, {10_000 * spent:.2f} s for 10,000 iterations")
+        spent = seconds(
+            run, Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
+        ) / (RUNS * ITERATIONS)
+        lines.append(
+            f"{name}: {1e6 * spent:.0f} us an iteration and seed, {10_000 * spent:.2f} s for 10,000 iterations"
+        )
     with whole(snakemake.output[0]) as path:
         path.write_text("\n".join(lines) + "\n")
     print("\n".join(lines))

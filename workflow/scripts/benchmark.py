@@ -30,7 +30,8 @@ with job(snakemake):
         scenario=np.array(scenarios)[frame["seed"] // len(runs)],
         seed=frame["seed"] % len(runs),
         learner=name,
-        seconds_per_move=learner.seconds / (len(desired) * which.iterations * which.moves_per_iteration),
+        seconds_per_move=learner.seconds
+        / (len(desired) * which.iterations * which.moves_per_iteration),
     )
     with whole(snakemake.output[0]) as path:
         frame.to_parquet(path, index=False)

@@ -24,15 +24,34 @@ with job(snakemake):
         for moves, measured in own.groupby("moves"):
             row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
             for error in ERRORS:
-                estimate = bootstrap(measured[error], generator(config["seed"], scenario, learner, moves, error))
-                row |= {error: estimate.mean, f"{error}_low": estimate.low, f"{error}_high": estimate.high}
+                estimate = bootstrap(
+                    measured[error], generator(config["seed"], scenario, learner, moves, error)
+                )
+                row |= {
+                    error: estimate.mean,
+                    f"{error}_low": estimate.low,
+                    f"{error}_high": estimate.high,
+                }
             rows.append(row)
         for error in ERRORS:
             for threshold in plan["thresholds"]:
                 moves = moves_to_reach(own, error, threshold)
                 low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
-                cells = {"scenario": scenario, "learner": learner, "error": error, "threshold": threshold}
-                reached.append(cells | {"moves": median, "low": low, "high": high, "needs": NEEDS.get(learner, BLACK_BOX)})
+                cells = {
+                    "scenario": scenario,
+                    "learner": learner,
+                    "error": error,
+                    "threshold": threshold,
+                }
+                reached.append(
+                    cells
+                    | {
+                        "moves": median,
+                        "low": low,
+                        "high": high,
+                        "needs": NEEDS.get(learner, BLACK_BOX),
+                    }
+                )
     # Seconds differ from run to run: in a file of their own, the others stay what the configuration makes them.
     seconds = history.groupby("learner", sort=False)["seconds_per_move"].mean().reset_index()
     for table, target in zip((rows, reached, seconds), snakemake.output, strict=True):

@@ -38,12 +38,23 @@ with job(snakemake):
     which = tuned.training(snakemake.wildcards.learner, config["learners"])
     controller = scenarios.load_controller(config["robot"], config)
     table = pd.read_parquet(snakemake.input.table)
-    order = generator(config["seed"], "ensemble", snakemake.wildcards.series).permutation(len(table))
+    order = generator(config["seed"], "ensemble", snakemake.wildcards.series).permutation(
+        len(table)
+    )
     greatest = max(plan["scales"])
     drawn = (damages_of(table.iloc[index]) for index in order)
-    chosen = list(islice((damages for damages in drawn if feasible(controller.robot, damages, greatest)), first, last))
+    chosen = list(
+        islice(
+            (damages for damages in drawn if feasible(controller.robot, damages, greatest)),
+            first,
+            last,
+        )
+    )
     cases = [(index, scale) for index in range(len(chosen)) for scale in plan["scales"]]
-    arms = [apply(controller.robot, [scaled(damage, scale) for damage in chosen[index]]) for index, scale in cases]
+    arms = [
+        apply(controller.robot, [scaled(damage, scale) for damage in chosen[index]])
+        for index, scale in cases
+    ]
     runs = [first + index for index, _ in cases]
     learner = tuned.build(which, len(cases), config["learners"], config["tuned"])
     history = run(
@@ -53,7 +64,9 @@ with job(snakemake):
         campaign.test_poses(config["seed"], "ensemble", runs, config["training"]["tests"]),
         [0, which.iterations],
     )
-    frame = pd.DataFrame({"robot": runs, "scale": [scale for _, scale in cases], "refused": history.refused[:, -1]})
+    frame = pd.DataFrame(
+        {"robot": runs, "scale": [scale for _, scale in cases], "refused": history.refused[:, -1]}
+    )
     for moment, when in (("initial", 0), ("final", -1)):
         frame[f"{moment}_position_error_cm"] = 100 * history.position[:, when, 0]
         frame[f"{moment}_orientation_error_deg"] = np.degrees(history.orientation[:, when, 0])

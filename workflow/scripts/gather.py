@@ -11,4 +11,6 @@ with job(snakemake):
         pd.concat(map(pd.read_parquet, snakemake.input.histories)).to_parquet(path, index=False)
     chunks = [np.load(chunk) for chunk in snakemake.input.learned]
     with whole(snakemake.output.learned) as path:
-        np.savez(path, **{name: np.concatenate([chunk[name] for chunk in chunks]) for name in chunks[0]})
+        np.savez(
+            path, **{name: np.concatenate([chunk[name] for chunk in chunks]) for name in chunks[0]}
+        )

@@ -19,4 +19,6 @@ with job(snakemake):
                 path.write_bytes(reply.read())
         found = hashlib.sha256(Path(path).read_bytes()).hexdigest()
         if found != source["sha256"]:
-            sys.exit(f"{source['file'] or source['url']} has SHA-256 {found}; expected {source['sha256']}")
+            sys.exit(
+                f"{source['file'] or source['url']} has SHA-256 {found}; expected {source['sha256']}"
+            )

@@ -18,8 +18,17 @@ with job(snakemake):
         # With all of them there is one subset only; what learns nothing needs one, too.
         subsets = 1 if poses >= len(known) or learner == "uncorrected" else plan["subsets"]
         for subset in range(subsets):
-            chosen = generator(config["seed"], "real", poses, subset).permutation(len(known))[:poses]
+            chosen = generator(config["seed"], "real", poses, subset).permutation(len(known))[
+                :poses
+            ]
             errors = remaining_errors(learner, robot.arm, known[chosen], tests)
-            rows.append({"learner": learner, "poses": poses, "subset": subset, "position_error_mm": 1e3 * errors.mean()})
+            rows.append(
+                {
+                    "learner": learner,
+                    "poses": poses,
+                    "subset": subset,
+                    "position_error_mm": 1e3 * errors.mean(),
+                }
+            )
     with whole(snakemake.output[0]) as path:
         pd.DataFrame(rows).to_csv(path, index=False)

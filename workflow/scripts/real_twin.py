@@ -24,7 +24,10 @@ with job(snakemake):
         tuned.build(which, len(runs), config["learners"], config["tuned"]),
         campaign.desired_poses(config["seed"], "twin", runs, which.iterations),
         campaign.test_poses(config["seed"], "twin", runs, config["training"]["tests"]),
-        sorted({poses // 2 for poses in plan["poses"] if poses // 2 <= which.iterations} | {which.iterations}),
+        sorted(
+            {poses // 2 for poses in plan["poses"] if poses // 2 <= which.iterations}
+            | {which.iterations}
+        ),
     )
     frame = pd.DataFrame(
         {

@@ -14,7 +14,11 @@ from workflow.scripts.job import job
 SEED = 0
 
 with job(snakemake):
-    config, scenario, plan = snakemake.config, snakemake.wildcards.scenario, snakemake.params.training
+    config, scenario, plan = (
+        snakemake.config,
+        snakemake.wildcards.scenario,
+        snakemake.params.training,
+    )
     described = json.loads(Path(snakemake.input.scenario).read_text())
     names = snakemake.params.learners
     which = [tuned.training(name, config["learners"]) for name in names]
@@ -25,15 +29,25 @@ with job(snakemake):
         path,
         scenarios.parse_damages(described["damages"]),
         scenarios.load_controller(described["robot"], config),
-        {name: tuned.build(each, 1, config["learners"], config["tuned"]) for name, each in zip(names, which, strict=True)},
+        {
+            name: tuned.build(each, 1, config["learners"], config["tuned"])
+            for name, each in zip(names, which, strict=True)
+        },
         campaign.desired_poses(config["seed"], scenario, [SEED], iterations)[0],
         campaign.test_poses(config["seed"], scenario, [SEED], plan["tests"])[0],
-        measuring_grid(iterations, plan["measure_every"], plan["measure_evenly"], plan["measurements"]),
+        measuring_grid(
+            iterations, plan["measure_every"], plan["measure_evenly"], plan["measurements"]
+        ),
         {
             "damage": json.dumps(described["damages"]),
             "robot": described["robot"],
             "seed": str(SEED),
-            "config_sha256": hashlib.sha256(json.dumps(config, sort_keys=True).encode()).hexdigest(),
-            **{name: importlib.metadata.version(name) for name in ("pin", "rerun-sdk", "numpy", "scipy")},
+            "config_sha256": hashlib.sha256(
+                json.dumps(config, sort_keys=True).encode()
+            ).hexdigest(),
+            **{
+                name: importlib.metadata.version(name)
+                for name in ("pin", "rerun-sdk", "numpy", "scipy")
+            },
         },
     )

@@ -31,12 +31,19 @@ with job(snakemake):
         "config": config,
         "paper": config["search"]["scenario"],
         "runs": {(run["scenario"], run["learner"]): run for run in summary.to_dict("records")},
-        "settings": lambda learner: tuned.settings(tuned.training(learner, config["learners"]), config["tuned"]),
+        "settings": lambda learner: tuned.settings(
+            tuned.training(learner, config["learners"]), config["tuned"]
+        ),
         "scenarios": [read(path) for path in snakemake.input.scenarios],
         "claims": {claim["id"]: claim for path in snakemake.input.claims for claim in read(path)},
-        "versions": lambda *names: {"Python": platform.python_version(), **{name: version(name) for name in names}},
+        "versions": lambda *names: {
+            "Python": platform.python_version(),
+            **{name: version(name) for name in names},
+        },
     }
-    layout = Environment(loader=FileSystemLoader("workflow/report"), autoescape=True, undefined=StrictUndefined)
+    layout = Environment(
+        loader=FileSystemLoader("workflow/report"), autoescape=True, undefined=StrictUndefined
+    )
     for output in map(Path, snakemake.output):
         page = {"page": output.name, "figure": figures.get(output.stem)}
         with whole(output) as path:

@@ -16,12 +16,18 @@ from workflow.scripts.job import job
 with job(snakemake):
     config, scenario = snakemake.config, snakemake.wildcards.scenario
     name, robot = scenarios.robot_of(scenario, config)
-    assignment = json.loads(Path(snakemake.input.assignment).read_text())["damages"] if snakemake.input.assignment else []
+    assignment = (
+        json.loads(Path(snakemake.input.assignment).read_text())["damages"]
+        if snakemake.input.assignment
+        else []
+    )
     damages = scenarios.resolve(config["scenarios"][name], assignment)
     controller = scenarios.load_controller(robot, config)
     arm = apply(controller.robot, scenarios.parse_damages(damages))
     workspace = controller.robot.workspace
-    tests = workspace.sample(generator(config["seed"], scenario, "initial errors"), 1, config["paper_damage"]["poses"])
+    tests = workspace.sample(
+        generator(config["seed"], scenario, "initial errors"), 1, config["paper_damage"]["poses"]
+    )
     achieved, _ = Plant(controller, [arm]).achieve(tests)
     desired = workspace.to_poses(tests)
     described = {

@@ -15,6 +15,8 @@ with job(snakemake):
         settings[name] = best.to_dict() | {"trials": len(trials)}
     with whole(snakemake.output.settings) as path:
         text = yaml.safe_dump(settings, sort_keys=False)
-        path.write_text(f"# Written by `snakemake --cores 2 tune`: the best trial of the search for each training.\n{text}")
+        path.write_text(
+            f"# Written by `snakemake --cores 2 tune`: the best trial of the search for each training.\n{text}"
+        )
     with whole(snakemake.output.sample) as path:
         sample.to_csv(path, index=False)

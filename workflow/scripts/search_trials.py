@@ -20,12 +20,16 @@ with job(snakemake):
         earlier = pd.concat(map(pd.read_csv, snakemake.input.earlier), ignore_index=True)
         best = earlier.loc[search.score(earlier).idxmin()]
     round_, (start, stop) = int(snakemake.wildcards.round), snakemake.params.trials
-    trials = search.draw(rules, plan["ranges"], plan["trials"], plan["seed"] + round_, best)[start:stop]
+    trials = search.draw(rules, plan["ranges"], plan["trials"], plan["seed"] + round_, best)[
+        start:stop
+    ]
     controller, arm = campaign.load_scenario(snakemake.input.scenario, config)
     seeds, scope = range(plan["seeds"]), f"search on {plan['scenario']}"
     desired = campaign.desired_poses(plan["seed"], scope, seeds, which.iterations)
     tests = campaign.test_poses(plan["seed"], scope, seeds, config["training"]["tests"])
-    learner = HierarchicalLearner(len(trials) * len(seeds), rules, search.schedule(trials, rules, len(seeds)))
+    learner = HierarchicalLearner(
+        len(trials) * len(seeds), rules, search.schedule(trials, rules, len(seeds))
+    )
     history = run(
         Plant(controller, [arm]),
         learner,
@@ -38,7 +42,9 @@ with job(snakemake):
         ("position_error_cm", 100 * history.position),
         ("orientation_error_deg", np.degrees(history.orientation)),
     ):
-        trials[column] = np.exp(np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds)).mean(axis=1))
+        trials[column] = np.exp(
+            np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds)).mean(axis=1)
+        )
         trials[column] = trials[column].map("{:.4g}".format).astype(float)
     trials.insert(0, "training", str(which))
     trials.insert(1, "round", round_)

@@ -19,8 +19,19 @@ from workflow.scripts.job import job
 
 def scaled(damages, scale):
     """The paper's damage made smaller or drastic. Links cannot lose more than they have, so they stop growing at once."""
-    links = [LinkShortening(each.link, each.length * min(scale, 1)) for each in damages if isinstance(each, LinkShortening)]
-    return [*links, *(EncoderShift(each.joint, each.angle * scale) for each in damages if isinstance(each, EncoderShift))]
+    links = [
+        LinkShortening(each.link, each.length * min(scale, 1))
+        for each in damages
+        if isinstance(each, LinkShortening)
+    ]
+    return [
+        *links,
+        *(
+            EncoderShift(each.joint, each.angle * scale)
+            for each in damages
+            if isinstance(each, EncoderShift)
+        ),
+    ]
 
 
 with job(snakemake):
@@ -34,7 +45,10 @@ with job(snakemake):
     with whole(snakemake.output.coupling) as path:
         pd.concat(frames).to_parquet(path, index=False)
 
-    damages = [scenarios.parse_damage(each) for each in json.loads(Path(snakemake.input.paper).read_text())["damages"]]
+    damages = [
+        scenarios.parse_damage(each)
+        for each in json.loads(Path(snakemake.input.paper).read_text())["damages"]
+    ]
     robot = controller.robot
     offsets = ball(rng("ball"), plan["points"], 6, plan["radius"])
     centres = robot.workspace.sample(rng("centres"), plan["balls"]) * (1 - plan["radius"])
@@ -43,10 +57,18 @@ with job(snakemake):
     for scale in plan["scales"]:
         for start, old in starts.items():
             # From the intact robot, the paper's damage; from the damaged one, as much again on top of it.
-            new = apply(robot, scaled(damages, scale) if start == "intact" else [*damages, *scaled(damages, scale)])
+            new = apply(
+                robot,
+                scaled(damages, scale)
+                if start == "intact"
+                else [*damages, *scaled(damages, scale)],
+            )
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):
                 pair = [partial(mapping, controller, which) for which in (old, new)]
                 errors = [propagation_errors(*pair, centre, offsets) for centre in centres]
-                rows += [{"scale": scale, "start": start, "kind": kind, "classic": c, "updated": u} for c, u in errors]
+                rows += [
+                    {"scale": scale, "start": start, "kind": kind, "classic": c, "updated": u}
+                    for c, u in errors
+                ]
     with whole(snakemake.output.propagation) as path:
         pd.DataFrame(rows).to_parquet(path, index=False)

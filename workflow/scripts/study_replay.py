@@ -30,6 +30,9 @@ with job(snakemake):
         for iteration in range(which.iterations):
             learner.learn(desired[:, iteration], execute, iteration / which.iterations)
         learned.append(learner.state())
-    rows = [{"array": name, "difference": np.abs(learned[1][name] - values).max()} for name, values in learned[0].items()]
+    rows = [
+        {"array": name, "difference": np.abs(learned[1][name] - values).max()}
+        for name, values in learned[0].items()
+    ]
     with whole(snakemake.output[0]) as path:
         pd.DataFrame(rows).to_parquet(path, index=False)

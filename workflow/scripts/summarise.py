@@ -17,7 +17,9 @@ ERRORS = ("position_error_cm", "orientation_error_deg")
 def row(scenario: str, learner: str, path: str, config) -> dict:
     """The summary of one training's history."""
     history = pd.read_parquet(path)
-    described = json.loads(Path(snakemake.input.scenarios[snakemake.params.scenarios.index(scenario)]).read_text())
+    described = json.loads(
+        Path(snakemake.input.scenarios[snakemake.params.scenarios.index(scenario)]).read_text()
+    )
     cells = {
         "robot": described["robot"],
         "scenario": scenario,
@@ -27,10 +29,15 @@ def row(scenario: str, learner: str, path: str, config) -> dict:
         "moves": history["moves"].max(),
         "refused": history.groupby("seed")["refused"].max().sum(),
     }
-    for moment, iteration in (("initial", history["iteration"].min()), ("final", history["iteration"].max())):
+    for moment, iteration in (
+        ("initial", history["iteration"].min()),
+        ("final", history["iteration"].max()),
+    ):
         then = history[history["iteration"] == iteration]
         for error in ERRORS:
-            estimate = bootstrap(then[error], generator(config["seed"], "summary", scenario, learner, moment, error))
+            estimate = bootstrap(
+                then[error], generator(config["seed"], "summary", scenario, learner, moment, error)
+            )
             cells |= {
                 f"{moment}_{error}": estimate.mean,
                 f"{moment}_{error}_low": estimate.low,
@@ -42,7 +49,9 @@ def row(scenario: str, learner: str, path: str, config) -> dict:
 with job(snakemake):
     rows = [
         row(scenario, learner, path, snakemake.config)
-        for (scenario, learner), path in zip(snakemake.params.runs, snakemake.input.histories, strict=True)
+        for (scenario, learner), path in zip(
+            snakemake.params.runs, snakemake.input.histories, strict=True
+        )
     ]
     with whole(snakemake.output[0]) as path:
         pd.DataFrame(rows).to_csv(path, index=False, float_format="%.6g")

@@ -24,7 +24,12 @@ with job(snakemake):
             learner,
             campaign.desired_poses(config["seed"], scenario, runs, which.iterations),
             campaign.test_poses(config["seed"], scenario, runs, plan["tests"]),
-            measuring_grid(which.iterations, plan["measure_every"], plan["measure_evenly"], plan["measurements"])
+            measuring_grid(
+                which.iterations,
+                plan["measure_every"],
+                plan["measure_evenly"],
+                plan["measurements"],
+            )
             if snakemake.params.throughout
             else [0, which.iterations],
             progress,

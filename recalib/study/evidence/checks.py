@@ -23,7 +23,9 @@ class CheckFailed(RecalibError):
             f"{row.scenario} {row.learner}: {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
             for row in failed.itertuples()
         ]
-        super().__init__(f"{len(failed)} of the final errors are outside of their bands\n" + "\n".join(rows))
+        super().__init__(
+            f"{len(failed)} of the final errors are outside of their bands\n" + "\n".join(rows)
+        )
 
 
 def expect(summary: pd.DataFrame) -> pd.DataFrame:
@@ -33,8 +35,15 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
         for error in ERRORS:
             mean, low, high = (cells[f"final_{error}{bound}"] for bound in ("", "_low", "_high"))
             spread = STANDARD_ERRORS * (high - low) / (2 * 1.96)
-            band = (0.0, NEGLIGIBLE[error]) if mean < NEGLIGIBLE[error] else (mean - spread, mean + spread)
-            rows.append({key: cells[key] for key in KEYS} | {"error": error, "low": band[0], "high": band[1]})
+            band = (
+                (0.0, NEGLIGIBLE[error])
+                if mean < NEGLIGIBLE[error]
+                else (mean - spread, mean + spread)
+            )
+            rows.append(
+                {key: cells[key] for key in KEYS}
+                | {"error": error, "low": band[0], "high": band[1]}
+            )
     return pd.DataFrame(rows)
 
 

@@ -25,10 +25,17 @@ class Finding:
     note: str = ""
 
     @classmethod
-    def of(cls, holds: bool, estimates: Mapping[str, Estimate], note: str = "", **measured: float) -> "Finding":
+    def of(
+        cls, holds: bool, estimates: Mapping[str, Estimate], note: str = "", **measured: float
+    ) -> "Finding":
         """A finding of estimates, and of numbers without an interval."""
         means = {label: estimate.mean for label, estimate in estimates.items()}
-        return cls(holds, means | measured, {label: (each.low, each.high) for label, each in estimates.items()}, note)
+        return cls(
+            holds,
+            means | measured,
+            {label: (each.low, each.high) for label, each in estimates.items()},
+            note,
+        )
 
 
 def combined(errors: np.ndarray) -> np.ndarray:
@@ -41,7 +48,9 @@ def identity(evidence: Evidence, limits: Mapping) -> Finding:
     ritter = evidence.errors("ritter_200", "intact").mean(axis=0)
     note = f"Ritter's values do not leave it there: {ritter[0]:.2g} cm and {ritter[1]:.2g} degrees after 200 iterations."
     return Finding(
-        bool((worst < limits["error"]).all()), {"largest cm": worst.iloc[0], "largest degrees": worst.iloc[1]}, note=note
+        bool((worst < limits["error"]).all()),
+        {"largest cm": worst.iloc[0], "largest degrees": worst.iloc[1]},
+        note=note,
     )
 
 
@@ -50,17 +59,23 @@ KINDS = ("position", "orientation")
 
 def left(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
     """The share of an initial error that is left at the end."""
-    first, last = (evidence.errors(learner, scenario, moment)[:, kind] for moment in ("first", "last"))
+    first, last = (
+        evidence.errors(learner, scenario, moment)[:, kind] for moment in ("first", "last")
+    )
     return paired_ratio(last, first, evidence.rng("left", learner, KINDS[kind]))
 
 
 def ritter_slow(evidence: Evidence, limits: Mapping) -> Finding:
-    estimates = {f"{name} left": left(evidence, "ritter_200", kind) for kind, name in enumerate(KINDS)}
+    estimates = {
+        f"{name} left": left(evidence, "ritter_200", kind) for kind, name in enumerate(KINDS)
+    }
     return Finding.of(all(each.low > limits["left"] for each in estimates.values()), estimates)
 
 
 def figure_1(evidence: Evidence, limits: Mapping) -> Finding:
-    estimates = {f"{name} left": left(evidence, "improved", kind) for kind, name in enumerate(KINDS)}
+    estimates = {
+        f"{name} left": left(evidence, "improved", kind) for kind, name in enumerate(KINDS)
+    }
     final = evidence.errors("improved").mean(axis=0)
     holds = all(each.high < limits["left"] for each in estimates.values())
     return Finding.of(holds, estimates, **{"final cm": final[0], "final degrees": final[1]})
@@ -71,29 +86,47 @@ def weak_coupling(evidence: Evidence, limits: Mapping) -> Finding:
     worst = table.groupby("scenario")[["position", "orientation"]].quantile(0.95)
     labels = {f"{column} commands": worst[column].max() for column in worst}
     strongest = worst.max(axis=1).idxmax()
-    return Finding(max(labels.values()) <= limits["ratio"], labels, note=f"Strongest in the scenario {strongest}.")
+    return Finding(
+        max(labels.values()) <= limits["ratio"],
+        labels,
+        note=f"Strongest in the scenario {strongest}.",
+    )
 
 
 def switch(evidence: Evidence, limits: Mapping, without: str, added: str) -> Finding:
     """One of the four changes: taken away from the improved system, and added to Ritter's."""
-    pairs = {"improved with it / without it": ("improved", without), "Ritter with it / without it": (added, "ritter_200")}
+    pairs = {
+        "improved with it / without it": ("improved", without),
+        "Ritter with it / without it": (added, "ritter_200"),
+    }
     estimates = {
-        label: paired_ratio(*(combined(evidence.errors(each)) for each in pair), evidence.rng(*pair))
+        label: paired_ratio(
+            *(combined(evidence.errors(each)) for each in pair), evidence.rng(*pair)
+        )
         for label, pair in pairs.items()
     }
     by_kind = [
         f"{label}: {ratio[0]:.2f} in position and {ratio[1]:.2f} in orientation"
         for label, pair in pairs.items()
-        for ratio in [np.exp(np.subtract(*(np.log(evidence.errors(each)).mean(axis=0) for each in pair)))]
+        for ratio in [
+            np.exp(np.subtract(*(np.log(evidence.errors(each)).mean(axis=0) for each in pair)))
+        ]
     ]
-    return Finding.of(all(each.high < limits["ratio"] for each in estimates.values()), estimates, "; ".join(by_kind) + ".")
+    return Finding.of(
+        all(each.high < limits["ratio"] for each in estimates.values()),
+        estimates,
+        "; ".join(by_kind) + ".",
+    )
 
 
 def increments(evidence: Evidence, limits: Mapping, kind: str, without: str, added: str) -> Finding:
     """One of the switches of section 5, and the reason given for it."""
     finding = switch(evidence, limits, without, added)
     ratio = integral_ratios(evidence.study("propagation"))[kind]
-    finding.measured |= {"E_upd / E_clas, intact": ratio["intact", 1], "E_upd / E_clas, damaged": ratio["damaged", 1]}
+    finding.measured |= {
+        "E_upd / E_clas, intact": ratio["intact", 1],
+        "E_upd / E_clas, damaged": ratio["damaged", 1],
+    }
     # From the intact robot, the Jacobian of f is constant: both integrals are the same up to rounding.
     nearer = bool(ratio["intact", 1] < limits["integrals"] - 1e-6)
     finding.holds &= nearer
@@ -102,19 +135,25 @@ def increments(evidence: Evidence, limits: Mapping, kind: str, without: str, add
         finding.note += " From the intact robot both integrals are the same: the Jacobian of the identity is constant."
     elif above.any():
         turn = above.argmax()
-        finding.note += (
-            f" E_upd passes E_clas between {scales[turn - 1]:g} and {scales[turn]:g} times the paper's encoder shifts."
-        )
+        finding.note += f" E_upd passes E_clas between {scales[turn - 1]:g} and {scales[turn]:g} times the paper's encoder shifts."
     else:
-        finding.note += f" E_upd stays below E_clas up to {scales[-1]:g} times the paper's encoder shifts."
+        finding.note += (
+            f" E_upd stays below E_clas up to {scales[-1]:g} times the paper's encoder shifts."
+        )
     return finding
 
 
 def width_order(evidence: Evidence, limits: Mapping) -> Finding:
-    trials = evidence.trials("improved_200").query("round == 1")  # later rounds surround one trial, and are not independent
-    best = trials.loc[search.score(trials).nsmallest(int(np.ceil(limits["best"] * len(trials)))).index]
+    trials = evidence.trials("improved_200").query(
+        "round == 1"
+    )  # later rounds surround one trial, and are not independent
+    best = trials.loc[
+        search.score(trials).nsmallest(int(np.ceil(limits["best"] * len(trials)))).index
+    ]
     estimates = {
-        f"{name} map, g_k over g_kl": paired_ratio(best[f"{name}/g_k"], best[f"{name}/g_kl"], evidence.rng("widths", name))
+        f"{name} map, g_k over g_kl": paired_ratio(
+            best[f"{name}/g_k"], best[f"{name}/g_kl"], evidence.rng("widths", name)
+        )
         for name in ("position", "orientation")
     }
     position, orientation = estimates.values()
@@ -157,14 +196,21 @@ def initial_error(evidence: Evidence, limits: Mapping) -> Finding:
         " errors occur, so this says that they are possible, not that they are likely."
     )
     holds = all(limits["tail"] <= each <= 1 - limits["tail"] for each in below.values())
-    labels = (f"assignments below {value:g} {error.split('_')[-1]}" for error, value in evidence.published.items())
+    labels = (
+        f"assignments below {value:g} {error.split('_')[-1]}"
+        for error, value in evidence.published.items()
+    )
     return Finding(holds, dict(zip(labels, below.values(), strict=True)), note=note)
 
 
 def faster(evidence: Evidence, limits: Mapping) -> Finding:
-    factor = speed_up(evidence.ladder("ritter"), evidence.ladder("improved"), 200, evidence.rng("speed-up"))
+    factor = speed_up(
+        evidence.ladder("ritter"), evidence.ladder("improved"), 200, evidence.rng("speed-up")
+    )
     note = f"Ritter's needs {200 * factor.mean:,.0f} iterations for the errors that the improved system has after 200."
-    final, double = (evidence.errors(learner).mean(axis=0) for learner in ("improved", "ritter_double"))
+    final, double = (
+        evidence.errors(learner).mean(axis=0) for learner in ("improved", "ritter_double")
+    )
     if (double > final).any():
         most = evidence.config["learners"]["ritter_double"]["iterations"]
         note += (
@@ -178,7 +224,10 @@ def rough_search(evidence: Evidence, limits: Mapping) -> Finding:
     shares = {}
     for label, training in (("improved", "improved_200"), ("Ritter", "ritter_10000")):
         trials = evidence.trials(training)
-        within = search.score(trials[trials["round"] == 1]) <= limits["factor"] * search.score(trials).min()
+        within = (
+            search.score(trials[trials["round"] == 1])
+            <= limits["factor"] * search.score(trials).min()
+        )
         shares[label] = share(within, evidence.rng("rough", label))
     return Finding.of(shares["improved"].low >= limits["share"], shares)
 
@@ -187,7 +236,9 @@ def controller_kept(evidence: Evidence, limits: Mapping) -> Finding:
     table = evidence.study("replay")
     difference = float(table["difference"].max())
     return Finding(
-        difference <= limits["difference"], {"largest difference": difference}, note=f"{len(table)} arrays compared."
+        difference <= limits["difference"],
+        {"largest difference": difference},
+        note=f"{len(table)} arrays compared.",
     )
 
 
@@ -197,9 +248,14 @@ MEASURES: dict[str, Callable[[Evidence, Mapping], Finding]] = {
     "weak-coupling": weak_coupling,
     "separate-maps": partial(switch, without="improved_single_map", added="ritter_separate_maps"),
     "width-order": width_order,
-    "theta-increments": partial(increments, kind="theta", without="improved_theta_values", added="ritter_theta_increments"),
+    "theta-increments": partial(
+        increments, kind="theta", without="improved_theta_values", added="ritter_theta_increments"
+    ),
     "jacobian-increments": partial(
-        increments, kind="jacobian", without="improved_jacobian_values", added="ritter_jacobian_increments"
+        increments,
+        kind="jacobian",
+        without="improved_jacobian_values",
+        added="ritter_jacobian_increments",
     ),
     "expected-learning": expected_learning,
     "schedule": partial(switch, without="improved_exponential", added="ritter_equal_visits"),
@@ -216,20 +272,44 @@ def missing(config: Mapping) -> list[str]:
     """What the claims need and the configuration's experiments lack."""
     experiments = config["experiments"]
     needed = {
-        "scenarios": ["intact", "translation", "rotation", "translation_rotation", config["search"]["scenario"]],
+        "scenarios": [
+            "intact",
+            "translation",
+            "rotation",
+            "translation_rotation",
+            config["search"]["scenario"],
+        ],
         "learners": ["improved", "ritter_200", "ritter"],
         "paper": [
             "ritter_double",
-            *(f"improved_{without}" for without in ("single_map", "theta_values", "jacobian_values", "exponential")),
-            *(f"ritter_{added}" for added in ("separate_maps", "theta_increments", "jacobian_increments", "equal_visits")),
+            *(
+                f"improved_{without}"
+                for without in ("single_map", "theta_values", "jacobian_values", "exponential")
+            ),
+            *(
+                f"ritter_{added}"
+                for added in (
+                    "separate_maps",
+                    "theta_increments",
+                    "jacobian_increments",
+                    "equal_visits",
+                )
+            ),
         ],
         "ladder": ["improved", "ritter"],
     }
     lacking = [
-        f"experiments.{key}: {name}" for key, names in needed.items() for name in names if name not in experiments[key]
+        f"experiments.{key}: {name}"
+        for key, names in needed.items()
+        for name in names
+        if name not in experiments[key]
     ]
     lacking += [] if 1 in config["studies"]["scales"] else ["studies.scales: 1"]
-    return lacking + ([] if 200 in experiments["ladder"].get("improved", []) else ["experiments.ladder.improved: 200"])
+    return lacking + (
+        []
+        if 200 in experiments["ladder"].get("improved", [])
+        else ["experiments.ladder.improved: 200"]
+    )
 
 
 def judge(criteria: list[Mapping], evidence: Evidence) -> list[dict]:
@@ -245,7 +325,10 @@ def judge(criteria: list[Mapping], evidence: Evidence) -> list[dict]:
             {key: claim[key] for key in ("id", "section", "statement", "published")}
             | {
                 "measured": {label: number(value) for label, value in finding.measured.items()},
-                "interval": {label: [number(low), number(high)] for label, (low, high) in finding.interval.items()},
+                "interval": {
+                    label: [number(low), number(high)]
+                    for label, (low, high) in finding.interval.items()
+                },
                 "criterion": claim["criterion"],
                 "verdict": SUPPORTED if finding.holds else NOT_SUPPORTED,
                 "note": finding.note,

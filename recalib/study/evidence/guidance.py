@@ -25,14 +25,24 @@ def moves_text(reached: pd.DataFrame) -> str:
 def where_worse(table: pd.DataFrame, budgets: list[int]) -> list[dict]:
     """Scenarios, budgets and errors at which the hybrid is worse than the best other peer."""
     rows = []
-    peers = table[table["learner"].isin(NEEDS) & table["moves"].isin([each for each in budgets if each >= FIRST])]
+    peers = table[
+        table["learner"].isin(NEEDS)
+        & table["moves"].isin([each for each in budgets if each >= FIRST])
+    ]
     for (scenario, moves), own in peers.groupby(["scenario", "moves"], sort=False):
         for error in ERRORS:
             errors = own.set_index("learner")[error]
             others = errors.drop("hybrid")
             if errors["hybrid"] > max(WORSE * others.min(), NEGLIGIBLE):
-                cells = {"scenario": scenario, "moves": moves, "error": error.split("_")[0], "hybrid": errors["hybrid"]}
-                rows.append(cells | {"best": others.min(), "learner": others.idxmin().replace("_", " ")})
+                cells = {
+                    "scenario": scenario,
+                    "moves": moves,
+                    "error": error.split("_")[0],
+                    "hybrid": errors["hybrid"],
+                }
+                rows.append(
+                    cells | {"best": others.min(), "learner": others.idxmin().replace("_", " ")}
+                )
     return rows
 
 
@@ -40,7 +50,9 @@ def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     plan = evidence.config["benchmark"]
     table = pd.read_csv(evidence.results / "benchmark.csv")
-    seconds = pd.read_csv(evidence.results / "benchmark_seconds.csv").set_index("learner")["seconds_per_move"]
+    seconds = pd.read_csv(evidence.results / "benchmark_seconds.csv").set_index("learner")[
+        "seconds_per_move"
+    ]
     reached = pd.read_csv(evidence.results / "benchmark_moves.csv").query("threshold == @THRESHOLD")
     reached = reached.set_index(["scenario", "learner"]).sort_index()
     known = {

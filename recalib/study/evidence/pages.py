@@ -26,7 +26,9 @@ def _rounding(value: float) -> str:
 
 def pair(row, moment: str) -> str:
     """Both errors of a summary's row at the beginning or the end."""
-    return ", ".join(f"{n(row[f'{moment}_{error}'])} {unit}" for error, unit in zip(ERRORS, UNITS, strict=True))
+    return ", ".join(
+        f"{n(row[f'{moment}_{error}'])} {unit}" for error, unit in zip(ERRORS, UNITS, strict=True)
+    )
 
 
 def measured(claim: dict) -> str:
@@ -45,14 +47,19 @@ def measured(claim: dict) -> str:
 
 
 def _ensemble(evidence: Evidence) -> dict:
-    ours, ritters = (evidence.ensemble(learner, "assignments") for learner in ("improved", "ritter"))
+    ours, ritters = (
+        evidence.ensemble(learner, "assignments") for learner in ("improved", "ritter")
+    )
     iterations = evidence.config["learners"]["ritter"]["iterations"]
     cells = {"robots": len(ours), "ritter_robots": len(ritters), "ritter_iterations": iterations}
     same = ours[ours["robot"].isin(ritters["robot"])]
     for error, unit in zip(ERRORS, ("cm", "deg"), strict=True):
         final = ours[f"final_{error}"]
         cells |= {f"median_{unit}": final.median(), f"p95_{unit}": final.quantile(0.95)}
-        cells |= {f"{name}_{unit}": of[f"final_{error}"].median() for name, of in (("ritter", ritters), ("same", same))}
+        cells |= {
+            f"{name}_{unit}": of[f"final_{error}"].median()
+            for name, of in (("ritter", ritters), ("same", same))
+        }
     return cells
 
 
@@ -63,7 +70,9 @@ def _scaled(evidence: Evidence) -> list[dict]:
         for moment in ("initial", "final"):
             for error, unit in zip(ERRORS, ("cm", "deg"), strict=True):
                 cells[f"{moment}_{unit}"] = table[f"{moment}_{error}"].median()
-        cells["left"] = max(cells[f"final_{unit}"] / cells[f"initial_{unit}"] for unit in ("cm", "deg"))
+        cells["left"] = max(
+            cells[f"final_{unit}"] / cells[f"initial_{unit}"] for unit in ("cm", "deg")
+        )
         rows.append(cells)
     return rows
 
@@ -71,7 +80,8 @@ def _scaled(evidence: Evidence) -> list[dict]:
 def _refused(summary: pd.DataFrame) -> str:
     rows = summary[summary["refused"] > 0]
     cases = (
-        f"{row.refused:,} of {row.moves * row.seeds:,} for {row.learner} on {row.scenario}" for row in rows.itertuples()
+        f"{row.refused:,} of {row.moves * row.seeds:,} for {row.learner} on {row.scenario}"
+        for row in rows.itertuples()
     )
     return "; ".join(cases) or "none"
 

@@ -28,7 +28,9 @@ class Evidence:
 
     def history(self, learner: str, scenario: str | None = None) -> pd.DataFrame:
         """A row for each seed and measurement of a training; the scenario is the paper's damage unless given."""
-        return pd.read_parquet(self.results / "runs" / (scenario or self.paper) / f"{learner}.parquet")
+        return pd.read_parquet(
+            self.results / "runs" / (scenario or self.paper) / f"{learner}.parquet"
+        )
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
         """Position errors in cm and orientation errors in degrees (seed, 2) of the last or the first measurement."""
@@ -39,9 +41,14 @@ class Evidence:
     def ladder(self, name: str) -> dict[int, np.ndarray]:
         """Final errors (seed, 2) for each number of iterations that the learner was tuned and trained for."""
         learners = self.config["learners"]
-        short = {tuned.training(learner, learners): learner for learner in self.config["experiments"]["learners"]}
+        short = {
+            tuned.training(learner, learners): learner
+            for learner in self.config["experiments"]["learners"]
+        }
         rungs = self.config["experiments"]["ladder"][name]
-        return {rung: self.errors(short.get((name, rung), f"{name}_{rung}")) for rung in sorted(rungs)}
+        return {
+            rung: self.errors(short.get((name, rung), f"{name}_{rung}")) for rung in sorted(rungs)
+        }
 
     def ensemble(self, learner: str, series: str) -> pd.DataFrame:
         """A row for each robot and scale of a series of other damages."""

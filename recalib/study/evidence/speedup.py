@@ -28,7 +28,9 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
     return float(np.exp(np.log(rungs[first - 1]) + share * np.log(rungs[first] / rungs[first - 1])))
 
 
-def speed_up(slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, generator: np.random.Generator) -> Estimate:
+def speed_up(
+    slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, generator: np.random.Generator
+) -> Estimate:
     """Iterations needed by the slow learner over those needed by the fast one, with a bootstrap interval over seeds.
 
     Args:
@@ -39,15 +41,21 @@ def speed_up(slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, g
     """
 
     def ratio(pick) -> float:
-        means = [{rung: pick(errors).mean(axis=0) for rung, errors in ladder.items()} for ladder in (slow, fast)]
+        means = [
+            {rung: pick(errors).mean(axis=0) for rung, errors in ladder.items()}
+            for ladder in (slow, fast)
+        ]
         goal = means[1][target] if np.isscalar(target) else np.asarray(target)
-        needed = [iterations_needed(np.array(list(m)), np.array(list(m.values())), goal) for m in means]
+        needed = [
+            iterations_needed(np.array(list(m)), np.array(list(m.values())), goal) for m in means
+        ]
         if np.isscalar(target):
             needed[1] = float(target)
         return needed[0] / needed[1] if needed[1] < np.inf else np.nan
 
     resampled = [
-        ratio(lambda errors: errors[generator.integers(len(errors), size=len(errors))]) for _ in range(RESAMPLES // 4)
+        ratio(lambda errors: errors[generator.integers(len(errors), size=len(errors))])
+        for _ in range(RESAMPLES // 4)
     ]
     low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], method="nearest")
     return Estimate(ratio(lambda errors: errors), float(low), float(high))

@@ -28,7 +28,11 @@ class Entrant(NamedTuple):
     def measure_at(self, budgets) -> list[int]:
         """Iterations after which its moves meet one of the budgets."""
         moves = self.moves_per_iteration
-        return [budget // moves for budget in budgets if budget % moves == 0 and budget <= self.iterations * moves]
+        return [
+            budget // moves
+            for budget in budgets
+            if budget % moves == 0 and budget <= self.iterations * moves
+        ]
 
 
 def training_of(name: str, learners: Mapping) -> Training | None:
@@ -50,7 +54,11 @@ def entrant(name: str, config: Mapping) -> Entrant:
     if which is None:
         return Entrant(partial(peers.build, name), max(config["benchmark"]["moves"]), 1)
     tuned.settings(which, config["tuned"])
-    return Entrant(lambda runs, _: tuned.build(which, runs, config["learners"], config["tuned"]), which.iterations, 2)
+    return Entrant(
+        lambda runs, _: tuned.build(which, runs, config["learners"], config["tuned"]),
+        which.iterations,
+        2,
+    )
 
 
 class Timed:
@@ -83,4 +91,8 @@ class Timed:
 def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
     """For each seed (seed,), the moves of the first measurement within the threshold; infinity where there is none."""
     within = history[history[error] <= threshold].groupby("seed")["moves"].min()
-    return within.astype(float).reindex(np.sort(history["seed"].unique()), fill_value=np.inf).to_numpy()
+    return (
+        within.astype(float)
+        .reindex(np.sort(history["seed"].unique()), fill_value=np.inf)
+        .to_numpy()
+    )

@@ -26,11 +26,15 @@ def load_plant(path: str | Path, config: Mapping, runs: Sequence[int]) -> tuple[
     described = json.loads(Path(path).read_text())
     controller, arm = load_scenario(path, config)
     disturbances = scenarios.parse_disturbances(described["damages"])
-    generators = [generator(config["seed"], described["scenario"], run, "disturbances") for run in runs]
+    generators = [
+        generator(config["seed"], described["scenario"], run, "disturbances") for run in runs
+    ]
     return controller, Plant(controller, [arm], disturbances, generators)
 
 
-def load_fleet(paths: Sequence[str | Path], config: Mapping, runs: Sequence[int]) -> tuple[Controller, Fleet]:
+def load_fleet(
+    paths: Sequence[str | Path], config: Mapping, runs: Sequence[int]
+) -> tuple[Controller, Fleet]:
     """As `load_plant`, for several scenarios of one robot side by side."""
     controllers, plants = zip(*(load_plant(path, config, runs) for path in paths), strict=True)
     return controllers[0], Fleet(controllers[0], plants)
@@ -38,9 +42,13 @@ def load_fleet(paths: Sequence[str | Path], config: Mapping, runs: Sequence[int]
 
 def desired_poses(seed: int, scenario: str, runs: Sequence[int], iterations: int) -> np.ndarray:
     """Poses to learn from, (run, iteration, 6): the same for every learner, and fewer iterations see the first of them."""
-    return np.stack([generator(seed, scenario, run, "desired").uniform(-1, 1, (iterations, 6)) for run in runs])
+    return np.stack(
+        [generator(seed, scenario, run, "desired").uniform(-1, 1, (iterations, 6)) for run in runs]
+    )
 
 
 def test_poses(seed: int, scenario: str, runs: Sequence[int], count: int) -> np.ndarray:
     """Poses to measure on, (run, pose, 6), never used for learning."""
-    return np.stack([generator(seed, scenario, run, "tests").uniform(-1, 1, (count, 6)) for run in runs])
+    return np.stack(
+        [generator(seed, scenario, run, "tests").uniform(-1, 1, (count, 6)) for run in runs]
+    )

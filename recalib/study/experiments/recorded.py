@@ -58,8 +58,13 @@ def read_recording(path: str | PathLike) -> Recording:
     """
     table = pd.read_csv(path)
     for column in (*JOINTS, *NOMINAL, *MISSED):
-        if column not in table or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all():
-            raise InvalidSetting(f"column of {path}", column, "there, with a finite number in every row")
+        if (
+            column not in table
+            or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all()
+        ):
+            raise InvalidSetting(
+                f"column of {path}", column, "there, with a finite number in every row"
+            )
     nominal = table[NOMINAL].to_numpy() * 1e-3 * TO_URDF_BASE
     missed = table[MISSED].to_numpy() * 1e-3 * TO_URDF_BASE
     return Recording(np.radians(table[JOINTS].to_numpy()), nominal, nominal + missed)
@@ -83,19 +88,28 @@ def calibrate_geometric(arm: Arm, recording: Recording) -> Calibration:
 
 def calibrate_hybrid(arm: Arm, recording: Recording) -> Calibration:
     """Geometry and as much else as the recording shows. Its `forward` makes it a twin of the arm, which a `Plant` takes."""
-    return calibrate(arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), recording.angles, recording.measured)
+    return calibrate(
+        arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), recording.angles, recording.measured
+    )
 
 
-def _model_based(fit: Callable[[Arm, Recording], Calibration], arm: Arm, known: Recording, unknown: Recording) -> np.ndarray:
+def _model_based(
+    fit: Callable[[Arm, Recording], Calibration], arm: Arm, known: Recording, unknown: Recording
+) -> np.ndarray:
     return unknown.measured - fit(arm, known).forward(unknown.angles)[:, :3, 3]
 
 
 def _black_box(
-    make: Callable[[int], PolynomialLearner | GaussianProcessLearner], arm: Arm, known: Recording, unknown: Recording
+    make: Callable[[int], PolynomialLearner | GaussianProcessLearner],
+    arm: Arm,
+    known: Recording,
+    unknown: Recording,
 ) -> np.ndarray:
     """Asked for the pose that was measured, the learner should command the one that was."""
     commanded = arm.forward(known.angles)
-    centre = commanded[np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()]
+    centre = commanded[
+        np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
+    ]
     raw = Workspace(centre, np.ones(6)).to_coordinates(commanded)
     workspace = Workspace(centre, np.abs(raw).max(axis=0))
     learner = make(1)
@@ -105,7 +119,9 @@ def _black_box(
     return (sent - learner.command(achieved))[0, :, POSITION] * workspace.half_ranges[POSITION]
 
 
-def _coordinates(arm: Arm, workspace: Workspace, recording: Recording) -> tuple[np.ndarray, np.ndarray]:
+def _coordinates(
+    arm: Arm, workspace: Workspace, recording: Recording
+) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (1, n, 6) commanded and achieved; the orientation, which was not measured, counts as commanded."""
     commanded = arm.forward(recording.angles)
     achieved = commanded.copy()

@@ -19,14 +19,26 @@ DIGITS = 4  # of the numbers tried, so that the files that keep them are exact
 
 def columns(rules: Rules) -> list[str]:
     """The numbers of a trial."""
-    return ["initial_width", *(f"{name}/{net}" for name in rules.maps for net in NETS), "initial_rate", "final_rate"]
+    return [
+        "initial_width",
+        *(f"{name}/{net}" for name in rules.maps for net in NETS),
+        "initial_rate",
+        "final_rate",
+    ]
 
 
 def _kinds(rules: Rules) -> list[str]:
-    return ["initial_width", *["final_width"] * (len(columns(rules)) - 3), "initial_rate", "final_rate"]
+    return [
+        "initial_width",
+        *["final_width"] * (len(columns(rules)) - 3),
+        "initial_rate",
+        "final_rate",
+    ]
 
 
-def draw(rules: Rules, ranges: Mapping, count: int, seed: int, around: Mapping | None = None) -> pd.DataFrame:
+def draw(
+    rules: Rules, ranges: Mapping, count: int, seed: int, around: Mapping | None = None
+) -> pd.DataFrame:
     """Trials, a row each.
 
     Args:

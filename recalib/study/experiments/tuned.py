@@ -28,7 +28,9 @@ def training(learner: str, learners: Mapping) -> Training:
         return Training(learner, learners[learner]["iterations"])
     match = re.fullmatch(r"(\w+)_([1-9]\d*)", learner)
     if match is None or match[1] not in learners:
-        raise UnknownName("learner", learner, [*learners, *(f"{name}_ITERATIONS" for name in learners)])
+        raise UnknownName(
+            "learner", learner, [*learners, *(f"{name}_ITERATIONS" for name in learners)]
+        )
     return Training(match[1], int(match[2]))
 
 

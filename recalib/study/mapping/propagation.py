@@ -15,7 +15,9 @@ def ball(generator: np.random.Generator, points: int, dimensions: int, radius: f
     return radius * directions * generator.uniform(size=(points, 1)) ** (1 / dimensions)
 
 
-def propagation_errors(old: Mapping, new: Mapping, centre: np.ndarray, offsets: np.ndarray) -> tuple[float, float]:
+def propagation_errors(
+    old: Mapping, new: Mapping, centre: np.ndarray, offsets: np.ndarray
+) -> tuple[float, float]:
     """E_clas and E_upd of section 5, as means over the ball instead of integrals.
 
     Args:
@@ -37,5 +39,7 @@ def integral_ratios(table: pd.DataFrame) -> pd.Series:
 
     Scales at which a pose of some ball has no command are left out: the balls that remain would be the easy ones.
     """
-    balls = table.assign(ratio=table["updated"] / table["classic"]).groupby(["kind", "start", "scale"])["ratio"]
+    balls = table.assign(ratio=table["updated"] / table["classic"]).groupby(
+        ["kind", "start", "scale"]
+    )["ratio"]
     return balls.median()[balls.count() == balls.size()]

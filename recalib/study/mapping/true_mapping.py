@@ -22,7 +22,9 @@ def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) 
 def mapping_jacobians(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
     """Jacobians (n, 6, 6) of the true mapping, d command / d desired pose, at the desired poses (n, 6)."""
     ahead, behind = (
-        true_commands(controller, arm, (desired[:, None] + sign * STEP * np.eye(6)).reshape(-1, 6)).reshape(-1, 6, 6)
+        true_commands(
+            controller, arm, (desired[:, None] + sign * STEP * np.eye(6)).reshape(-1, 6)
+        ).reshape(-1, 6, 6)
         for sign in (1, -1)
     )
     return (ahead - behind).swapaxes(1, 2) / (2 * STEP)

@@ -6,7 +6,9 @@ import pandas as pd
 from recalib.learners.schedules import expected_learning
 
 
-def visits(widths, distances, dimensions: int, generator: np.random.Generator, samples: int = 1_000_000) -> pd.DataFrame:
+def visits(
+    widths, distances, dimensions: int, generator: np.random.Generator, samples: int = 1_000_000
+) -> pd.DataFrame:
     """Simulated L over the one of (10), for cells at these distances from one face of the workspace.
 
     Args:
@@ -23,5 +25,12 @@ def visits(widths, distances, dimensions: int, generator: np.random.Generator, s
             learned = np.exp(-squares / (2 * width**2))
             formula = expected_learning(width, dimensions, 2.0**dimensions)
             error = learned.std() / np.sqrt(samples)
-            rows.append({"width": width, "distance": distance, "ratio": learned.mean() / formula, "error": error / formula})
+            rows.append(
+                {
+                    "width": width,
+                    "distance": distance,
+                    "ratio": learned.mean() / formula,
+                    "error": error / formula,
+                }
+            )
     return pd.DataFrame(rows)

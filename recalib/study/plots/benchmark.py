@@ -24,7 +24,9 @@ SHOWN = {
     "outliers": "... with 10 % outliers of 5 cm",
     "links_encoders_gears_sag": "... with eccentric gears and sag",
 }
-PUBLISHED = 0.1549  # mm, mean over the test poses of the recording, after a calibration from all of it
+PUBLISHED = (
+    0.1549  # mm, mean over the test poses of the recording, after a calibration from all of it
+)
 SMALLEST = 1e-4  # cm and degrees: below it, errors are drawn at the edge
 
 
@@ -47,7 +49,12 @@ def figure12(evidence: Evidence) -> Figure:
                     linewidth=0,
                 )
                 axes.plot(
-                    own["moves"], own[error].clip(SMALLEST), marker=marker or None, markersize=4, label=learner, **style
+                    own["moves"],
+                    own[error].clip(SMALLEST),
+                    marker=marker or None,
+                    markersize=4,
+                    label=learner,
+                    **style,
                 )
             axes.set(xscale="log", yscale="log", ylim=(SMALLEST, 30))
             if axes in panels[:, 0]:
@@ -76,10 +83,21 @@ def figure13(evidence: Evidence) -> Figure:
         axes.fill_between(own["poses"], *bounds, color=color, alpha=0.2, linewidth=0)
         name = learner.replace("_", " ")
         axes.plot(
-            own["poses"], own["position_error_mm"], color=color, marker=marker or None, linestyle=linestyle, label=name
+            own["poses"],
+            own["position_error_mm"],
+            color=color,
+            marker=marker or None,
+            linestyle=linestyle,
+            label=name,
         )
     axes.axhline(PUBLISHED, color="0.4", linewidth=0.8)
-    axes.annotate(f"published: {PUBLISHED} mm", (3000, PUBLISHED), (0, -12), textcoords="offset points", fontsize=9)
+    axes.annotate(
+        f"published: {PUBLISHED} mm",
+        (3000, PUBLISHED),
+        (0, -12),
+        textcoords="offset points",
+        fontsize=9,
+    )
     hybrid = table[table["learner"] == "hybrid"]
     enough = hybrid.loc[hybrid["position_error_mm"] < PUBLISHED, "poses"].min()
     axes.set(

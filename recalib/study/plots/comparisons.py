@@ -29,16 +29,31 @@ def figure4(evidence: Evidence) -> Figure:
     """The four changes, each taken away from the improved system and added to Ritter's."""
     figure, axes = plt.subplots(figsize=(8, 3.6))
     rows = np.arange(len(SWITCHES))[::-1]
-    cases = (("improved with it / without it", 0.12, "#0072B2", "o"), ("Ritter with it / without it", -0.12, "#D55E00", "s"))
+    cases = (
+        ("improved with it / without it", 0.12, "#0072B2", "o"),
+        ("Ritter with it / without it", -0.12, "#D55E00", "s"),
+    )
     for case, (label, offset, color, marker) in enumerate(cases):
-        pairs = [("improved", names[0]) if case == 0 else (names[1], "ritter_200") for names in SWITCHES.values()]
-        ratios = [paired_ratio(*(combined(evidence.errors(each)) for each in pair), evidence.rng(*pair)) for pair in pairs]
+        pairs = [
+            ("improved", names[0]) if case == 0 else (names[1], "ritter_200")
+            for names in SWITCHES.values()
+        ]
+        ratios = [
+            paired_ratio(*(combined(evidence.errors(each)) for each in pair), evidence.rng(*pair))
+            for pair in pairs
+        ]
         means, low, high = np.transpose(ratios)
         axes.hlines(rows + offset, low, high, color=color)
         axes.scatter(means, rows + offset, color=color, marker=marker, label=label, zorder=3)
         for row, mean in zip(rows + offset, means, strict=True):
             axes.annotate(
-                f"{mean:.2f}", (mean, row), (0, 6), textcoords="offset points", ha="center", fontsize=9, color=color
+                f"{mean:.2f}",
+                (mean, row),
+                (0, 6),
+                textcoords="offset points",
+                ha="center",
+                fontsize=9,
+                color=color,
             )
     axes.axvline(1, color="0.4", linewidth=0.8)
     axes.set(xscale="log", xlabel="error with the change over error without it")
@@ -125,7 +140,9 @@ def figure9(evidence: Evidence) -> Figure:
                 label=name.capitalize(),
             )
     for axes, label in zip(panels[:2], LABELS.values(), strict=True):
-        axes.set(xscale="log", yscale="log", xlabel="iterations, tuned for each number", ylabel=label)
+        axes.set(
+            xscale="log", yscale="log", xlabel="iterations, tuned for each number", ylabel=label
+        )
         plain(axes.xaxis, 100, 1000, 10_000)
         plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 4)
     panels[0].legend(fontsize=9)
@@ -141,7 +158,12 @@ def figure9(evidence: Evidence) -> Figure:
 def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     initial = evidence.errors("improved", moment="first").mean(axis=0)
     for level in (0.3, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.04, 0.03):
-        factor = speed_up(ladders["ritter"], ladders["improved"], level * initial, evidence.rng("level", str(level)))
+        factor = speed_up(
+            ladders["ritter"],
+            ladders["improved"],
+            level * initial,
+            evidence.rng("level", str(level)),
+        )
         if np.isfinite(factor.mean):
             high = factor.high if np.isfinite(factor.high) else 1000
             axes.vlines(100 * level, factor.low, high, color="#0072B2")
@@ -149,7 +171,13 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     ours = speed_up(ladders["ritter"], ladders["improved"], 200, evidence.rng("speed-up"))
     reached = (ladders["improved"][200].mean(axis=0) / initial).max()
     axes.scatter(
-        100 * reached, ours.mean, s=120, marker="*", color="black", zorder=4, label=f"after 200 iterations: {ours.mean:.0f}"
+        100 * reached,
+        ours.mean,
+        s=120,
+        marker="*",
+        color="black",
+        zorder=4,
+        label=f"after 200 iterations: {ours.mean:.0f}",
     )
     axes.axhline(70, color="#D55E00", linestyle=(0, (5, 2)), label="the paper: about 70")
     axes.set(
@@ -168,7 +196,9 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
 def figure11(evidence: Evidence) -> Figure:
     """Other assignments, other amounts and other robots."""
     figure, panels = plt.subplots(1, 3, figsize=(12, 4.4))
-    tables = {learner: evidence.ensemble(learner, "assignments") for learner in ("improved", "ritter")}
+    tables = {
+        learner: evidence.ensemble(learner, "assignments") for learner in ("improved", "ritter")
+    }
     for kind, error in enumerate(ERRORS):
         for learner, table in tables.items():
             style, values = LEARNERS[learner], np.sort(table[f"final_{error}"])
@@ -183,7 +213,14 @@ def figure11(evidence: Evidence) -> Figure:
         style, marker = ((POSITION, "o"), (ORIENTATION, "s"))[kind]
         for moment, alpha in (("initial", 0.35), ("final", 1.0)):
             low, middle, high = (scaled[f"{moment}_{error}"].quantile(q) for q in (0.05, 0.5, 0.95))
-            panels[1].fill_between(middle.index, low, high, color=style["color"], alpha=0.15 * alpha + 0.05, linewidth=0)
+            panels[1].fill_between(
+                middle.index,
+                low,
+                high,
+                color=style["color"],
+                alpha=0.15 * alpha + 0.05,
+                linewidth=0,
+            )
             panels[1].plot(
                 middle.index,
                 middle,
@@ -193,11 +230,18 @@ def figure11(evidence: Evidence) -> Figure:
                 alpha=alpha,
                 label=f"{moment} {('cm', 'degrees')[kind]}",
             )
-    panels[0].set(xscale="log", xlabel="final error [cm, degrees]", ylabel="share of the assignments")
+    panels[0].set(
+        xscale="log", xlabel="final error [cm, degrees]", ylabel="share of the assignments"
+    )
     panels[0].set_xlim(left=panels[0].get_xlim()[0] / 2)  # room for the legend
     plain(panels[0].xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
     panels[0].set_title("Other links, encoders and signs", fontsize=11)
-    panels[1].set(xscale="log", yscale="log", xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
+    panels[1].set(
+        xscale="log",
+        yscale="log",
+        xlabel="size of the damage, times the paper's",
+        ylabel="error [cm, degrees]",
+    )
     plain(panels[1].xaxis, 0.1, 0.3, 1, 3)
     plain(panels[1].yaxis, 0.01, 0.1, 1, 10)
     panels[1].set_title("Other amounts (improved)", fontsize=11)
@@ -207,7 +251,10 @@ def figure11(evidence: Evidence) -> Figure:
     places = np.arange(len(robots))
     for offset, (learner, style) in zip((-0.2, 0, 0.2), LEARNERS.items(), strict=True):
         left = [
-            np.max(evidence.errors(learner, each).mean(axis=0) / evidence.errors(learner, each, "first").mean(axis=0))
+            np.max(
+                evidence.errors(learner, each).mean(axis=0)
+                / evidence.errors(learner, each, "first").mean(axis=0)
+            )
             for each in robots.values()
         ]
         panels[2].scatter(

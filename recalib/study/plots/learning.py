@@ -54,7 +54,9 @@ def draw_learning(axes: Axes, history: pd.DataFrame, seed: int = 0) -> Axes:
         xlim=(0, history["iteration"].max()),
     )
     axes.set_ylim(bottom=0)
-    axes.legend(title=f"bold: one run; band: {BAND[0]}-{BAND[1]} % of {history['seed'].nunique()} seeds")
+    axes.legend(
+        title=f"bold: one run; band: {BAND[0]}-{BAND[1]} % of {history['seed'].nunique()} seeds"
+    )
     return axes
 
 
@@ -83,14 +85,22 @@ def figure2(evidence: Evidence) -> Figure:
             axes.axhline(level, color="0.4", linewidth=0.8)
             note = f"{one.capitalize()} is at {level:.2f} {reached}"
             axes.annotate(
-                note, (0.02, level), (0, 3), xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=9
+                note,
+                (0.02, level),
+                (0, 3),
+                xycoords=("axes fraction", "data"),
+                textcoords="offset points",
+                fontsize=9,
             )
         axes.set(xscale="log", yscale="log", xlabel="iterations (two moves each)", ylabel=label)
         plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
         plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     final = histories["improved"].groupby("iteration")[list(LABELS)].mean().iloc[-1].to_numpy()
     both = _reached(histories["ritter"], list(LABELS), final)
-    title(figure, f"Figure 2: what the improved map reaches in 200 iterations, Ritter's reaches {both}")
+    title(
+        figure,
+        f"Figure 2: what the improved map reaches in 200 iterations, Ritter's reaches {both}",
+    )
     seeds = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
     figure.legend(
         *panels[0].get_legend_handles_labels(),
@@ -115,11 +125,17 @@ FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 def figure3(evidence: Evidence) -> Figure:
     """What is left of the initial errors in every scenario."""
     scenarios = evidence.scenarios
-    histories = {(scenario, learner): evidence.history(learner, scenario) for scenario in scenarios for learner in LEARNERS}
+    histories = {
+        (scenario, learner): evidence.history(learner, scenario)
+        for scenario in scenarios
+        for learner in LEARNERS
+    }
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
     for axes, (error, label) in zip(panels, LABELS.items(), strict=True):
-        initial = [curves(histories[scenario, "improved"], error).iloc[0].mean() for scenario in scenarios]
+        initial = [
+            curves(histories[scenario, "improved"], error).iloc[0].mean() for scenario in scenarios
+        ]
         axes.scatter(
             np.maximum(initial, FLOOR),
             rows,
@@ -135,13 +151,22 @@ def figure3(evidence: Evidence) -> Figure:
             low, high = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
             axes.hlines(rows + offset, low, high, color=style["color"], linewidth=1.5)
             axes.scatter(
-                means, rows + offset, s=36, color=style["color"], marker=style["marker"], label=style["label"], zorder=3
+                means,
+                rows + offset,
+                s=36,
+                color=style["color"],
+                marker=style["marker"],
+                label=style["label"],
+                zorder=3,
             )
         axes.set(xscale="log", xlabel=f"{label}; {FLOOR:g} stands for less", xlim=(FLOOR / 1.5, 30))
         plain(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
         axes.set_yticks(rows, [scenario.replace("_", " and ") for scenario in scenarios])
         axes.grid(axis="y", visible=False)
-    title(figure, "Figure 3: every kind of damage is learned, and an intact robot is left alone by the improved map")
+    title(
+        figure,
+        "Figure 3: every kind of damage is learned, and an intact robot is left alone by the improved map",
+    )
     figure.legend(
         *panels[0].get_legend_handles_labels(),
         loc="outside lower center",

@@ -17,14 +17,33 @@ def figure5(evidence: Evidence) -> Figure:
     for offset, (column, style, marker) in zip(
         (0.15, -0.15), (("position", POSITION, "o"), ("orientation", ORIENTATION, "s")), strict=True
     ):
-        quantiles = table.groupby("scenario")[column].quantile([0.05, 0.5, 0.95]).unstack().loc[evidence.scenarios]
+        quantiles = (
+            table.groupby("scenario")[column]
+            .quantile([0.05, 0.5, 0.95])
+            .unstack()
+            .loc[evidence.scenarios]
+        )
         axes.hlines(rows + offset, quantiles[0.05], quantiles[0.95], color=style["color"])
         axes.scatter(
-            quantiles[0.5], rows + offset, color=style["color"], marker=marker, label=f"{column} commands", zorder=3
+            quantiles[0.5],
+            rows + offset,
+            color=style["color"],
+            marker=marker,
+            label=f"{column} commands",
+            zorder=3,
         )
     axes.axvline(0.1, color="0.4", linewidth=0.8)
-    axes.annotate("criterion", (0.1, rows[0] + 0.4), (-4, 0), textcoords="offset points", ha="right", fontsize=9)
-    axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block", xlim=(-0.003, 0.12))
+    axes.annotate(
+        "criterion",
+        (0.1, rows[0] + 0.4),
+        (-4, 0),
+        textcoords="offset points",
+        ha="right",
+        fontsize=9,
+    )
+    axes.set(
+        xlabel="norm of the off-diagonal block over that of the diagonal block", xlim=(-0.003, 0.12)
+    )
     axes.set_yticks(rows, [scenario.replace("_", " and ") for scenario in evidence.scenarios])
     axes.grid(axis="y", visible=False)
     axes.legend(fontsize=9, loc="center right")
@@ -52,7 +71,13 @@ def figure7(evidence: Evidence) -> Figure:
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
     axes.axhline(1, color="0.4", linewidth=0.8)
-    axes.annotate("above: a constant would be the better guess", (0.11, 1), (0, 4), textcoords="offset points", fontsize=9)
+    axes.annotate(
+        "above: a constant would be the better guess",
+        (0.11, 1),
+        (0, 4),
+        textcoords="offset points",
+        fontsize=9,
+    )
     axes.set(
         xscale="log",
         yscale="log",
@@ -119,10 +144,28 @@ def figure10(evidence: Evidence) -> Figure:
         rasterized=True,
     )
     nearest = table.loc[table["distance"].idxmin()]
-    axes.scatter(nearest[ERRORS[0]], nearest[ERRORS[1]], s=70, color="#0072B2", label="the one used", zorder=3)
-    axes.scatter(*evidence.published.values(), s=120, marker="+", linewidths=2, color="#D55E00", label="published", zorder=4)
+    axes.scatter(
+        nearest[ERRORS[0]],
+        nearest[ERRORS[1]],
+        s=70,
+        color="#0072B2",
+        label="the one used",
+        zorder=3,
+    )
+    axes.scatter(
+        *evidence.published.values(),
+        s=120,
+        marker="+",
+        linewidths=2,
+        color="#D55E00",
+        label="published",
+        zorder=4,
+    )
     axes.set(
-        xlabel="initial position error [cm]", ylabel="initial orientation error [degrees]", xlim=(0, None), ylim=(0, None)
+        xlabel="initial position error [cm]",
+        ylabel="initial orientation error [degrees]",
+        xlim=(0, None),
+        ylim=(0, None),
     )
     axes.legend(fontsize=9)
     title(

@@ -29,14 +29,32 @@ STYLE = {
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
-LABELS = {"position_error_cm": "position error [cm]", "orientation_error_deg": "orientation error [degrees]"}
+LABELS = {
+    "position_error_cm": "position error [cm]",
+    "orientation_error_deg": "orientation error [degrees]",
+}
 # Okabe and Ito's palette, and a second sign each for black and white: a dash pattern and a marker.
 POSITION = {"color": "#0072B2", "linestyle": "-"}
 ORIENTATION = {"color": "#D55E00", "linestyle": (0, (5, 2))}
 LEARNERS = {
-    "improved": {"color": "#0072B2", "linestyle": "-", "marker": "o", "label": "improved, 200 iterations"},
-    "ritter_200": {"color": "#E69F00", "linestyle": (0, (1, 1)), "marker": "^", "label": "Ritter, 200 iterations"},
-    "ritter": {"color": "#D55E00", "linestyle": (0, (5, 2)), "marker": "s", "label": "Ritter, 10,000 iterations"},
+    "improved": {
+        "color": "#0072B2",
+        "linestyle": "-",
+        "marker": "o",
+        "label": "improved, 200 iterations",
+    },
+    "ritter_200": {
+        "color": "#E69F00",
+        "linestyle": (0, (1, 1)),
+        "marker": "^",
+        "label": "Ritter, 200 iterations",
+    },
+    "ritter": {
+        "color": "#D55E00",
+        "linestyle": (0, (5, 2)),
+        "marker": "s",
+        "label": "Ritter, 10,000 iterations",
+    },
 }
 BAND = (5, 95)  # percent of the seeds
 
@@ -45,7 +63,9 @@ def save(figure: Figure, *paths: str | Path) -> None:
     """Write the figure whole, without a date, so that an unchanged result leaves the file unchanged."""
     for path in map(Path, paths):
         with whole(path) as temporary:
-            figure.savefig(temporary, metadata={"Date": None} if path.suffix == ".svg" else {"Software": None})
+            figure.savefig(
+                temporary, metadata={"Date": None} if path.suffix == ".svg" else {"Software": None}
+            )
     plt.close(figure)
 
 

@@ -82,7 +82,9 @@ def write_recording(
         arms.send_arms(rec, robot, damages, main, motion)
         scene.send_target(rec, robot.workspace, main, motion)
         scene.send_paper(rec, main, motion)
-        for colour, (name, training) in zip(cycle(scene.LEARNER_COLOURS), trainings.items(), strict=False):
+        for colour, (name, training) in zip(
+            cycle(scene.LEARNER_COLOURS), trainings.items(), strict=False
+        ):
             scene.send_errors(rec, name, colour, training, motion)
             scene.send_landings(rec, name, unit, training, motion)
             scene.send_map(rec, name, unit, training, motion)
@@ -90,5 +92,7 @@ def write_recording(
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
         write_sealed(temporary, path.stem, arrange(trainings, robot.workspace), fill)
-        check_recording(temporary, {name: training.history.columns() for name, training in trainings.items()})
+        check_recording(
+            temporary, {name: training.history.columns() for name, training in trainings.items()}
+        )
     return trainings

@@ -20,7 +20,13 @@ GHOST = (140, 190, 255, 70)
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
 
 
-def send_arms(rec: rr.RecordingStream, robot: Robot, damages: Sequence[Damage], training: Training, motion: Motion) -> None:
+def send_arms(
+    rec: rr.RecordingStream,
+    robot: Robot,
+    damages: Sequence[Damage],
+    training: Training,
+    motion: Motion,
+) -> None:
     """The meshes of both arms, and every link's motion: on `time` throughout, on `iteration` while it learns."""
     damaged = apply(robot, damages)
     shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
@@ -47,7 +53,9 @@ def send_arms(rec: rr.RecordingStream, robot: Robot, damages: Sequence[Damage], 
                 )
 
 
-def link_placements(arm: Arm, links: Iterable[str], angles: np.ndarray, base: pin.SE3) -> dict[str, np.ndarray]:
+def link_placements(
+    arm: Arm, links: Iterable[str], angles: np.ndarray, base: pin.SE3
+) -> dict[str, np.ndarray]:
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, 6) [rad].
 
     Args:
@@ -59,16 +67,22 @@ def link_placements(arm: Arm, links: Iterable[str], angles: np.ndarray, base: pi
     for index, q in enumerate(angles):
         pin.framesForwardKinematics(model, data, q)
         for link, frame in frames.items():
-            placement = data.oMf[frame] if model.frames[frame].parentJoint else base * data.oMf[frame]
+            placement = (
+                data.oMf[frame] if model.frames[frame].parentJoint else base * data.oMf[frame]
+            )
             placements[link][index] = placement.homogeneous
     return placements
 
 
-def _log_meshes(rec: rr.RecordingStream, urdf: Path, arm: str, tint: tuple[int, ...] | None) -> list[str]:
+def _log_meshes(
+    rec: rr.RecordingStream, urdf: Path, arm: str, tint: tuple[int, ...] | None
+) -> list[str]:
     """Log the visual meshes of a robot, each in the frame `<arm>/<link>` of its link, and return these links."""
     tree = UrdfTree.from_file_path(urdf, entity_path_prefix=arm, frame_prefix=f"{arm}/")
     links = [tree.root_link(), *(tree.get_joint_child(joint) for joint in tree.joints())]
-    visuals = {link.name: paths for link in links if (paths := tree.get_visual_geometry_paths(link))}
+    visuals = {
+        link.name: paths for link in links if (paths := tree.get_visual_geometry_paths(link))
+    }
     entities = [entity for paths in visuals.values() for entity in paths]
     with _packages(urdf):
         rec.send_chunks(tree.stream(include_joint_transforms=False).filter(content=entities))
@@ -83,7 +97,9 @@ def _packages(urdf: Path) -> Iterator[None]:
     """Let the meshes' `package://example-robot-data/...` be found: Rerun looks for packages in this variable."""
     variable = "ROS_PACKAGE_PATH"
     before = os.environ.get(variable)
-    os.environ[variable] = str(next(folder.parent for folder in urdf.parents if folder.name == "example-robot-data"))
+    os.environ[variable] = str(
+        next(folder.parent for folder in urdf.parents if folder.name == "example-robot-data")
+    )
     try:
         yield
     finally:

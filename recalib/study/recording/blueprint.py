@@ -45,7 +45,9 @@ def arrange(trainings: Mapping[str, Training], workspace: Workspace) -> rrb.Blue
     )
 
 
-def _scene(name: str, entities: Iterable[str], workspace: Workspace, share: float) -> rrb.Spatial3DView:
+def _scene(
+    name: str, entities: Iterable[str], workspace: Workspace, share: float
+) -> rrb.Spatial3DView:
     """A view from before and the right of the arm, on a point this share of the way to the workspace's centre."""
     centre = workspace.centre[:3, 3]
     far, up = np.linalg.norm(centre), np.array([0, 0, 1])
@@ -69,6 +71,8 @@ def _plots(learners: list[str], trainings: Mapping[str, Training]) -> Iterable[r
             origin=f"log10/{quantity}",
             contents=[f"$origin/{series}" for series in ("paper", *learners)],
             name=title,
-            axis_y=rrb.ScalarAxis(range=(np.floor(values.min()) - MARGIN, np.ceil(values.max()) + MARGIN)),
+            axis_y=rrb.ScalarAxis(
+                range=(np.floor(values.min()) - MARGIN, np.ceil(values.max()) + MARGIN)
+            ),
             plot_legend=rrb.Corner2D.RightTop,
         )

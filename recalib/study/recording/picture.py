@@ -48,9 +48,20 @@ def _viewer() -> Iterator[ViewerClient]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    binary = Path(rerun_cli.__file__).with_name("rerun")  # not the script that starts it, so that it can be ended
+    binary = Path(rerun_cli.__file__).with_name(
+        "rerun"
+    )  # not the script that starts it, so that it can be ended
     size = f"{WINDOW[0]}x{WINDOW[1]}"
-    options = ["--headless", "--hide-welcome-screen", "--bind", "127.0.0.1", "--port", str(port), "--window-size", size]
+    options = [
+        "--headless",
+        "--hide-welcome-screen",
+        "--bind",
+        "127.0.0.1",
+        "--port",
+        str(port),
+        "--window-size",
+        size,
+    ]
     with tempfile.TemporaryFile("w+") as log:
         process = subprocess.Popen([binary, *options], stdout=log, stderr=log)
         try:
@@ -58,7 +69,9 @@ def _viewer() -> Iterator[ViewerClient]:
             while (client := _connect(port)) is None:
                 if process.poll() is not None or time.monotonic() > deadline:
                     log.seek(0)
-                    raise ViewerUnavailable(f"the viewer does not start: {log.read()[-500:].strip()}")
+                    raise ViewerUnavailable(
+                        f"the viewer does not start: {log.read()[-500:].strip()}"
+                    )
                 time.sleep(0.1)
             yield client
         finally:

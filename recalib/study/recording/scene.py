@@ -20,11 +20,17 @@ import rerun as rr
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.study.recording.story import Motion, Training
 
-PAPER = {"position_error_cm": (8.3, "cm"), "orientation_error_deg": (4.7, "deg")}  # section 7: before recalibration
+PAPER = {
+    "position_error_cm": (8.3, "cm"),
+    "orientation_error_deg": (4.7, "deg"),
+}  # section 7: before recalibration
 LEAST_ERROR = 1e-3
 LEARNER_COLOURS = ((255, 176, 0), (120, 170, 255), (0, 200, 160), (230, 130, 190))
 WHITE, GREY, VIOLET = (255, 255, 255), (140, 150, 160), (200, 140, 255)
-DIM, LIT = np.array([95, 105, 125]), np.array([255, 214, 90])  # cells far from and at the last winner
+DIM, LIT = (
+    np.array([95, 105, 125]),
+    np.array([255, 214, 90]),
+)  # cells far from and at the last winner
 NEAR, FAR = np.array([0, 200, 160]), np.array([255, 90, 40])  # different in brightness, too
 NEAREST, FARTHEST = 1e-3, 0.1  # m: the misses that are drawn in these colours
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
@@ -35,26 +41,46 @@ def unit_of(workspace: Workspace) -> float:
     return float(workspace.half_ranges[POSITION].mean())
 
 
-def log_surroundings(rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, about: str) -> None:
+def log_surroundings(
+    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, about: str
+) -> None:
     """The text, the workspace's box and the desired poses (pose, 4, 4)."""
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     rec.log("about", rr.TextDocument(about, media_type="text/markdown"), static=True)
-    centre, half_sizes, unit = workspace.centre[:3, 3], workspace.half_ranges[POSITION], unit_of(workspace)
+    centre, half_sizes, unit = (
+        workspace.centre[:3, 3],
+        workspace.half_ranges[POSITION],
+        unit_of(workspace),
+    )
     edges = rr.components.FillMode.MajorWireframe
-    box = rr.Boxes3D(centers=[centre], half_sizes=[half_sizes], colors=GREY, radii=0.004 * unit, fill_mode=edges)
+    box = rr.Boxes3D(
+        centers=[centre], half_sizes=[half_sizes], colors=GREY, radii=0.004 * unit, fill_mode=edges
+    )
     rec.log("workspace", box, static=True)
-    rec.log("desired", rr.LineStrips3D(_axes(desired, AXIS * unit), colors=WHITE, radii=0.0075 * unit), static=True)
+    rec.log(
+        "desired",
+        rr.LineStrips3D(_axes(desired, AXIS * unit), colors=WHITE, radii=0.0075 * unit),
+        static=True,
+    )
 
 
-def send_errors(rec: rr.RecordingStream, learner: str, colour: tuple, training: Training, motion: Motion) -> None:
+def send_errors(
+    rec: rr.RecordingStream, learner: str, colour: tuple, training: Training, motion: Motion
+) -> None:
     """Mean errors over all test poses, as measured and as logarithms, since the viewer's plots are linear."""
     clock, rows = _measurements(training, motion)
     results = training.history.columns()
     for quantity in PAPER:
         values = results[quantity].to_numpy()[rows]
         rec.send_columns(f"errors/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=values))
-        rec.send_columns(f"log10/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=logarithm(values)))
-        rec.log(f"log10/{quantity}/{learner}", rr.SeriesLines(names=learner, colors=colour, widths=3), static=True)
+        rec.send_columns(
+            f"log10/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=logarithm(values))
+        )
+        rec.log(
+            f"log10/{quantity}/{learner}",
+            rr.SeriesLines(names=learner, colors=colour, widths=3),
+            static=True,
+        )
 
 
 def send_paper(rec: rr.RecordingStream, training: Training, motion: Motion) -> None:
@@ -62,8 +88,14 @@ def send_paper(rec: rr.RecordingStream, training: Training, motion: Motion) -> N
     clock, rows = _measurements(training, motion)
     for quantity, (value, unit) in PAPER.items():
         entity = f"log10/{quantity}/paper"
-        rec.send_columns(entity, clock, rr.Scalars.columns(scalars=np.full(len(rows), np.log10(value))))
-        rec.log(entity, rr.SeriesLines(names=f"the paper, before: {value} {unit}", colors=GREY, widths=1), static=True)
+        rec.send_columns(
+            entity, clock, rr.Scalars.columns(scalars=np.full(len(rows), np.log10(value)))
+        )
+        rec.log(
+            entity,
+            rr.SeriesLines(names=f"the paper, before: {value} {unit}", colors=GREY, widths=1),
+            static=True,
+        )
 
 
 def logarithm(errors: np.ndarray) -> np.ndarray:
@@ -71,7 +103,9 @@ def logarithm(errors: np.ndarray) -> np.ndarray:
     return np.log10(np.maximum(errors, LEAST_ERROR))
 
 
-def send_landings(rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion) -> None:
+def send_landings(
+    rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion
+) -> None:
     """Achieved frames, and lines from the desired to the achieved positions, in a colour that tells their length."""
     clock, rows = _measurements(training, motion)
     achieved = training.achieved[rows]
@@ -88,7 +122,9 @@ def send_landings(rec: rr.RecordingStream, learner: str, unit: float, training: 
         rec.log(entity, rr.LineStrips3D.from_fields(radii=radius), static=True)
 
 
-def send_map(rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion) -> None:
+def send_map(
+    rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion
+) -> None:
     """The supernet's cells, brighter and larger the more they learned last, and their corrections, true to scale."""
     clock, rows = _measurements(training, motion)
     each = [len(training.centres)] * len(rows)
@@ -103,24 +139,43 @@ def send_map(rec: rr.RecordingStream, learner: str, unit: float, training: Train
     rec.log(f"{learner}/map/corrections", still, static=True)
 
 
-def send_target(rec: rr.RecordingStream, workspace: Workspace, training: Training, motion: Motion) -> None:
+def send_target(
+    rec: rr.RecordingStream, workspace: Workspace, training: Training, motion: Motion
+) -> None:
     """The pose that the arm is sent to, and above the workspace words for how far off it is."""
     poses, iterations = len(training.desired), training.history.iterations
     above = workspace.centre[:3, 3] + [0, 0, 1.4 * workspace.half_ranges[2]]
     rec.log("target/caption", rr.Points3D([above], radii=0, colors=WHITE), static=True)
-    rec.log("target/pose", rr.Points3D.from_fields(radii=0.052 * unit_of(workspace), colors=WHITE), static=True)
+    rec.log(
+        "target/pose",
+        rr.Points3D.from_fields(radii=0.052 * unit_of(workspace), colors=WHITE),
+        static=True,
+    )
     seconds, visited, captions = [], [], []
     for act, (measurement, when) in enumerate([(0, "before"), (-1, "after")]):
         for pose in range(poses):
             seconds += [motion.departures[act, pose], motion.arrivals[act, pose]]
             visited += [pose, pose]
-            captions += [f"{when} recalibration", f"{when} recalibration: {_off(training, measurement, pose)}"]
+            captions += [
+                f"{when} recalibration",
+                f"{when} recalibration: {_off(training, measurement, pose)}",
+            ]
     acts = [rr.TimeColumn("time", duration=seconds)]
-    learning = [rr.TimeColumn("iteration", sequence=iterations), rr.TimeColumn("time", duration=motion.learning)]
-    progress = [f"iteration {done}: {_off(training, row, poses - 1)}" for row, done in enumerate(iterations)]
-    for clock, where, words in ((acts, visited, captions), (learning, [poses - 1] * len(progress), progress)):
+    learning = [
+        rr.TimeColumn("iteration", sequence=iterations),
+        rr.TimeColumn("time", duration=motion.learning),
+    ]
+    progress = [
+        f"iteration {done}: {_off(training, row, poses - 1)}" for row, done in enumerate(iterations)
+    ]
+    for clock, where, words in (
+        (acts, visited, captions),
+        (learning, [poses - 1] * len(progress), progress),
+    ):
         rec.send_columns("target/caption", clock, rr.Points3D.columns(labels=words))
-        rec.send_columns("target/pose", clock, rr.Points3D.columns(positions=training.desired[where, :3, 3]))
+        rec.send_columns(
+            "target/pose", clock, rr.Points3D.columns(positions=training.desired[where, :3, 3])
+        )
 
 
 def _measurements(training: Training, motion: Motion) -> tuple[list[rr.TimeColumn], np.ndarray]:
@@ -131,7 +186,10 @@ def _measurements(training: Training, motion: Motion) -> tuple[list[rr.TimeColum
     rows = np.concatenate([[0], np.arange(len(motion.learning)), [-1]])
     seconds = np.concatenate([[0], motion.learning, [motion.end]])
     iterations = training.history.iterations[rows]
-    return [rr.TimeColumn("iteration", sequence=iterations), rr.TimeColumn("time", duration=seconds)], rows
+    return [
+        rr.TimeColumn("iteration", sequence=iterations),
+        rr.TimeColumn("time", duration=seconds),
+    ], rows
 
 
 def _axes(poses: np.ndarray, length: float) -> np.ndarray:
@@ -148,5 +206,8 @@ def _colours(misses: np.ndarray) -> np.ndarray:
 
 
 def _off(training: Training, measurement: int, pose: int) -> str:
-    centimetres, degrees = 100 * training.misses[measurement, pose], np.degrees(training.tilts[measurement, pose])
+    centimetres, degrees = (
+        100 * training.misses[measurement, pose],
+        np.degrees(training.tilts[measurement, pose]),
+    )
     return f"{centimetres:.1f} cm and {degrees:.1f}° off"

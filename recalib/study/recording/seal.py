@@ -19,7 +19,11 @@ SEAL = "/__properties/seal"
 TIMELINES = {"iteration", "time"}
 QUANTITIES = ("position_error_cm", "orientation_error_deg")
 ROW_IDS = "rerun.controls.RowId"  # new ones in every writing
-PLACES = {ROW_IDS, "CoordinateFrame", "InstancePoses3D"}  # where a shape is drawn; the rest says what
+PLACES = {
+    ROW_IDS,
+    "CoordinateFrame",
+    "InstancePoses3D",
+}  # where a shape is drawn; the rest says what
 
 
 class BrokenRecording(RecalibError):
@@ -30,7 +34,9 @@ class BrokenRecording(RecalibError):
         super().__init__(f"{path} is no valid recording: {reason}")
 
 
-def write_sealed(path: Path, name: str, blueprint: Blueprint, fill: Callable[[rr.RecordingStream], None]) -> None:
+def write_sealed(
+    path: Path, name: str, blueprint: Blueprint, fill: Callable[[rr.RecordingStream], None]
+) -> None:
     """Write what `fill` logs, twice, since its digest is known only when it has been written once."""
     digest = None
     for _ in range(2):
@@ -54,19 +60,27 @@ def check_recording(path: Path, results: Mapping[str, pd.DataFrame]) -> None:
     Raises BrokenRecording with the first reason found.
     """
     chunks = _chunks(path)
-    seals = [chunk.to_record_batch().column("sha256")[0].as_py()[0] for chunk in chunks if chunk.entity_path == SEAL]
+    seals = [
+        chunk.to_record_batch().column("sha256")[0].as_py()[0]
+        for chunk in chunks
+        if chunk.entity_path == SEAL
+    ]
     if seals != [_digest(chunks)]:
         raise BrokenRecording(path, "its content is not what was written")
     timelines = {name for chunk in chunks for name in chunk.timeline_names}
     if timelines != TIMELINES:
-        raise BrokenRecording(path, f"its timelines are {sorted(timelines)} in place of {sorted(TIMELINES)}")
+        raise BrokenRecording(
+            path, f"its timelines are {sorted(timelines)} in place of {sorted(TIMELINES)}"
+        )
     _check_meshes(path, chunks)
     _check_errors(path, chunks, results)
 
 
 def _chunks(path: Path) -> list[Chunk]:
     try:
-        with warnings.catch_warnings(action="error", category=RerunWarning):  # a file that lacks its end
+        with warnings.catch_warnings(
+            action="error", category=RerunWarning
+        ):  # a file that lacks its end
             reader = RrdReader(path)
         if not (reader.recordings() and reader.blueprints()):
             raise BrokenRecording(path, "it lacks its data or its blueprint")
@@ -84,8 +98,12 @@ def _digest(chunks: list[Chunk]) -> str:
         batch = chunk.to_record_batch()
         times = [batch.column(name) for name in chunk.timeline_names]
         for name in set(batch.schema.names) - {ROW_IDS, *chunk.timeline_names}:
-            columns_of_one = pa.record_batch([*times, batch.column(name)], [*chunk.timeline_names, name])
-            columns.append(hashlib.sha256(chunk.entity_path.encode() + columns_of_one.serialize()).hexdigest())
+            columns_of_one = pa.record_batch(
+                [*times, batch.column(name)], [*chunk.timeline_names, name]
+            )
+            columns.append(
+                hashlib.sha256(chunk.entity_path.encode() + columns_of_one.serialize()).hexdigest()
+            )
     return hashlib.sha256("".join(sorted(columns)).encode()).hexdigest()
 
 
@@ -111,6 +129,8 @@ def _check_errors(path: Path, chunks: list[Chunk], results: Mapping[str, pd.Data
             recorded = batches[entity].column("Scalars:scalars").flatten().to_numpy()
             once, first = np.unique(iterations, return_index=True)
             if not np.array_equal(once, frame["iteration"]):
-                raise BrokenRecording(path, f"{entity} was not measured at the iterations of the results")
+                raise BrokenRecording(
+                    path, f"{entity} was not measured at the iterations of the results"
+                )
             if not np.allclose(recorded[first], frame[quantity], rtol=1e-9, atol=1e-12):
                 raise BrokenRecording(path, f"{entity} differs from the results")

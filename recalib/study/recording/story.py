@@ -17,7 +17,9 @@ FRAMES_A_SECOND = 25
 MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there
 LEARNING = 10.0  # seconds in which the whole training is shown
 POSES = 12  # that the arm visits
-BEFORE = POSES * (MOVE + REST) - REST / 2  # seconds: the arm rests at the last pose, not yet recalibrated
+BEFORE = (
+    POSES * (MOVE + REST) - REST / 2
+)  # seconds: the arm rests at the last pose, not yet recalibrated
 AFTER = BEFORE + LEARNING + POSES * (MOVE + REST)  # the same, recalibrated
 
 
@@ -79,10 +81,14 @@ def watch(
         moved = (position_map.theta[0, POSITION] - untrained).mean(axis=-1).T
         corrections.append(moved * workspace.half_ranges[POSITION])
 
-    history = run(Plant(controller, [damaged]), learner, desired[None], tests[None], measure_at, look)
+    history = run(
+        Plant(controller, [damaged]), learner, desired[None], tests[None], measure_at, look
+    )
     poses = workspace.to_poses(shown)
     solution = controller.solve(workspace.to_poses(np.concatenate(commands)))
-    angles = np.where(solution.reached[:, None], solution.angles, controller.robot.home)  # where refused
+    angles = np.where(
+        solution.reached[:, None], solution.angles, controller.robot.home
+    )  # where refused
     achieved = damaged.forward(angles).reshape(len(commands), *poses.shape)
     return Training(
         history=history,
@@ -105,7 +111,10 @@ def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration:
     last = iteration - 1
     narrow = schedules.equal_visits if learner.rules.equal_visits else schedules.exponential
     plan = learner.schedule
-    widths = (np.full(1, narrow(plan.initial_width, end, last / len(desired))) for end in plan.final_widths[name])
+    widths = (
+        np.full(1, narrow(plan.initial_width, end, last / len(desired)))
+        for end in plan.final_widths[name]
+    )
     k, l = (index[:, 0] for index in position_map.winner(desired[None, last : last + 1]))
     return position_map.neighbourhood(k, l, *widths)[0, :, l[0]]
 
