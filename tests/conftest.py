@@ -18,8 +18,8 @@ import yaml
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
-from recalib.nominal.robots import Robot, load_robot
-from recalib.study.scenarios import load_controller
+from recalib.nominal.robots import Robot
+from recalib.study.scenarios import load_controller, robot_of_entry
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "tests/tiny.yaml"]
@@ -33,7 +33,7 @@ def config() -> dict:
 
 @pytest.fixture(scope="session")
 def robot(config) -> Robot:
-    return load_robot("ur10", config["robots"])
+    return robot_of_entry("ur10", config["robots"]["ur10"])
 
 
 @pytest.fixture(scope="session")

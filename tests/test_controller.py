@@ -59,7 +59,7 @@ def test_a_workspace_out_of_reach_is_refused(config):
     far = copy.deepcopy(config)
     far["robots"]["ur10"]["workspace"]["position"] = ["150 cm"] * 3
     with pytest.raises(
-        UnfitWorkspace, match=r"cannot reach \d+ of the 729 poses.*robots.ur10.workspace"
+        UnfitWorkspace, match=r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
     ):
         load_controller("ur10", far)
 

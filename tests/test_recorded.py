@@ -7,7 +7,6 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.robots import load_robot
 from recalib.study.experiments import recorded
 from recalib.study.experiments.recorded import (
     LEARNERS,
@@ -15,6 +14,7 @@ from recalib.study.experiments.recorded import (
     remaining_errors,
     with_tool_point,
 )
+from recalib.study.scenarios import robot_of_entry
 
 # As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -38,7 +38,7 @@ def manufacturers_position(angles: np.ndarray) -> np.ndarray:
 
 @pytest.fixture(scope="module")
 def ur5(config):
-    return with_tool_point(load_robot("ur5", config["robots"]))
+    return with_tool_point(robot_of_entry("ur5", config["robots"]["ur5"]))
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +76,7 @@ def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
 
 
 def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, config):
-    flange = load_robot("ur5", config["robots"])
+    flange = robot_of_entry("ur5", config["robots"]["ur5"])
     assert np.allclose(
         np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
         [*recorded.TOOL_POINT, 1],

@@ -6,6 +6,7 @@ import pytest
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.robots import load_robot
+from recalib.study.scenarios import load_controller, robot_of_entry
 
 
 @pytest.fixture
@@ -15,7 +16,7 @@ def entries(config):
 
 @pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
 def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, config):
-    robot = load_robot(name, config["robots"])
+    robot = robot_of_entry(name, config["robots"][name])
     step = 1e-6
     _, jacobian = robot.arm.forward_and_jacobian(robot.home[None])
     ahead, behind = (robot.arm.forward(robot.home + sign * step * np.eye(6)) for sign in (1, -1))
@@ -33,7 +34,7 @@ def test_the_workspace_is_centred_on_home(robot):
 
 
 def test_a_locked_gripper_leaves_six_joints(config):
-    assert load_robot("z1", config["robots"]).joints == tuple(
+    assert robot_of_entry("z1", config["robots"]["z1"]).joints == tuple(
         f"joint{index}" for index in range(1, 7)
     )
 
@@ -75,9 +76,25 @@ def test_every_link_has_a_length(robot):
 def test_an_impossible_entry_is_refused_with_what_would_be_valid(entries, change, error, message):
     entries["ur10"] |= change
     with pytest.raises(error, match=message):
-        load_robot("ur10", entries)
+        robot_of_entry("ur10", entries["ur10"])
 
 
-def test_an_unknown_robot_is_refused_with_the_known_ones(entries):
+def test_a_urdf_from_anywhere_will_do(robot, tmp_path):
+    path = tmp_path / "mine.urdf"
+    path.write_bytes(robot.urdf.read_bytes())
+    home = dict(zip(robot.joints, robot.home, strict=True))
+    mine = load_robot(path, "tool0", home, [0.5, 0.6, 0.5], np.radians([40, 40, 40]))
+    assert mine.name == "mine"
+    assert np.array_equal(mine.workspace.centre, robot.workspace.centre)
+
+
+def test_a_file_that_is_no_urdf_is_refused_by_its_path(tmp_path):
+    path = tmp_path / "notes.urdf"
+    path.write_text("nothing")
+    with pytest.raises(UnsuitableRobot, match=r"notes\.urdf is no URDF"):
+        load_robot(path, "tool0", {}, [1, 1, 1], [1, 1, 1])
+
+
+def test_an_unknown_robot_is_refused_with_the_known_ones(config):
     with pytest.raises(UnknownName, match="ur10, ur3, ur5, z1"):
-        load_robot("ur11", entries)
+        load_controller("ur11", config)

@@ -113,7 +113,7 @@ class Controller:
             raise UnfitWorkspace(
                 f"the {name} cannot reach {missed} of the {len(poses)} poses on a grid over its workspace."
                 f" {Unreachable(poses[worst], residuals[worst], 'no joint angles reach it')}."
-                f" Make robots.{name}.workspace smaller or move robots.{name}.home"
+                " Make its workspace smaller or move its home"
             )
 
     def _check_limits(self, knots: np.ndarray) -> None:
@@ -124,7 +124,7 @@ class Controller:
             )
             raise UnfitWorkspace(
                 f"the {robot.name} would have to turn {robot.joints[joint]} to {turn:.1f} deg in its workspace, beyond its"
-                f" limits of {low:.1f} to {high:.1f} deg. Make robots.{robot.name}.workspace smaller or move its home"
+                f" limits of {low:.1f} to {high:.1f} deg. Make its workspace smaller or move its home"
             )
 
     def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
@@ -133,7 +133,7 @@ class Controller:
         if condition > greatest:
             raise UnfitWorkspace(
                 f"the {self.robot.name} comes too near to a singularity in its workspace: its Jacobian's condition number"
-                f" reaches {condition:.3g}; controller.greatest_condition allows {greatest:.3g}"
+                f" reaches {condition:.3g}; greatest_condition allows {greatest:.3g}"
             )
 
 

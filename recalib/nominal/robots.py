@@ -1,16 +1,16 @@
-"""Nominal robots: arms of example-robot-data with their tool frame, home, joint limits and workspace."""
+"""Nominal robots: an arm from a URDF with its tool frame, home, joint limits and workspace."""
 
 import importlib.metadata
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from os import PathLike, fspath
 from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 
-from recalib import quantities
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import Workspace
@@ -23,7 +23,7 @@ class Robot:
     """A nominal robot as its manufacturer describes it.
 
     Attributes:
-        name: its key in the configuration.
+        name: what people call it.
         urdf: the file that describes it.
         arm: its kinematics, with the joints that do not move the tool locked.
         home: (6,) joint angles in rad at the centre of the workspace.
@@ -46,7 +46,10 @@ class Robot:
 
     @property
     def links(self) -> dict[str, int]:
-        """Each link, with the joint that moves it (0: the base): it ends at the next joint or the tool."""
+        """Each link, with the joint that moves it (0: the base).
+
+        A link ends at the next joint, the last one at the tool.
+        """
         model = self.arm.model
         links: dict[str, int] = {}
         for frame in model.frames:
@@ -57,20 +60,85 @@ class Robot:
 
 
 def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
-    """Where the link behind `joint` ends, (3,) in m in that joint's frame: a view that can be written to."""
+    """Where the link behind `joint` ends, (3,) in m in that joint's frame: a writable view."""
     if joint < JOINTS:
         return model.jointPlacements[joint + 1].translation
     return model.frames[tool_frame(model, tool)].placement.translation
 
 
+def load_robot(
+    urdf: str | PathLike,
+    tool: str,
+    home: Mapping[str, float],
+    position_range: Sequence[float],
+    orientation_range: Sequence[float],
+    limits: Mapping[str, tuple[float, float]] | None = None,
+    name: str | None = None,
+) -> Robot:
+    """The robot that a URDF describes, with a workspace about its home.
+
+    Args:
+        urdf: a file of example-robot-data by its name, or the path of any other file.
+        tool: name of the link whose frame is the pose.
+        home: rad by joint, at the centre of the workspace.
+        position_range: (3,) m, full sizes of the workspace along the base's axes.
+        orientation_range: (3,) rad, its full ranges of roll, pitch and yaw.
+        limits: lowest and highest angle [rad] by joint, in place of the URDF's.
+        name: what people call it; the file's name unless given.
+
+    Raises UnknownName (URDF, tool link, joint), UnsuitableRobot, and InvalidSetting (a joint
+    without a home, a home beyond a joint's limits, a workspace without size).
+    """
+    path, limits = _find(urdf), limits or {}
+    arm = _serial_arm(path, tool)
+    joints = tuple(arm.model.names)[1:]
+    for key, given in (("home", home), ("limits", limits)):
+        for joint in given:
+            if joint not in joints:
+                raise UnknownName(f"joint in {key}", joint, joints)
+    if missing := [joint for joint in joints if joint not in home]:
+        raise InvalidSetting("home", dict(home), f"an angle for {', '.join(missing)} too")
+    lower, upper = arm.model.lowerPositionLimit.copy(), arm.model.upperPositionLimit.copy()
+    for joint, bounds in limits.items():
+        lower[joints.index(joint)], upper[joints.index(joint)] = bounds
+    angles = np.array([home[joint] for joint in joints], dtype=float)
+    for joint, low, angle, high in zip(joints, lower, angles, upper, strict=True):
+        if not low <= angle <= high:
+            valid = f"{math.degrees(low):.1f} deg to {math.degrees(high):.1f} deg"
+            raise InvalidSetting(f"home.{joint}", f"{math.degrees(angle):.6g} deg", valid)
+    for key, sides in (
+        ("position_range", position_range),
+        ("orientation_range", orientation_range),
+    ):
+        if len(sides) != 3 or not all(0 < side < math.inf for side in sides):
+            raise InvalidSetting(key, [*sides], "three sides above zero")
+    workspace = Workspace(
+        centre=arm.forward(angles[None])[0],
+        half_ranges=np.array([*position_range, *orientation_range]) / 2,
+    )
+    return Robot(name or path.stem, path, arm, angles, lower, upper, workspace)
+
+
+def _find(urdf: str | PathLike) -> Path:
+    packaged = _packaged_urdfs()
+    if urdf in packaged:
+        return packaged[urdf]
+    if not Path(urdf).is_file():
+        raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
+    return Path(urdf)
+
+
 @cache
-def _urdf_files() -> dict[str, Path]:
+def _packaged_urdfs() -> dict[str, Path]:
     files = importlib.metadata.files("example-robot-data") or []
     return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
 
 
 def _serial_arm(path: Path, tool: str) -> Arm:
-    full = pin.buildModelFromUrdf(str(path))
+    try:
+        full = pin.buildModelFromUrdf(str(path))
+    except ValueError as error:
+        raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from error
     links = [frame.name for frame in full.frames if frame.type == pin.FrameType.BODY]
     if tool not in links:
         raise UnknownName(f"tool link of {path.name}", tool, links)
@@ -79,49 +147,7 @@ def _serial_arm(path: Path, tool: str) -> Arm:
     model = pin.buildReducedModel(full, locked, pin.neutral(full))
     if (model.njoints - 1, model.nq, model.nv) != (JOINTS,) * 3:
         raise UnsuitableRobot(
-            f"{path.name} moves {tool!r} with {model.njoints - 1} joints, {model.nq} coordinates and {model.nv} degrees"
-            f" of freedom; valid: an arm of {JOINTS} bounded one-axis joints"
+            f"{path.name} moves {tool!r} with {model.njoints - 1} joints, {model.nq} coordinates"
+            f" and {model.nv} degrees of freedom; valid: an arm of {JOINTS} bounded one-axis joints"
         )
     return Arm(model, tool)
-
-
-def load_robot(name: str, entries: Mapping[str, Mapping]) -> Robot:
-    """The robot `name` as its entry in the configuration's `robots` describes it.
-
-    Raises UnknownName (robot, URDF, tool frame, joint), UnsuitableRobot, InvalidSetting (home beyond a joint limit).
-    """
-    if name not in entries:
-        raise UnknownName("robot", name, entries)
-    entry = entries[name]
-    if entry["urdf"] not in _urdf_files():
-        raise UnknownName("URDF of example-robot-data", entry["urdf"], _urdf_files())
-    path = _urdf_files()[entry["urdf"]]
-    arm = _serial_arm(path, entry["tool"])
-    joints = tuple(arm.model.names)[1:]
-    for key in ("home", "limits"):
-        for joint in entry.get(key, {}):
-            if joint not in joints:
-                raise UnknownName(f"joint in robots.{name}.{key}", joint, joints)
-    missing = [joint for joint in joints if joint not in entry["home"]]
-    if missing:
-        raise InvalidSetting(
-            f"robots.{name}.home", entry["home"], f"an angle for {', '.join(missing)} too"
-        )
-    home = np.array([quantities.angle(entry["home"][joint]) for joint in joints])
-    lower, upper = arm.model.lowerPositionLimit.copy(), arm.model.upperPositionLimit.copy()
-    for joint, (low, high) in entry.get("limits", {}).items():
-        index = joints.index(joint)
-        lower[index], upper[index] = quantities.angle(low), quantities.angle(high)
-    for joint, q, low, high in zip(joints, home, lower, upper, strict=True):
-        if not low <= q <= high:
-            valid = f"{math.degrees(low):.1f} deg to {math.degrees(high):.1f} deg"
-            raise InvalidSetting(f"robots.{name}.home.{joint}", entry["home"][joint], valid)
-    size = [quantities.length(side) for side in entry["workspace"]["position"]]
-    size += [quantities.angle(side) for side in entry["workspace"]["orientation"]]
-    for side, given in zip(
-        size, [*entry["workspace"]["position"], *entry["workspace"]["orientation"]], strict=True
-    ):
-        if side <= 0:
-            raise InvalidSetting(f"robots.{name}.workspace", given, "sides above zero")
-    workspace = Workspace(centre=arm.forward(home[None])[0], half_ranges=np.array(size) / 2)
-    return Robot(name, path, arm, home, lower, upper, workspace)

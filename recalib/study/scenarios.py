@@ -46,9 +46,31 @@ def robot_of(scenario: str, config: Mapping) -> tuple[str, str]:
 
 
 def load_controller(robot: str, config: Mapping) -> Controller:
-    """The nominal controller of a robot; see `load_robot` and `Controller` for what it raises."""
+    """The nominal controller of a robot.
+
+    Raises UnknownName (robot), and what `load_robot` and `Controller` raise.
+    """
+    if robot not in config["robots"]:
+        raise UnknownName("robot", robot, config["robots"])
     return Controller(
-        load_robot(robot, config["robots"]), config["controller"]["greatest_condition"]
+        robot_of_entry(robot, config["robots"][robot]), config["controller"]["greatest_condition"]
+    )
+
+
+def robot_of_entry(name: str, entry: Mapping) -> Robot:
+    """The robot that an entry of the configuration's `robots` describes; see `load_robot`."""
+    workspace = entry["workspace"]
+    return load_robot(
+        entry["urdf"],
+        entry["tool"],
+        home={joint: quantities.angle(angle) for joint, angle in entry["home"].items()},
+        position_range=[quantities.length(side) for side in workspace["position"]],
+        orientation_range=[quantities.angle(side) for side in workspace["orientation"]],
+        limits={
+            joint: (quantities.angle(low), quantities.angle(high))
+            for joint, (low, high) in entry.get("limits", {}).items()
+        },
+        name=name,
     )
 
 
@@ -132,7 +154,7 @@ def check(config: Mapping) -> None:
     for scenario in dict.fromkeys([*experiments["scenarios"], *config["benchmark"]["scenarios"]]):
         name, robot = robot_of(scenario, config)
         if robot not in robots:
-            robots[robot] = load_robot(robot, config["robots"])
+            robots[robot] = robot_of_entry(robot, config["robots"][robot])
         explicit = [entry for entry in config["scenarios"][name] if "assigned" not in entry]
         apply(robots[robot], parse_damages(explicit))
         parse_disturbances(explicit)

@@ -2,16 +2,16 @@
 
 import pandas as pd
 
-from recalib.nominal.robots import load_robot
 from recalib.randomness import generator
 from recalib.storage import whole
 from recalib.study.experiments.recorded import read_recording, remaining_errors, with_tool_point
+from recalib.study.scenarios import robot_of_entry
 from workflow.scripts.job import job
 
 with job(snakemake):
     config, learner = snakemake.config, snakemake.wildcards.learner
     plan = config["real"]
-    robot = with_tool_point(load_robot(plan["robot"], config["robots"]))
+    robot = with_tool_point(robot_of_entry(plan["robot"], config["robots"][plan["robot"]]))
     known, tests = read_recording(snakemake.input.fit), read_recording(snakemake.input.test)
     rows = []
     for poses in plan["poses"]:

@@ -5,17 +5,17 @@ import pandas as pd
 
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
-from recalib.nominal.robots import load_robot
 from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
 from recalib.study.experiments.recorded import calibrate_hybrid, read_recording, with_tool_point
+from recalib.study.scenarios import robot_of_entry
 from recalib.training import run
 from workflow.scripts.job import job
 
 with job(snakemake):
     config, name = snakemake.config, snakemake.wildcards.learner
     plan = config["real"]
-    robot = with_tool_point(load_robot(plan["robot"], config["robots"]))
+    robot = with_tool_point(robot_of_entry(plan["robot"], config["robots"][plan["robot"]]))
     twin = calibrate_hybrid(robot.arm, read_recording(snakemake.input.fit))
     which = tuned.training(name, config["learners"])
     runs = range(plan["subsets"])
