@@ -5,9 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.damaged.fleet import Fleet
-from recalib.damaged.plant import Plant
-from recalib.learners.learner import Learner
+from recalib.interfaces import Commandable, Learner
 from recalib.nominal.poses import orientation_error, position_error
 
 SUMMARIES = {
@@ -38,7 +36,7 @@ class History:
         """A table by its columns, a row for each run and measurement, errors in centimetres and degrees."""
         runs = len(self.position)
         table = {
-            "seed": np.repeat(np.arange(runs), len(self.iterations)),
+            "run": np.repeat(np.arange(runs), len(self.iterations)),
             "iteration": np.tile(self.iterations, runs),
             "moves": np.tile(self.moves, runs),
             "refused": self.refused.ravel(),
@@ -52,7 +50,7 @@ class History:
 
 
 def measure(
-    plant: Plant | Fleet, learner: Learner, tests: np.ndarray
+    plant: Commandable, learner: Learner, tests: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at the test poses (run, pose, 6), by (1).
 
@@ -73,8 +71,8 @@ def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> lis
     return sorted({0, *np.geomspace(1, iterations, points).round().astype(int).tolist()})
 
 
-def run(
-    plant: Plant | Fleet,
+def train(
+    plant: Commandable,
     learner: Learner,
     desired: np.ndarray,
     tests: np.ndarray,

@@ -2,8 +2,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.plant import Outcome
 from recalib.errors import UnknownName
+from recalib.interfaces import Outcome
 from recalib.learners import peers
 from recalib.study.evidence.guidance import moves_text, where_worse
 from recalib.study.evidence.results import ERRORS

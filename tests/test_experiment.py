@@ -5,7 +5,7 @@ import pytest
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
-from recalib.training import measuring_grid, run
+from recalib.training import measuring_grid, train
 
 IMPROVED = Rules(True, True, True, True)
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
@@ -23,7 +23,7 @@ def poses():
 
 @pytest.fixture(scope="module")
 def history(controller, damaged, poses):
-    return run(Plant(controller, [damaged]), learner(3), *poses, measuring_grid(60, 4, 200, 50))
+    return train(Plant(controller, [damaged]), learner(3), *poses, measuring_grid(60, 4, 200, 50))
 
 
 def test_learning_reduces_both_errors_of_every_run(history):
@@ -49,17 +49,17 @@ def test_the_first_measurement_is_of_the_uncorrected_robot(history, controller, 
 
 
 def test_a_run_does_not_depend_on_the_runs_beside_it(history, controller, damaged, poses):
-    alone = run(Plant(controller, [damaged]), learner(1), poses[0][2:], poses[1][2:], [60])
+    alone = train(Plant(controller, [damaged]), learner(1), poses[0][2:], poses[1][2:], [60])
     assert np.allclose(alone.position[0, -1], history.position[2, -1], rtol=1e-9)
 
 
 def test_measuring_teaches_nothing(history, controller, damaged, poses):
-    seldom = run(Plant(controller, [damaged]), learner(3), *poses, [60])
+    seldom = train(Plant(controller, [damaged]), learner(3), *poses, [60])
     assert np.allclose(seldom.position[:, -1], history.position[:, -1], rtol=1e-12)
 
 
 def test_runs_may_have_robots_of_their_own(controller, robot, damaged, poses):
-    both = run(Plant(controller, [damaged, apply(robot, []), damaged]), learner(3), *poses, [60])
+    both = train(Plant(controller, [damaged, apply(robot, []), damaged]), learner(3), *poses, [60])
     assert both.position[1].max() < 1e-9 < both.position[0, 0, 0]
 
 
@@ -67,7 +67,7 @@ def test_refused_moves_are_counted_and_the_run_goes_on(controller, damaged, pose
     desired = poses[0].copy()
     desired[1, 5, :3] = 20  # five metres away
     plant = Plant(controller, [damaged])
-    history = run(plant, learner(3), desired, poses[1], [0, 5, 6, 60])
+    history = train(plant, learner(3), desired, poses[1], [0, 5, 6, 60])
     assert history.refused[1].tolist() == [0, 0, 2, 2] and not history.refused[[0, 2]].any()
     assert history.position[1, -1, 0] < 0.3 * history.position[1, 0, 0]
 
@@ -82,7 +82,7 @@ def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
 def test_the_table_has_a_row_for_each_run_and_measurement(history):
     frame = pd.DataFrame(history.columns())
     assert len(frame) == 3 * len(history.iterations)
-    last = frame[(frame["seed"] == 2) & (frame["iteration"] == 60)].iloc[0]
+    last = frame[(frame["run"] == 2) & (frame["iteration"] == 60)].iloc[0]
     assert last["position_error_cm"] == 100 * history.position[2, -1, 0]
     assert last["orientation_error_max_deg"] == np.degrees(history.orientation[2, -1, 2])
 

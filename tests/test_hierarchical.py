@@ -3,8 +3,9 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib.damaged.plant import Outcome, Plant
+from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
+from recalib.interfaces import Outcome
 from recalib.learners.hierarchical import SEPARATE, HierarchicalLearner, Rules, Schedule
 from recalib.learners.maps import regular_grid
 from tests.reference import SlowMap, cycle

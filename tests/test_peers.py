@@ -8,8 +8,9 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.damaged.plant import Outcome, Plant
+from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
+from recalib.interfaces import Outcome
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner

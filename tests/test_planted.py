@@ -13,7 +13,7 @@ from recalib.learners.maps import HierarchicalMap
 from recalib.study.evidence.checks import check
 from recalib.study.experiments import campaign, tuned
 from recalib.study.scenarios import parse_damage
-from recalib.training import run
+from recalib.training import train
 from tests.conftest import ROOT
 
 SEEDS = range(20)
@@ -30,7 +30,7 @@ def final_errors(config, controller, learner="improved"):
         {"encoder": "wrist_3_joint", "shift": "3 deg"},
     ]
     which = tuned.training(learner, config["learners"])
-    history = run(
+    history = train(
         Plant(controller, [apply(controller.robot, map(parse_damage, damages))]),
         tuned.build(which, len(SEEDS), config["learners"], ROOT / config["tuned"]),
         campaign.desired_poses(config["seed"], "links_encoders", SEEDS, which.iterations),

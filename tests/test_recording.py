@@ -25,7 +25,7 @@ from recalib.study.recording import (
     take_pictures,
     write_recording,
 )
-from recalib.training import run
+from recalib.training import train
 
 RERUN = Path(rerun_cli.__file__).with_name("rerun")
 MEASURE_AT = range(0, 41, 4)
@@ -100,7 +100,7 @@ def results(controller):
     desired, tests = poses()
     plant = Plant(controller, [apply(controller.robot, DAMAGES)])
     return {
-        name: pd.DataFrame(run(plant, learner, desired[None], tests[None], MEASURE_AT).columns())
+        name: pd.DataFrame(train(plant, learner, desired[None], tests[None], MEASURE_AT).columns())
         for name, learner in learners().items()
     }
 
@@ -132,7 +132,7 @@ def test_landings_are_where_the_damaged_arm_lands(controller, columns):
     goals = controller.robot.workspace.to_poses(shown)
     untrained, _ = plant.achieve(shown[None])
     learner = learners()["improved"]
-    run(plant, learner, desired[None], tests[None], MEASURE_AT)
+    train(plant, learner, desired[None], tests[None], MEASURE_AT)
     trained, _ = plant.achieve(learner.command(shown[None]))
 
     iterations, axes = columns("/improved/achieved", "LineStrips3D:strips", "iteration")

@@ -6,7 +6,7 @@ import pytest
 
 from recalib.study.experiments import campaign
 from recalib.study.experiments.benchmark import entrant
-from recalib.training import run
+from recalib.training import train
 from tests.conftest import copy_project, snakemake
 
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
@@ -97,7 +97,7 @@ def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_pat
     )
     desired = campaign.desired_poses(config["seed"], "noise", runs, 2)
     tests = campaign.test_poses(config["seed"], "noise", runs, 20)
-    alone = run(plant, entrant("affine", config).make(2, controller), desired, tests, [1, 2])
+    alone = train(plant, entrant("affine", config).make(2, controller), desired, tests, [1, 2])
     # the table has six digits
     assert np.allclose(
         table.loc["noise", "position_error_cm"],

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from recalib.damaged.plant import Outcome, Plant
+from recalib.damaged.plant import Plant
+from recalib.interfaces import Outcome
 from recalib.nominal.controller import Controller, Targets
 
 

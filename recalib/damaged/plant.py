@@ -1,25 +1,12 @@
 """The damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
-from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
+from recalib.interfaces import ForwardKinematics, Outcome
 from recalib.nominal.controller import Controller, Targets
-
-
-class Outcome(NamedTuple):
-    """What came of commanded moves, axes (run, move).
-
-    Attributes:
-        achieved: (run, move, 6) coordinates of the achieved poses; a refused move leaves the arm at home.
-        executed: (run, move) whether the controller carried the command out.
-    """
-
-    achieved: np.ndarray
-    executed: np.ndarray
 
 
 class Plant:
@@ -27,7 +14,7 @@ class Plant:
 
     Args:
         controller: the nominal controller, which knows of no damage.
-        arms: one damaged arm for each run, or a single one for all runs.
+        arms: one for each run, or a single one for all runs: damaged, or a twin of a real one.
         disturbances: of the executed moves; none unless given.
         generators: their randomness, one for each run.
 
@@ -39,7 +26,7 @@ class Plant:
     def __init__(
         self,
         controller: Controller,
-        arms: Sequence[DamagedArm],
+        arms: Sequence[ForwardKinematics],
         disturbances: Disturbances | None = None,
         generators: Sequence[np.random.Generator] = (),
     ):

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from recalib.interfaces import Execute
 from recalib.learners.experience import Experience, is_due
-from recalib.learners.learner import Execute
 from recalib.processes import Process, is_time_to_search
 
 

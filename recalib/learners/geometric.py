@@ -8,8 +8,8 @@ from recalib.identification.calibration import Calibration, angles_for
 from recalib.identification.design import information_gains
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
+from recalib.interfaces import Execute
 from recalib.learners.experience import Experience, is_due
-from recalib.learners.learner import Execute
 from recalib.nominal.controller import Controller
 
 

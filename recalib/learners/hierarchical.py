@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.errors import InvalidSetting
+from recalib.interfaces import Execute
 from recalib.learners import schedules
-from recalib.learners.learner import Execute
 from recalib.learners.maps import HierarchicalMap, propagate_increments, propagate_values
 from recalib.nominal.poses import ORIENTATION, POSITION
 

@@ -1,7 +1,7 @@
 """The learners of today that the paper's maps are compared with, by name. Each makes one move an iteration."""
 
 from recalib.errors import UnknownName
-from recalib.learners.learner import Learner
+from recalib.interfaces import Learner
 from recalib.nominal.controller import Controller
 
 NEEDS = {

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.learners.learner import Execute
+from recalib.interfaces import Execute
 from recalib.monomials import monomials
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in workspace coordinates: wear of

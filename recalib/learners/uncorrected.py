@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from recalib.learners.learner import Execute
+from recalib.interfaces import Execute
 
 
 class UncorrectedLearner:

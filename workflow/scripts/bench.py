@@ -9,7 +9,7 @@ from recalib.damaged.plant import Plant
 from recalib.nominal.kinematics import tool_frame
 from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
-from recalib.training import run
+from recalib.training import train
 from workflow.scripts.job import job
 
 RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
@@ -57,7 +57,7 @@ with job(snakemake):
         desired = campaign.desired_poses(0, "bench", range(RUNS), ITERATIONS)
         learner = tuned.build(which, RUNS, config["learners"], config["tuned"])
         spent = seconds(
-            run, Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
+            train, Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
         ) / (RUNS * ITERATIONS)
         lines.append(
             f"{name}: {1e6 * spent:.0f} us an iteration and seed, {10_000 * spent:.2f} s for 10,000 iterations"

@@ -7,7 +7,7 @@ from recalib.storage import whole
 from recalib.study.experiments import campaign
 from recalib.study.experiments.benchmark import Timed, entrant
 from recalib.study.progress import progress_bar
-from recalib.training import run
+from recalib.training import train
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -25,10 +25,10 @@ with job(snakemake):
     )
     budgets = which.measure_at([*config["benchmark"]["moves"], *config["benchmark"]["longer"]])
     with progress_bar(f"{name} on {', '.join(scenarios)}", which.iterations) as progress:
-        frame = pd.DataFrame(run(fleet, learner, desired, tests, budgets, progress).columns())
-    frame = frame.assign(
-        scenario=np.array(scenarios)[frame["seed"] // len(runs)],
-        seed=frame["seed"] % len(runs),
+        frame = pd.DataFrame(train(fleet, learner, desired, tests, budgets, progress).columns())
+    frame = frame.drop(columns="run").assign(
+        scenario=np.array(scenarios)[frame["run"] // len(runs)],
+        seed=frame["run"] % len(runs),
         learner=name,
         seconds_per_move=learner.seconds
         / (len(desired) * which.iterations * which.moves_per_iteration),

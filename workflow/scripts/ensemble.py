@@ -13,7 +13,7 @@ from recalib.storage import whole
 from recalib.study import scenarios
 from recalib.study.assignments import damages_of
 from recalib.study.experiments import campaign, tuned
-from recalib.training import run
+from recalib.training import train
 from workflow.scripts.job import job
 
 
@@ -57,7 +57,7 @@ with job(snakemake):
     ]
     runs = [first + index for index, _ in cases]
     learner = tuned.build(which, len(cases), config["learners"], config["tuned"])
-    history = run(
+    history = train(
         Plant(controller, arms),
         learner,
         campaign.desired_poses(config["seed"], "ensemble", runs, which.iterations),

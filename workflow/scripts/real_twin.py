@@ -9,7 +9,7 @@ from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
 from recalib.study.experiments.recorded import calibrate_hybrid, read_recording, with_tool_point
 from recalib.study.scenarios import robot_of_entry
-from recalib.training import run
+from recalib.training import train
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -19,7 +19,7 @@ with job(snakemake):
     twin = calibrate_hybrid(robot.arm, read_recording(snakemake.input.fit))
     which = tuned.training(name, config["learners"])
     runs = range(plan["subsets"])
-    history = run(
+    history = train(
         Plant(Controller(robot, config["controller"]["greatest_condition"]), [twin]),
         tuned.build(which, len(runs), config["learners"], config["tuned"]),
         campaign.desired_poses(config["seed"], "twin", runs, which.iterations),

@@ -7,7 +7,7 @@ from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.storage import whole
 from recalib.study.experiments import campaign, search, tuned
-from recalib.training import run
+from recalib.training import train
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -30,7 +30,7 @@ with job(snakemake):
     learner = HierarchicalLearner(
         len(trials) * len(seeds), rules, search.schedule(trials, rules, len(seeds))
     )
-    history = run(
+    history = train(
         Plant(controller, [arm]),
         learner,
         np.tile(desired, (len(trials), 1, 1)),

@@ -8,7 +8,7 @@ import pandas as pd
 from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
 from recalib.study.progress import progress_bar
-from recalib.training import measuring_grid, run
+from recalib.training import measuring_grid, train
 from workflow.scripts.job import job
 
 with job(snakemake):
@@ -19,7 +19,7 @@ with job(snakemake):
     _, plant = campaign.load_plant(snakemake.input.scenario, config, runs)
     learner = tuned.build(which, len(runs), config["learners"], config["tuned"])
     with progress_bar(f"{which} on {scenario}", which.iterations) as progress:
-        history = run(
+        history = train(
             plant,
             learner,
             campaign.desired_poses(config["seed"], scenario, runs, which.iterations),
@@ -36,7 +36,7 @@ with job(snakemake):
         )
     if refused := history.refused[:, -1].sum():
         print(f"{which} on {scenario}: the controller refused {refused} moves", file=sys.stderr)
-    frame = pd.DataFrame(history.columns())
+    frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     frame["seed"] += runs.start
     with whole(snakemake.output.history) as path:
         frame.to_parquet(path, index=False)

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from recalib.errors import UnknownName
+from recalib.interfaces import Learner
 from recalib.learners import peers
-from recalib.learners.learner import Learner
 from recalib.nominal.controller import Controller
 from recalib.study.experiments import tuned
 from recalib.study.experiments.tuned import Training

@@ -11,7 +11,7 @@ from recalib.learners import schedules
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
-from recalib.training import History, run
+from recalib.training import History, train
 
 FRAMES_A_SECOND = 25
 MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there
@@ -81,7 +81,7 @@ def watch(
         moved = (position_map.theta[0, POSITION] - untrained).mean(axis=-1).T
         corrections.append(moved * workspace.half_ranges[POSITION])
 
-    history = run(
+    history = train(
         Plant(controller, [damaged]), learner, desired[None], tests[None], measure_at, look
     )
     poses = workspace.to_poses(shown)

@@ -1,0 +1,85 @@
+"""What the parts ask of one another: whatever keeps to these can take the place of the shipped one.
+
+Commands and achieved poses are coordinates of the workspace (`recalib.nominal.poses`). The first
+axis is always the run: an experiment trains many runs side by side.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from recalib.nominal.poses import Workspace
+
+
+class Outcome(NamedTuple):
+    """What came of commanded moves, axes (run, move).
+
+    Attributes:
+        achieved: (run, move, 6) coordinates of the achieved poses; a refused move leaves the arm
+            at home.
+        executed: (run, move) whether the command was carried out.
+    """
+
+    achieved: np.ndarray
+    executed: np.ndarray
+
+
+Execute = Callable[[np.ndarray], Outcome]
+
+
+class Learner(Protocol):
+    """Given a desired pose, what to command; given what happened, what to learn.
+
+    Nothing but pose commands and measured poses pass between it and a robot.
+    """
+
+    def command(self, desired: np.ndarray) -> np.ndarray:
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
+        ...
+
+    def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
+        """One iteration: try the desired poses (run, 6) by moves through `execute`; learn from it.
+
+        Args:
+            fraction: of the training that is done, in [0, 1).
+        """
+        ...
+
+
+class Commandable(Protocol):
+    """What an experiment asks of its robots, one for each run: to take pose commands.
+
+    Attributes:
+        workspace: in whose coordinates poses are given.
+        moves: how many moves were commanded in each run.
+        refused: (run,) how many of them were not carried out; 0 before the first.
+    """
+
+    workspace: Workspace
+    moves: int
+    refused: np.ndarray | int
+
+    def execute(self, commands: np.ndarray) -> Outcome:
+        """Command poses, coordinates (run, move, 6), and measure what is achieved."""
+        ...
+
+    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Achieved poses (run, move, 4, 4) [m] and whether each was executed (run, move).
+
+        As `execute`, to judge a learner by: these moves are not counted and, where the robot is
+        simulated, free of disturbances.
+        """
+        ...
+
+
+class ForwardKinematics(Protocol):
+    """What a simulated robot asks of its arm."""
+
+    def forward(self, angles: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) of the tool in the base frame [m].
+
+        Args:
+            angles: (n, 6) rad in which the controller believes.
+        """
+        ...
