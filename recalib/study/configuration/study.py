@@ -1,0 +1,315 @@
+"""A study as one typed value: every key of config.yaml, with its meaning, unit and range.
+
+The shipped replication is one value of `Study`. What a learner is called where, and which trainings there are,
+follows from it: see `recalib.study.trainings`.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.units import (
+    Angle,
+    Count,
+    Fraction,
+    Name,
+    Number,
+    Positive,
+    Range,
+    Seed,
+    Size,
+    Switch,
+    Text,
+    Turn,
+)
+
+
+class Part(BaseModel):
+    """A part of the configuration: it cannot be changed, and knows no other keys than its own."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+
+Several = Field(min_length=1)
+Low = High = Positive
+
+
+class Workspace(Part):
+    """Full size of the workspace."""
+
+    position: tuple[Size, Size, Size]
+    """Along the base's x, y and z."""
+    orientation: tuple[Range, Range, Range]
+    """Of roll, pitch and yaw."""
+
+
+class Robot(Part):
+    """A nominal robot."""
+
+    urdf: Text
+    """File name of a URDF of example-robot-data."""
+    tool: Text
+    """Link whose frame is the pose."""
+    home: Annotated[dict[str, Angle], Several]
+    """Joint angles at the centre of the workspace."""
+    limits: dict[str, tuple[Angle, Angle]] = {}
+    """Joint limits that replace those of the URDF."""
+    workspace: Workspace
+    """Full size of the workspace."""
+    links: Annotated[tuple[Text, ...], Several]
+    """Links to which the paper's damage may be assigned."""
+
+
+class Controller(Part):
+    """The nominal controller."""
+
+    greatest_condition: Annotated[Number, Field(gt=1, le=1e9)]
+    """Largest condition number of the Jacobian that is accepted in the workspace."""
+
+
+class Published(Part):
+    """Initial errors in the paper."""
+
+    position_error_cm: Positive
+    """In centimetres."""
+    orientation_error_deg: Positive
+    """In degrees."""
+
+
+class PaperDamage(Part):
+    """The damage of section 7, whose links, encoders and signs are not published."""
+
+    shorten: Annotated[tuple[Size, ...], Several]
+    """Lengths taken off as many links."""
+    shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Several]
+    """Angles by which as many encoders are shifted, in either direction."""
+    published: Published
+    """Initial errors in the paper."""
+    poses: Count
+    """Random poses over which initial errors are averaged."""
+
+
+Cells = Annotated[int, Field(strict=True, ge=1, le=20)]
+Grid = tuple[Cells, Cells, Cells]
+
+
+class Learner(Part):
+    """A learner of the paper: four switches, the sizes of its nets, and how long it is trained."""
+
+    maps: Literal["single", "separate"]
+    """One map for the whole command, or one for position and one for orientation commands (section 4)."""
+    theta: Literal["values", "increments"]
+    """What is propagated of theta (section 5)."""
+    jacobian: Literal["values", "increments"]
+    """What is propagated of the Jacobians (section 5)."""
+    schedule: Literal["exponential", "equal_visits"]
+    """Decay of widths and rate (section 6)."""
+    supernet: Grid
+    """Cells along x, y and z."""
+    subnet: Grid
+    """Cells along roll, pitch and yaw."""
+    iterations: Count
+    """Iterations of a training."""
+
+
+class Series(Part):
+    """Robots with other assignments, or other amounts, of the paper's damage."""
+
+    draws: Count
+    """Assignments drawn."""
+    scales: Annotated[tuple[Positive, ...], Several]
+    """Factors of all amounts."""
+
+
+class Experiments(Part):
+    """Which learners are trained on which scenarios."""
+
+    scenarios: Annotated[tuple[Text, ...], Several]
+    """On the study's robot, or NAME-ROBOT."""
+    learners: Annotated[tuple[Name, ...], Several]
+    """Trained on each of them: learners, or NAME_ITERATIONS."""
+    beside: tuple[Name, ...]
+    """More learners, trained on the study's own scenario alone."""
+    switches: Switch
+    """Whether to take each of the four changes from the improved system and to add it to Ritter's."""
+    ladder: dict[Name, tuple[Count, ...]]
+    """Learners trained on the study's own scenario for several numbers of iterations."""
+    evidence: Switch
+    """Whether to judge the claims of the paper and to draw their figures."""
+    robots: tuple[Name, ...]
+    """Other robots for the study's own scenario."""
+    ensemble: dict[Name, dict[Annotated[str, Field(pattern="^[a-z]+$")], Series]]
+    """For each learner, series of robots with other assignments or amounts of the paper's damage."""
+    draws_per_job: Count
+    """Robots of a series that one job trains."""
+
+
+class Benchmark(Part):
+    """The comparison of all learners in robot moves."""
+
+    scenarios: Annotated[tuple[Text, ...], Several]
+    """On the study's robot, or NAME-ROBOT."""
+    learners: Annotated[tuple[Name, ...], Several]
+    """Today's learners, the paper's, or NAME_ITERATIONS."""
+    seeds: Count
+    """Seeds of each learner on each scenario."""
+    moves: Annotated[tuple[Count, ...], Several]
+    """Budgets of moves at which to measure."""
+    longer: tuple[Count, ...]
+    """More budgets, for trainings that go on."""
+    thresholds: Annotated[tuple[Positive, ...], Several]
+    """Errors to reach, in cm and degrees; the first of them is the page's."""
+
+
+class Source(Part):
+    """A recording of the real arm."""
+
+    file: Text | None
+    """A copy on this machine."""
+    url: Annotated[str, Field(strict=True, pattern=r"^https://\S+$")]
+    """The public address."""
+    sha256: Annotated[str, Field(strict=True, pattern="^[0-9a-f]{64}$")]
+    """Checksum of the file."""
+
+
+class Recordings(Part):
+    """The recordings to learn from and to test on."""
+
+    fit: Source
+    """Poses to learn from."""
+    test: Source
+    """Poses to test on."""
+
+
+class PublishedReal(Part):
+    """Mean position errors on the test poses, as published with the recordings."""
+
+    before_mm: Positive
+    """Before calibration."""
+    after_mm: Positive
+    """After a calibration from all poses."""
+
+
+class Real(Part):
+    """A real arm, whose recordings are no part of the project."""
+
+    robot: Name
+    """The nominal robot."""
+    data: Recordings
+    """Its recordings."""
+    published: PublishedReal
+    """What was published with them."""
+    learners: Annotated[tuple[Name, ...], Several]
+    """Those that can learn from recorded poses."""
+    twin: tuple[Name, ...]
+    """Those that choose their poses, and so learn on a twin."""
+    poses: Annotated[tuple[Count, ...], Several]
+    """How many poses to learn from."""
+    subsets: Count
+    """Random subsets for each number of poses."""
+
+
+class Mapping(Part):
+    """Measurements of the true mapping, without a learner."""
+
+    poses: Count
+    """Where the Jacobian of the mapping is taken."""
+    balls: Count
+    """Balls of section 5."""
+    points: Count
+    """Random points of a ball."""
+    radius: Fraction
+    """Of a ball, in workspace coordinates."""
+    scales: Annotated[tuple[Positive, ...], Several]
+    """Factors of the damage."""
+
+
+class Training(Part):
+    """How trainings are run and measured."""
+
+    short: Count
+    """Trainings of up to so many iterations have `seeds`."""
+    seeds: Annotated[Count, Field(ge=2)]
+    """Seeds of a short training: two at least, or there is no interval."""
+    seeds_long: Annotated[Count, Field(ge=2)]
+    """Seeds of a longer training."""
+    seeds_per_job: Count
+    """Seeds that one job trains."""
+    tests: Count
+    """Random poses for a measurement."""
+    measure_every: Count
+    """Iterations between two measurements."""
+    measure_evenly: Count
+    """Longer trainings are measured on a logarithmic grid."""
+    measurements: Annotated[Count, Field(ge=2)]
+    """Points of that grid."""
+
+
+class Ranges(Part):
+    """Lowest and highest values of what is searched for."""
+
+    initial_width: tuple[Positive, Positive]
+    """Of all neighbourhoods; the workspace is 2 wide."""
+    final_width: tuple[Fraction, Fraction]
+    """As a fraction of the initial one."""
+    initial_rate: tuple[Fraction, Fraction]
+    """In (0, 1]."""
+    final_rate: tuple[Fraction, Fraction]
+    """As a fraction of the initial one."""
+
+
+class Search(Part):
+    """The search for widths and rates."""
+
+    rounds: Annotated[int, Field(strict=True, ge=1, le=9)]
+    """Of trials, each around the best of those before."""
+    trials: Count
+    """Trials of a round."""
+    trials_per_job: Count
+    """Trials that one job makes."""
+    seeds: Count
+    """Seeds over which a trial is averaged."""
+    seed: Seed
+    """Of the trials, and of poses that are used nowhere else."""
+    ranges: Ranges
+    """Lowest and highest values."""
+
+
+class Study(Part):
+    """A study: robot, damage, learners, settings, budgets and seeds. Findings are a function of it and of the code."""
+
+    name: Annotated[str, Field(strict=True, pattern=r"^[a-z]\w*$", max_length=40)]
+    """Of the study: `replication` is the shipped one; results of any other lie in results/studies/NAME."""
+    seed: Seed
+    """Of the whole study."""
+    robot: Name
+    """The study's robot, a key of robots."""
+    scenario: Name
+    """The study's own scenario, the paper's damage: that of Figure 1, of the ladders and of the search."""
+    settings: Literal["shipped", "own"]
+    """Widths and rates: those that were searched for the shipped study, where there are any, or the study's own."""
+    expected: Text | None
+    """File with the bands in which final errors are expected; null: no check."""
+    robots: Annotated[dict[Name, Robot], Several]
+    """Robots by name."""
+    controller: Controller
+    """The nominal controller."""
+    paper_damage: PaperDamage
+    """The damage of section 7."""
+    scenarios: Annotated[dict[Name, tuple[Entry, ...]], Several]
+    """Lists of damages by name."""
+    learners: Annotated[dict[Name, Learner], Several]
+    """Learners of the paper by name."""
+    experiments: Experiments
+    """Which learners are trained on which scenarios."""
+    benchmark: Benchmark
+    """The comparison in robot moves."""
+    real: Real
+    """A real arm."""
+    mapping: Mapping
+    """Measurements of the true mapping."""
+    training: Training
+    """How trainings are run and measured."""
+    search: Search
+    """The search for widths and rates."""

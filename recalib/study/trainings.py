@@ -1,0 +1,156 @@
+"""Which trainings a study consists of: the names of learners, what they mean, and who is compared with whom."""
+
+import re
+from collections.abc import Iterable
+from itertools import product
+from typing import NamedTuple
+
+from recalib.errors import UnknownName
+from recalib.study.configuration.study import Learner, Study
+
+IMPROVED, RITTER = "improved", "ritter"  # the learners of the paper, which the claims speak of
+
+
+class Training(NamedTuple):
+    """A learner, and the number of iterations that it is tuned and trained for."""
+
+    name: str
+    iterations: int
+
+    def __str__(self) -> str:
+        return f"{self.name}_{self.iterations}"
+
+
+class Switch(NamedTuple):
+    """One of the four changes that lead from Ritter's algorithm to the improved one.
+
+    Attributes:
+        key: of a learner's settings.
+        label: what the change is called in figures.
+        without: the improved system with this change taken away.
+        added: Ritter's algorithm with this change alone.
+    """
+
+    key: str
+    label: str
+    without: str
+    added: str
+
+
+SWITCHES = (
+    Switch("maps", "separate maps", "improved_single_map", "ritter_separate_maps"),
+    Switch("theta", "increments of theta", "improved_theta_values", "ritter_theta_increments"),
+    Switch(
+        "jacobian",
+        "increments of the Jacobians",
+        "improved_jacobian_values",
+        "ritter_jacobian_increments",
+    ),
+    Switch("schedule", "schedule of equal visits", "improved_exponential", "ritter_equal_visits"),
+)
+
+
+def learners(study: Study) -> dict[str, Learner]:
+    """Every learner of a study by name: those of its configuration, and those that differ from them by one switch."""
+    named = dict(study.learners)
+    if IMPROVED in named and RITTER in named:
+        improved, ritter = named[IMPROVED], named[RITTER]
+        for switch in SWITCHES:
+            value, other = getattr(improved, switch.key), getattr(ritter, switch.key)
+            named.setdefault(switch.without, improved.model_copy(update={switch.key: other}))
+            short = {switch.key: value, "iterations": improved.iterations}
+            named.setdefault(switch.added, ritter.model_copy(update=short))
+    return named
+
+
+def training(study: Study, learner: str) -> Training:
+    """What `NAME` or `NAME_ITERATIONS` means. Raises UnknownName."""
+    known = learners(study)
+    if learner in known:
+        return Training(learner, known[learner].iterations)
+    match = re.fullmatch(r"(\w+)_([1-9]\d{0,6})", learner)
+    if match is None or match[1] not in known:
+        raise UnknownName(
+            "learner", learner, [*known, *(f"{name}_ITERATIONS" for name in study.learners)]
+        )
+    return Training(match[1], int(match[2]))
+
+
+def rules(study: Study, learner: str) -> Learner:
+    """A learner's settings, with the iterations that its name asks for. Raises UnknownName."""
+    which = training(study, learner)
+    return learners(study)[which.name].model_copy(update={"iterations": which.iterations})
+
+
+def ritter_short(study: Study) -> str:
+    """Ritter's learner trained for as long as the improved one."""
+    return str(Training(RITTER, study.learners[IMPROVED].iterations))
+
+
+def switched(study: Study) -> list[str]:
+    """The learners that differ from the improved one, or from Ritter's, by one switch."""
+    if not study.experiments.switches:
+        return []
+    return [*(each.without for each in SWITCHES), *(each.added for each in SWITCHES)]
+
+
+def scenario_of(study: Study, scenario: str) -> tuple[str, str]:
+    """The scenario's name and its robot's: `NAME` is on the study's robot, `NAME-ROBOT` on another. Raises UnknownName."""
+    name, _, robot = scenario.partition("-")
+    if name not in study.scenarios:
+        raise UnknownName("scenario", name, study.scenarios)
+    robot = robot or study.robot
+    if robot not in study.robots:
+        raise UnknownName("robot", robot, study.robots)
+    return name, robot
+
+
+def elsewhere(study: Study) -> dict[str, str]:
+    """The study's own scenario on its robot and on the others: robot to scenario."""
+    others = {robot: f"{study.scenario}-{robot}" for robot in study.experiments.robots}
+    return {study.robot: study.scenario} | others
+
+
+class Trainings:
+    """All trainings of a study, each a scenario and a learner, under one name where two names mean the same.
+
+    Args:
+        study: the study.
+
+    Attributes:
+        runs: (scenario, learner) of each training.
+    """
+
+    def __init__(self, study: Study):
+        plan, own = study.experiments, study.scenario
+        wanted = [
+            *product(plan.scenarios, plan.learners),
+            *product(list(elsewhere(study).values())[1:], plan.learners),
+            *product([own], [*plan.beside, *switched(study)]),
+            *((own, f"{name}_{rung}") for name, rungs in plan.ladder.items() for rung in rungs),
+        ]
+        self._study = study
+        self._short: dict[Training, str] = {}
+        for _, learner in wanted:
+            self._short.setdefault(training(study, learner), learner)
+        self.runs = list(
+            dict.fromkeys((scenario, self.name(learner)) for scenario, learner in wanted)
+        )
+
+    def name(self, learner: str) -> str:
+        """The name under which a training is done."""
+        return self._short.get(training(self._study, learner), learner)
+
+    def ladder(self, learner: str) -> dict[int, str]:
+        """The trainings of a learner for several numbers of iterations, in ascending order."""
+        rungs = sorted(self._study.experiments.ladder.get(learner, ()))
+        return {rung: self.name(f"{learner}_{rung}") for rung in rungs}
+
+    def scenarios(self) -> list[str]:
+        """All scenarios of the study."""
+        return list(dict.fromkeys(scenario for scenario, _ in self.runs))
+
+    def tuned(self) -> list[str]:
+        """All trainings that settings are needed for, the longest first, so that no core waits for one at the end."""
+        needed: Iterable[Training] = self._short
+        return [str(each) for each in sorted(needed, key=lambda each: -each.iterations)]
