@@ -1,6 +1,7 @@
 """The exceptions of this library: each carries what it knows and says what would be valid."""
 
 from collections.abc import Iterable
+from os import PathLike, fspath
 
 
 class RecalibError(Exception):
@@ -21,7 +22,8 @@ class InvalidQuantity(RecalibError):
     def __init__(self, text: object, units: Iterable[str]):
         self.text, self.units = text, sorted(units)
         super().__init__(
-            f"{text!r} is no quantity: a number and one of {', '.join(self.units)}, as in '4 {self.units[0]}'"
+            f"{text!r} is no quantity: a number and one of {', '.join(self.units)},"
+            f" as in '4 {self.units[0]}'"
         )
 
 
@@ -40,8 +42,10 @@ class UnsuitableRobot(RecalibError):
 class Unreachable(RecalibError):
     """A pose command that the nominal controller cannot execute.
 
-    Attributes: position [m] (3,) and rotation matrix (3, 3) of the command in the base frame, residual of the best
-    joint angles found (metres and radians mixed, infinity norm), and reason.
+    Attributes:
+        position, rotation: (3,) m and (3, 3) of the command in the base frame.
+        residual: of the best joint angles found, the largest of its numbers in m and rad.
+        reason: why.
     """
 
     def __init__(self, pose, residual: float, reason: str):
@@ -50,8 +54,28 @@ class Unreachable(RecalibError):
         place = ", ".join(f"{x:.3f}" for x in self.position)
         axes = "; ".join(", ".join(f"{x:.3f}" for x in row) for row in self.rotation)
         super().__init__(
-            f"pose at ({place}) m, rotation [{axes}], cannot be commanded: {reason} (residual {residual:.2g})"
+            f"pose at ({place}) m, rotation [{axes}], cannot be commanded: {reason}"
+            f" (residual {residual:.2g})"
         )
+
+
+class InvalidFile(RecalibError):
+    """A file that is damaged or holds something else than expected."""
+
+    def __init__(self, path: str | PathLike, reason: str):
+        self.path, self.reason = fspath(path), reason
+        super().__init__(f"cannot use {self.path}: {reason}")
+
+
+class OtherRobot(RecalibError):
+    """A file of what was learned on another robot.
+
+    Attributes: path, and differences, a sentence for each.
+    """
+
+    def __init__(self, path: str | PathLike, differences: Iterable[str]):
+        self.path, self.differences = fspath(path), [*differences]
+        super().__init__(f"{self.path} is of another robot: {'; '.join(self.differences)}")
 
 
 class UnfitWorkspace(RecalibError):

@@ -4,8 +4,8 @@ Commands and achieved poses are coordinates of the workspace (`recalib.nominal.p
 axis is always the run: an experiment trains many runs side by side.
 """
 
-from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -44,6 +44,33 @@ class Learner(Protocol):
         Args:
             fraction: of the training that is done, in [0, 1).
         """
+        ...
+
+
+# What one run has learned: arrays by name, in groups where that is clearer. What is None or absent
+# has not been learned yet.
+State = Mapping[str, Any]
+
+
+class Savable(Learner, Protocol):
+    """A learner that `recalib.learned` can save.
+
+    Attributes:
+        kind: by which the file tells what to build.
+    """
+
+    kind: str
+
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, in the types of JSON."""
+        ...
+
+    def state(self) -> list[State]:
+        """What each run has learned: enough to go on from there."""
+        ...
+
+    def restore(self, states: Sequence[State]) -> None:
+        """Take over what `state` returned, in a learner made with the same settings."""
         ...
 
 

@@ -1,6 +1,5 @@
 """What every peer of the paper's learners has to do, and how well each does it."""
 
-import io
 from functools import partial
 
 import numpy as np
@@ -83,21 +82,6 @@ def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller,
     assert np.abs(commands[1] - TESTS[1]).max() > 1e-2
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_what_was_learned_can_be_saved_loaded_and_carried_on(name, makers, controller, damaged):
-    plant = Plant(controller, [damaged])
-    learner = train(makers[name](RUNS), plant, 9)
-    file = io.BytesIO()
-    np.savez(file, **learner.state())
-    file.seek(0)
-    loaded = makers[name](RUNS)
-    loaded.restore(dict(np.load(file)))
-    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
-    for each in (learner, loaded):
-        train(each, plant, 10, first=9)
-    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
-
-
 @pytest.mark.parametrize(
     ("name", "moves", "position", "orientation"),
     [
@@ -127,19 +111,6 @@ def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
     )
     assert geometric[1] > 0.1
     assert max(hybrid) < 0.01
-
-
-def test_chosen_poses_teach_more_than_the_worst_candidate(makers, controller, damaged):
-    plant = Plant(controller, [damaged])
-    learner = train(makers["geometric"](RUNS), plant, 3)
-    chosen = learner.choose(TESTS)
-    assert chosen.shape == (RUNS, 6)
-    assert all(
-        np.any(np.all(pose == candidates, axis=1))
-        for pose, candidates in zip(chosen, TESTS, strict=True)
-    )
-    again = np.concatenate([DESIRED[:, 2:3], chosen[:, None]], axis=1)
-    assert np.array_equal(learner.choose(again), chosen)
 
 
 def test_a_polynomial_of_another_degree_is_refused():

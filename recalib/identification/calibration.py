@@ -1,20 +1,15 @@
 """A calibrated arm: what it does, and the joint angles that it needs to do what is desired."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.error_model import (
-    JOINT_ERRORS,
-    JOINT_WAVES,
-    OFFSETS,
-    ErrorModel,
-    JointTerms,
-)
+from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
+from recalib.interfaces import State
 from recalib.nominal.controller import solve_each, twists
 from recalib.nominal.kinematics import Arm
 from recalib.processes import Process, is_time_to_search
@@ -23,18 +18,20 @@ STEPS = 10
 TOLERANCE = 1e-9  # m, rad
 LONGEST_STEP = 0.5  # rad
 FEWEST = 16  # measurements to see a pattern in what a model leaves
-CONVINCING = 2.5  # the gain in log evidence over the root of the number of further parameters, below which it may be chance
-DOUBTFUL = 0.3  # weight of a measurement below which it is none to learn a pattern from
+# A gain in log evidence, over the root of the number of further parameters, that is no chance.
+CONVINCING = 2.5
+DOUBTFUL = 0.3  # the weight of a measurement below which no pattern is learned from it
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """An error model with its parameters identified, and what it leaves as a Gaussian process of the joint angles.
+    """An error model with its parameters identified, and a Gaussian process of what it leaves.
 
     Attributes:
         model: the error model.
         estimate: what is known of its parameters.
-        residual: from joint angles [rad] to displacements over the estimate's noise; None where nothing is left but noise.
+        residual: from joint angles [rad] to displacements over the estimate's noise; None where
+            nothing is left but noise.
     """
 
     model: ErrorModel
@@ -42,13 +39,17 @@ class Calibration:
     residual: Process | None = None
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
+        """Poses (n, 4, 4) of the tool in the base frame [m].
+
+        Args:
+            angles: (n, 6) rad in which the controller believes.
+        """
         return self._moved(self.model.predict(self.estimate.parameters, angles), angles)
 
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `forward`, and the Jacobians (n, 6, 6) of the arm alone, with the joints as they stand.
+        """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, 6) of the arm with its joints there.
 
-        They leave out that joint errors and the residual change with the angles: that is slow.
+        They leave out that joint errors and the residual change with the angles, too: slowly.
         """
         parameters = self.estimate.parameters
         standing = self.model.standing(parameters, angles, self.model.terms(angles))
@@ -69,35 +70,34 @@ class Calibration:
             moved[:, :3, :3] = Rotation.from_rotvec(by[:, 3:]).as_matrix() @ poses[:, :3, :3]
         return moved
 
-    def state(self) -> dict[str, np.ndarray]:
+    def state(self) -> State:
         """All of it, as named arrays."""
-        arrays = {
-            f"estimate/{name}": np.asarray(value) for name, value in vars(self.estimate).items()
+        return {
+            "terms": np.array(self.model.names),
+            "estimate": vars(self.estimate),
+            "residual": self.residual and self.residual.state(),
         }
-        if self.residual is not None:
-            arrays |= {f"residual/{name}": value for name, value in self.residual.state().items()}
-        return arrays
 
     @classmethod
-    def restore(cls, arm: Arm, arrays: Mapping[str, np.ndarray]) -> "Calibration":
+    def restore(cls, arm: Arm, state: State) -> "Calibration":
         """What `state` returned, for the same nominal arm."""
-        groups = {"estimate": {}, "residual": {}}
-        for key, value in arrays.items():
-            group, name = key.split("/")
-            groups[group][name] = value
-        estimate = Estimate(**groups["estimate"])
-        models = (ErrorModel(arm, terms) for terms in (OFFSETS, JOINT_ERRORS, JOINT_WAVES))
-        model = next(each for each in models if len(each.deviations) == len(estimate.parameters))
-        return cls(model, estimate, Process(**groups["residual"]) if groups["residual"] else None)
+        terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
+        estimate, residual = Estimate(**state["estimate"]), state.get("residual")
+        return cls(ErrorModel(arm, terms), estimate, residual and Process(**residual))
 
 
 def angles_for(
     calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
 ) -> np.ndarray:
-    """Joint angles (run, n, 6) [rad] for the controller to believe in so that each arm's tool gets to its poses.
+    """Joint angles (run, n, 6) [rad] that the controller has to believe in to reach poses.
 
-    Newton's method from `start` (run, n, 6) [rad] to the poses (run, n, 4, 4) [m], with the Jacobian of each run's arm
-    alone. Where nothing reaches the pose, the best angles that were met.
+    By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
+    the best angles that were met.
+
+    Args:
+        calibrations: one for each run.
+        poses: (run, n, 4, 4) of the tool in the base frame [m].
+        start: (run, n, 6) rad nearby.
     """
     angles, best, least = start.copy(), start.copy(), np.full(start.shape[:2], np.inf)
     for _ in range(STEPS):
@@ -126,17 +126,18 @@ def calibrate(
     measured: np.ndarray,
     last: Calibration | None = None,
 ) -> Calibration:
-    """The calibration of the nominal arm by the most probable of several error models, with a residual if that is worth it.
+    """The calibration of a nominal arm by the most probable of several error models.
 
-    A model with more terms has to be far more probable, so that where geometry is all that there is, geometry is all that is
-    used. What the model leaves goes to a Gaussian process if that is more probable than noise.
+    A model with more terms has to be far more probable: where geometry is all that is wrong, only
+    geometry is used. What the model leaves goes to a Gaussian process if that is more probable than
+    noise.
 
     Args:
         candidates: joint terms of the error models, the simplest first.
         angles: (n, 6) rad in which the controller believed.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
-        last: a calibration from fewer measurements, to start from. The process's hyperparameters are kept until the number
-            of measurements has doubled.
+        last: a calibration from fewer measurements, to start from. The hyperparameters of its
+            process are kept until the number of measurements has doubled.
     """
     best = None
     for terms in candidates:
@@ -150,7 +151,10 @@ def calibrate(
 
 
 def _chance(poorer: Estimate, richer: Estimate) -> float:
-    """Gain in log evidence that idle parameters may make, as the deviations of their prior are fitted to the data."""
+    """The gain in log evidence that further parameters may make by chance.
+
+    Idle ones gain, too, since the deviations of their prior are fitted to the data.
+    """
     return CONVINCING * np.sqrt(len(richer.parameters) - len(poorer.parameters))
 
 

@@ -6,10 +6,14 @@ from recalib.identification.calibration import Calibration
 
 
 def information_gains(calibration: Calibration, angles: np.ndarray) -> np.ndarray:
-    """What a measurement of the pose at each of the joint angles (n, 6) [rad] would tell of the parameters, (n,) nats.
+    """What a measurement at each of several joint angles would tell of the arm, (n,) in nats.
 
-    By so much the volume of the parameters' uncertainty would shrink, on a logarithmic scale: the determinant that D-optimal
-    designs maximise.
+    It is the logarithm of the factor by which the volume of the parameters' uncertainty would
+    shrink: what D-optimal designs maximise.
+
+    Args:
+        calibration: what is known.
+        angles: (n, 6) rad, each for one pose.
     """
     model, estimate = calibration.model, calibration.estimate
     kinds = len(estimate.noise)

@@ -2,13 +2,15 @@
 
 The parameters are small and zero for the nominal arm. In their order:
 
-- twists (7, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of link k: the placement of joint k + 1
-  becomes exp(xi_k) M. Link 0 is the base, whose twist moves the whole arm; link 6 carries the tool.
-- joint terms (term, 6): coefficients of functions of the joint angles that add up to the joints' errors [rad]. The first
-  term is constant, so its coefficients are the joint offsets [rad]; the others are chosen by the model.
+- twists (7, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of link k: the
+  placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves the whole arm;
+  the last link carries the tool.
+- joint terms (term, 6): coefficients of functions of the joint angles that add up to the joints'
+  errors [rad]. The first term is constant, so its coefficients are the joint offsets [rad].
 
-A joint offset is also a turn of its link's twist about the joint's axis, and neighbouring twists share directions where
-joint axes are parallel or meet: such directions are left to the prior, which holds them at nominal.
+A joint offset is also a turn of its link's twist about the joint's axis, and neighbouring twists
+share directions where joint axes are parallel or meet. No measurement tells such parameters apart:
+the prior keeps them small.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,12 +23,13 @@ import pinocchio as pin
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.robots import JOINTS
 
-# Standard deviations of the parameters before anything is known: what wear and mounting plausibly do to an arm.
+# Standard deviations of the parameters before anything is known: what wear and mounting plausibly
+# do to an arm.
 BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
 
-# By name, a function of the nominal arm and of joint angles (n, 6) [rad], its value for each joint (n, 6), and the standard
-# deviation of its coefficients before anything is known.
+# By name, a function of the nominal arm and of joint angles (n, 6) [rad] with a value for each
+# joint (n, 6), and the standard deviation of its coefficients before anything is known.
 JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float]]
 
 
@@ -37,7 +40,7 @@ def _waves(order: int, amplitude: float) -> JointTerms:
     }
 
 
-# Geometry alone; with eccentric gears and compliance [rad/Nm]; with whatever else a gear adds to its turn.
+# Geometry alone; with compliance [rad/Nm] and eccentric gears; with all that a gear adds to a turn.
 OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
 JOINT_ERRORS = OFFSETS | {"compliance": (Arm.gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
 JOINT_WAVES = reduce(
@@ -52,14 +55,16 @@ class ErrorModel:
 
     Args:
         arm: the nominal kinematics.
-        terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts with the one before it.
+        terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts
+            with the one before it.
 
     Attributes:
+        names: of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
     """
 
     def __init__(self, arm: Arm, terms: JointTerms):
-        self._nominal, self._terms = arm, terms
+        self._nominal, self._terms, self.names = arm, terms, tuple(terms)
         twists = np.repeat([BASE] + [LINK] * JOINTS, 3, axis=1)
         scales = np.repeat([scale for _, scale in terms.values()], JOINTS)
         self.deviations = np.concatenate([twists.ravel(), scales])
@@ -87,28 +92,40 @@ class ErrorModel:
         return Arm(model, self._nominal.tool)
 
     def terms(self, angles: np.ndarray) -> np.ndarray:
-        """The joint terms (n, term, 6) where the controller believes in joint angles (n, 6) [rad]."""
+        """The joint terms (n, term, 6) at angles (n, 6) [rad] in which the controller believes."""
         return np.stack([term(self._nominal, angles) for term, _ in self._terms.values()], axis=1)
 
     def standing(self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray) -> np.ndarray:
-        """Where the joints stand (n, 6) [rad] when the controller believes in `angles` (n, 6) [rad]; `terms` are theirs."""
+        """Where the joints stand (n, 6) [rad].
+
+        Args:
+            parameters: (P,) of the model.
+            angles: (n, 6) rad in which the controller believes.
+            terms: (n, term, 6) theirs.
+        """
         return angles + np.einsum("ntj,tj->nj", terms, parameters[TWISTS:].reshape(-1, JOINTS))
 
     def predict(self, parameters: np.ndarray, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
+        """Poses (n, 4, 4) of the tool in the base frame [m].
+
+        Args:
+            parameters: (P,) of the model.
+            angles: (n, 6) rad in which the controller believes.
+        """
         return self.arm(parameters).forward(self.standing(parameters, angles, self.terms(angles)))
 
     def linearise(
         self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) with respect to the parameters.
+        """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
 
-        A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad] along the base's axes.
-        `terms` are those of the angles: they depend on no parameter, so that one evaluation serves all linearisations.
+        A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad]
+        along the base's axes. The terms are those of the angles; they depend on no parameter, so
+        that one evaluation serves all linearisations.
         """
         standing = self.standing(parameters, angles, terms)
         poses, joints, placements = self.arm(parameters).forward_and_all_jacobians(standing)
-        # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): a change of a twist as a motion of what it places
+        # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): it moves what the twist places
         motions = [
             nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
             for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)

@@ -1,16 +1,20 @@
-"""Identification of an arm from where it went: maximum a posteriori parameters of an error model, robust to bad data.
+"""Identification of an arm from where it went: the most probable parameters of an error model.
 
-A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad] along the base's axes, or the
-translation alone where no orientation was measured. With r_i the residual of measurement i over its noise, and p_j a
-parameter over its prior deviation, Gauss-Newton minimises
+A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad]
+along the base's axes, or the translation alone where no orientation was measured. With r_i the
+residual of measurement i over its noise, and p_j a parameter over its prior deviation, Gauss-Newton
+minimises
 
-    sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j),    rho(s) = s / 2 up to a limit, then grows like log(s) (Cauchy's tail)
+    sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j)
 
-so that a measurement which is grossly wrong counts for nothing. Along with the parameters follow
+where rho(s) = s / 2 up to a limit and then grows like log(s) (Cauchy's tail), so that a measurement
+which is grossly wrong counts for nothing. Estimated along with the parameters are
 
-- the noise, from squared residuals over the degrees of freedom that the parameters leave (MacKay's evidence);
-- the variances v_j, from what the data say of each parameter and of their common scale (relevance determination): damage
-  is sparse, most of what may be wrong with an arm is right, and a parameter that explains nothing is held at nominal.
+- the noise, from squared residuals over the degrees of freedom that the parameters leave (MacKay's
+  evidence);
+- the variances v_j, from what the data say of each parameter and of their common scale (relevance
+  determination): damage is sparse, most of what may be wrong with an arm is right, and a parameter
+  that explains nothing is held at nominal.
 """
 
 from dataclasses import dataclass
@@ -22,21 +26,23 @@ from scipy.stats import chi2
 
 from recalib.identification.error_model import ErrorModel
 
-DOUBTED = 0.99  # the limit of rho: a measurement farther out than this fraction of good ones is weighted down
-SPARSITY = 0.05  # degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide
-COMMON = 20.0  # further parameters, as large as the error model expects, that hold the common scale of all
-SHARED = (
-    10.0  # degrees of freedom with which position and orientation draw each other's noise together
-)
+DOUBTED = 0.99  # the limit of rho: what lies farther out than this part of good measurements
+# Degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide.
+SPARSITY = 0.05
+# The common scale of all parameters is held by this many more, as large as the model expects.
+COMMON = 20.0
+# The noise of position and of orientation are believed to be alike, as by so many measurements.
+SHARED = 10.0
 MEDIAN = chi2.ppf(0.5, 3)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = (
-    1e-6  # m, rad: finer than any instrument; keeps exact data from making the equations singular
+    1e-6  # m, rad: finer than any instrument; without it, exact data make singular equations
 )
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
 STEPS = 60
-# A new linearisation is due where one parameter alone moves the tool so far that its square exceeds this part of the noise:
-# second-order terms are squares [rad^2] times levers of about a metre, and then reach some hundredths of the noise in all.
+# A new linearisation is due where one parameter alone moves the tool so far that its square exceeds
+# this part of the noise: second-order terms are squares [rad^2] times levers of about a metre, and
+# then reach some hundredths of the noise in all.
 NEGLIGIBLE = 0.01
 CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and of noise, relative
 
@@ -48,8 +54,10 @@ class Estimate:
     Attributes:
         parameters: (P,) of the error model.
         covariance: (P, P) of their errors.
-        noise: (1,) or (2,) standard deviations of a measurement along an axis: position [m], orientation [rad].
-        weights: (n,) how much each measurement counted: 1, or less for one that is doubted, down to 0.
+        noise: (1,) or (2,) standard deviations of a measurement along an axis: position [m],
+            orientation [rad].
+        weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
+        log_evidence: of the error model, up to a constant that depends on the data alone.
     """
 
     parameters: np.ndarray
@@ -60,7 +68,12 @@ class Estimate:
 
 
 def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes poses (n, 4, 4) to `end`: (n, 6) to poses, (n, 3) to positions (n, 3); m and rad along the base's axes."""
+    """What takes poses to others: translation [m] and turn [rad] along the base's axes.
+
+    Args:
+        start: (n, 4, 4) poses.
+        end: (n, 4, 4) poses, for (n, 6), or (n, 3) positions, for the translations (n, 3) alone.
+    """
     if end.ndim == 2:
         return end - start[:, :3, 3]
     between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
@@ -76,8 +89,8 @@ def identify(
     Args:
         angles: (n, 6) rad in which the controller believed.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
-        start: an estimate to start from, for speed; the nominal arm unless given. It may be that of a model with the same
-            first terms and fewer or more of them.
+        start: an estimate to start from, for speed; the nominal arm unless given. It may be that
+            of a model with the same first terms and fewer or more of them.
     """
     scale, kinds = model.deviations, 1 if measured.ndim == 2 else 2
     parameters, variances = np.zeros_like(scale), np.ones_like(scale)
@@ -145,7 +158,10 @@ def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> f
 
 
 def _log_prior(parameters: np.ndarray, variances: np.ndarray, common: float) -> float:
-    """Of the parameters given their variances, and of the variances given their common scale and of that (inverse gamma)."""
+    """Of the parameters given their variances, of these given their common scale, and of that.
+
+    The variances and their scale have inverse gamma distributions.
+    """
     ratio = common / variances
     belief = np.sum(np.log(ratio) - ratio + 1) + COMMON * (np.log(common) - common + 1)
     return SPARSITY / 2 * belief - np.sum(parameters**2 / variances + np.log(variances)) / 2
@@ -154,7 +170,13 @@ def _log_prior(parameters: np.ndarray, variances: np.ndarray, common: float) -> 
 def _normal_equations(
     jacobians: np.ndarray, residuals: np.ndarray, weights: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """J' W J (kind, P, P) and J' W r (kind, P) of Jacobians (n, kind, 3, P) and residuals (n, kind, 3)."""
+    """J' W J (kind, P, P) and J' W r (kind, P).
+
+    Args:
+        jacobians: (n, kind, 3, P) of the measured coordinates by the parameters.
+        residuals: (n, kind, 3) of the measurements.
+        weights: (n,) theirs.
+    """
     roots = np.sqrt(weights)[:, None, None]
     jacobians = (
         (jacobians * roots[..., None])
@@ -169,9 +191,13 @@ def _normal_equations(
 def _noise(
     residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust: bool
 ) -> np.ndarray:
-    """Standard deviations (kind,) along an axis from residuals (n, kind, 3), `taken` (kind,) degrees of freedom used.
+    """Standard deviations (kind,) of the noise along an axis.
 
-    The squares of the weights leave nothing of a gross outlier.
+    Args:
+        residuals: (n, kind, 3) m and rad.
+        weights: (n,) of the measurements; their squares leave nothing of a gross outlier.
+        taken: (kind,) degrees of freedom that the parameters use.
+        robust: to go by medians, which outliers do not move.
     """
     squares = np.square(residuals).sum(axis=-1)
     if robust:

@@ -1,17 +1,20 @@
 """What the learners that look back keep: every move that was carried out, and when to look back."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
+
+from recalib.interfaces import State
 
 PLACES = 3  # binary digits of the numbers of moves after which to learn anew
 
 
 def is_due(before: int, moves: int) -> bool:
-    """Whether to learn anew from everything, now that there are so many moves and not just those before.
+    """Whether to learn anew from everything, now that there are so many moves and not `before`.
 
-    That is after every move up to 8, every second up to 16, every fourth up to 32, and so on: what is learned from lacks at
-    most a fifth of what is known, and hundreds of moves take little more time than dozens.
+    That is after every move up to 8, every second up to 16, every fourth up to 32, and so on:
+    what is learned from lacks at most a fifth of what is known, and hundreds of moves take little
+    more time than dozens.
     """
     stride = 2 ** max(moves.bit_length() - PLACES, 0)
     return moves // stride > before // stride
@@ -19,6 +22,9 @@ def is_due(before: int, moves: int) -> bool:
 
 class Experience:
     """The moves of each run: what was sent, and what was achieved.
+
+    Args:
+        runs: how many.
 
     Attributes:
         moves: how many there were, refused ones included.
@@ -33,7 +39,13 @@ class Experience:
         return self._executed.shape[1]
 
     def add(self, sent: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Keep moves: sent (run, move, 6) in the form that the learner uses, achieved likewise, executed (run, move)."""
+        """Keep moves.
+
+        Args:
+            sent: (run, move, 6) in the form that the learner uses.
+            achieved: (run, move, 6) likewise.
+            executed: (run, move) whether they were carried out.
+        """
         self._sent = np.concatenate([self._sent, sent], axis=1)
         self._achieved = np.concatenate([self._achieved, achieved], axis=1)
         self._executed = np.concatenate([self._executed, executed], axis=1)
@@ -43,12 +55,13 @@ class Experience:
         executed = self._executed[run]
         return self._sent[run, executed], self._achieved[run, executed]
 
-    def state(self) -> dict[str, np.ndarray]:
-        """All of it, as named arrays."""
-        return {"sent": self._sent, "achieved": self._achieved, "executed": self._executed}
+    def state(self) -> list[State]:
+        """The moves of each run."""
+        parts = zip(self._sent, self._achieved, self._executed, strict=True)
+        return [dict(zip(("sent", "achieved", "executed"), each, strict=True)) for each in parts]
 
-    def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
+    def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
         self._sent, self._achieved, self._executed = (
-            arrays[name] for name in ("sent", "achieved", "executed")
+            np.stack([state[name] for state in states]) for name in ("sent", "achieved", "executed")
         )

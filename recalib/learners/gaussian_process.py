@@ -1,22 +1,26 @@
 """A black box: Gaussian processes for the correction of the command, knowing nothing of arms."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
 
-from recalib.interfaces import Execute
+from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
+from recalib.learners.observer import Observer
 from recalib.processes import Process, is_time_to_search
 
 
-class GaussianProcessLearner:
-    """The correction, command minus achieved pose, as a Gaussian process over the achieved coordinates.
+class GaussianProcessLearner(Observer):
+    """The correction, command minus achieved pose, as a Gaussian process of the achieved pose.
 
-    Hyperparameters are sought anew whenever the number of moves has doubled, up to `processes.MOST` of them.
+    Hyperparameters are sought anew whenever the number of moves has doubled, up to
+    `processes.MOST` of them.
 
     Args:
         runs: how many independent trainings.
     """
+
+    kind = "gaussian_process"
 
     def __init__(self, runs: int):
         self._experience = Experience(runs)
@@ -31,14 +35,8 @@ class GaussianProcessLearner:
             ]
         )
 
-    def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
-        """One move to the desired poses (run, 6); nothing is learned where it is refused."""
-        commands = self.command(desired[:, None])
-        outcome = execute(commands)
-        self.observe(commands, outcome.achieved, outcome.executed)
-
     def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves: commands (run, move, 6), achieved (run, move, 6), executed (run, move)."""
+        """Learn from moves; see `Observer.observe`."""
         before = self._experience.moves
         self._experience.add(commands, achieved, executed)
         if is_due(before, self._experience.moves):
@@ -53,21 +51,20 @@ class GaussianProcessLearner:
         known = None if last is None or search else last.hyperparameters
         return Process(achieved, commands - achieved, known)
 
-    def state(self) -> dict[str, np.ndarray]:
-        """The moves, and for each run the process."""
-        arrays = self._experience.state()
-        for run, process in enumerate(self._processes):
-            if process is not None:
-                arrays |= {f"{run}/{name}": value for name, value in process.state().items()}
-        return arrays
+    def settings(self) -> dict:
+        """It has none."""
+        return {}
 
-    def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
+    def state(self) -> list[State]:
+        """For each run its moves and, once there is one, its process."""
+        return [
+            {"moves": moves, "process": process and process.state()}
+            for moves, process in zip(self._experience.state(), self._processes, strict=True)
+        ]
+
+    def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        self._experience.restore(arrays)
-        for run in range(len(self._processes)):
-            own = {
-                name.split("/")[1]: value
-                for name, value in arrays.items()
-                if name.startswith(f"{run}/")
-            }
-            self._processes[run] = Process(**own) if own else None
+        self._experience.restore([state["moves"] for state in states])
+        self._processes = [
+            Process(**state["process"]) if state.get("process") else None for state in states
+        ]

@@ -8,7 +8,12 @@ from recalib.learners.geometric import GeometricLearner
 
 
 class HybridLearner(GeometricLearner):
-    """A geometric learner that also learns what no geometry explains, such as eccentric gears and sag; see `calibrate`."""
+    """A geometric learner that also learns what no geometry explains; see `calibrate`.
+
+    Such as eccentric gears and sag.
+    """
+
+    kind = "hybrid"
 
     def _calibrate(
         self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None

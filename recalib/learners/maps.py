@@ -1,8 +1,9 @@
-"""The hierarchical map: a supernet of positions whose cells each hold a subnet of orientations (sections 2 and 3).
+"""The hierarchical map: a supernet of positions whose cells each hold a subnet of orientations.
 
-Everything is vectorised over `run`, a training of its own with its own maps. Axes are named in this order: run, pose,
-output, coordinate, cell of the supernet (k), cell of the subnet (l). The last two come last because updates touch every
-cell, and NumPy is fast along the last axis.
+Sections 2 and 3 of the paper. Everything is vectorised over `run`, a training of its own with its
+own maps. Axes are named in this order: run, pose, output, coordinate, cell of the supernet (k),
+cell of the subnet (l). The last two come last because updates touch every cell, and NumPy is fast
+along the last axis.
 """
 
 from collections.abc import Sequence
@@ -15,7 +16,10 @@ from recalib.nominal.poses import ORIENTATION, POSITION
 
 
 def regular_grid(shape: Sequence[int]) -> np.ndarray:
-    """Centres (cells, len(shape)) of the equal boxes into which [-1, 1]^len(shape) is cut: the least quantisation error."""
+    """Centres (cells, d) of the equal boxes into which [-1, 1]^d is cut by shape (d,).
+
+    No other centres have a smaller quantisation error.
+    """
     return np.array(list(product(*((2 * np.arange(n) + 1) / n - 1 for n in shape))))
 
 
@@ -26,7 +30,10 @@ def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
 
 
 class HierarchicalMap:
-    """Maps, one for each run, from desired poses to (part of) the pose commands, all in workspace coordinates.
+    """Maps, one for each run, from desired poses to (part of) the pose commands.
+
+    All in workspace coordinates. They start as the identity, which is right for the intact robot
+    (section 3).
 
     Args:
         runs: how many independent maps.
@@ -37,7 +44,6 @@ class HierarchicalMap:
         w_k (K, 3), w_kl (L, 3): centres of the supernet's cells, and of the cells of each subnet.
         theta: (run, output, K, L) command at each cell's centre.
         jacobian: (run, output, 6, K, L) how the command changes with the desired pose about it.
-    Both start as the identity, which is right for the intact robot (section 3).
     """
 
     def __init__(
@@ -63,7 +69,10 @@ class HierarchicalMap:
         )
 
     def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The winning cells (k, l), each (run, pose), for poses u (run, pose, 6): by the supernet, then by its subnet."""
+        """The winning cells (k, l), each (run, pose), for poses u (run, pose, 6).
+
+        First that of the supernet, then that of its subnet.
+        """
         return nearest(u[..., POSITION], self.w_k), nearest(u[..., ORIENTATION], self.w_kl)
 
     def output(self, u: np.ndarray) -> np.ndarray:
@@ -82,7 +91,10 @@ class HierarchicalMap:
     def neighbourhood(
         self, k: np.ndarray, l: np.ndarray, width_k: np.ndarray, width_kl: np.ndarray
     ) -> np.ndarray:
-        """g_k g_kl (run, K, L): Gaussians of these widths (run,) about the winning cells (k, l), each (run,)."""
+        """g_k g_kl (run, K, L) about the winning cells (k, l), each (run,).
+
+        Gaussians of these widths, each (run,).
+        """
         g_k = np.exp(self._near_k[k] / np.square(width_k)[:, None])
         g_kl = np.exp(self._near_kl[l] / np.square(width_kl)[:, None])
         return g_k[:, :, None] * g_kl[:, None, :]

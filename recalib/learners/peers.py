@@ -1,4 +1,7 @@
-"""The learners of today that the paper's maps are compared with, by name. Each makes one move an iteration."""
+"""The learners of today that the paper's maps are compared with, by name.
+
+Each makes one move an iteration.
+"""
 
 from recalib.errors import UnknownName
 from recalib.interfaces import Learner
@@ -16,7 +19,7 @@ NEEDS = {
 
 def build(name: str, runs: int, controller: Controller) -> Learner:
     """The peer of this name, which has learned nothing yet. Raises UnknownName."""
-    # Imported where they are used: scikit-learn takes a second, which jobs without a peer need not pay.
+    # Imported where they are used: jobs without a peer need not wait for scikit-learn.
     match name:
         case "uncorrected":
             from recalib.learners.uncorrected import UncorrectedLearner

@@ -1,25 +1,28 @@
 """Affine and quadratic corrections of the command, by recursive least squares.
 
-The correction, command minus achieved pose, is a polynomial of the achieved coordinates; asked for a desired pose, the
-learner commands it plus its correction. The prior is the intact robot: no correction, each coefficient with a deviation.
+The correction, command minus achieved pose, is a polynomial of the achieved coordinates; asked for
+a desired pose, the learner commands it plus its correction. The prior is the intact robot: no
+correction, each coefficient with a deviation.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.interfaces import Execute
+from recalib.interfaces import State
+from recalib.learners.observer import Observer
 from recalib.monomials import monomials
 
-# Deviations of the coefficients by their degree, and of what the polynomial leaves, all in workspace coordinates: wear of
-# some centimetres and degrees, an arm's length away, bends the map ever less from one degree to the next.
+# Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
+# workspace coordinates: wear of some centimetres and degrees, an arm's length away, bends the map
+# ever less from one degree to the next.
 DEVIATIONS = 0.3, 0.1, 0.03
 NOISE = 3e-3
 
 
-class PolynomialLearner:
+class PolynomialLearner(Observer):
     """Regularised recursive least squares on the monomials of the pose coordinates.
 
     Args:
@@ -28,6 +31,8 @@ class PolynomialLearner:
 
     Raises InvalidSetting for any other degree.
     """
+
+    kind = "polynomial"
 
     def __init__(self, runs: int, degree: int):
         if degree not in (1, 2):
@@ -44,14 +49,8 @@ class PolynomialLearner:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         return desired + monomials(desired, self._degree) @ self._coefficients
 
-    def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
-        """One move to the desired poses (run, 6); nothing is learned where it is refused."""
-        commands = self.command(desired[:, None])
-        outcome = execute(commands)
-        self.observe(commands, outcome.achieved, outcome.executed)
-
     def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves, one after the other: commands (run, move, 6), achieved (run, move, 6), executed (run, move)."""
+        """Learn from moves, one after the other; see `Observer.observe`."""
         for move in range(executed.shape[1]):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
@@ -60,10 +59,18 @@ class PolynomialLearner:
             self._coefficients += gain.swapaxes(1, 2) @ missed
             self._spread -= gain.swapaxes(1, 2) @ reach
 
-    def state(self) -> dict[str, np.ndarray]:
-        """The coefficients (run, F, 6) and their spread (run, F, F)."""
-        return {"coefficients": self._coefficients, "spread": self._spread}
+    def settings(self) -> dict[str, int]:
+        """The degree."""
+        return {"degree": self._degree}
 
-    def restore(self, arrays: Mapping[str, np.ndarray]) -> None:
+    def state(self) -> list[State]:
+        """For each run the coefficients (F, 6) and their spread (F, F)."""
+        return [
+            {"coefficients": coefficients, "spread": spread}
+            for coefficients, spread in zip(self._coefficients, self._spread, strict=True)
+        ]
+
+    def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        self._coefficients, self._spread = arrays["coefficients"].copy(), arrays["spread"].copy()
+        self._coefficients = np.stack([state["coefficients"] for state in states])
+        self._spread = np.stack([state["spread"] for state in states])

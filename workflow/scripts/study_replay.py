@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.damaged.plant import Plant
+from recalib.learned import flat
 from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
 from workflow.scripts.job import job
@@ -29,7 +30,7 @@ with job(snakemake):
         learner = tuned.build(which, 1, config["learners"], config["tuned"])
         for iteration in range(which.iterations):
             learner.learn(desired[:, iteration], execute, iteration / which.iterations)
-        learned.append(learner.state())
+        learned.append(flat(learner.state()[0]))
     rows = [
         {"array": name, "difference": np.abs(learned[1][name] - values).max()}
         for name, values in learned[0].items()

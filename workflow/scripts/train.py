@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pandas as pd
 
+from recalib.learned import flat
 from recalib.storage import whole
 from recalib.study.experiments import campaign, tuned
 from recalib.study.progress import progress_bar
@@ -40,5 +41,6 @@ with job(snakemake):
     frame["seed"] += runs.start
     with whole(snakemake.output.history) as path:
         frame.to_parquet(path, index=False)
+    states = [flat(state) for state in learner.state()]
     with whole(snakemake.output.learned) as path:
-        np.savez(path, **learner.state())
+        np.savez(path, **{name: np.stack([each[name] for each in states]) for name in states[0]})

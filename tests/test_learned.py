@@ -1,0 +1,180 @@
+"""What was learned comes back from its file as it was, for the robot that it was learned on."""
+
+import json
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from recalib.damaged.damage import apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.damaged.plant import Plant
+from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, UnknownName
+from recalib.interfaces import Outcome
+from recalib.learned import KINDS, join, load, save
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.geometric import GeometricLearner
+from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.learners.hybrid import HybridLearner
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.poses import Workspace
+
+RUNS = 2
+SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
+DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 20, 6))
+TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
+
+
+@pytest.fixture(scope="module")
+def makers(controller) -> dict:
+    rules = Rules(True, True, True, True, subnet=(3, 2, 1))
+    return {
+        "hierarchical": partial(HierarchicalLearner, rules=rules, schedule=SCHEDULE),
+        "polynomial": partial(PolynomialLearner, degree=2),
+        "gaussian_process": GaussianProcessLearner,
+        "geometric": partial(GeometricLearner, controller=controller),
+        "hybrid": partial(HybridLearner, controller=controller),
+    }
+
+
+@pytest.fixture(scope="module")
+def plant(controller, robot) -> Plant:
+    """A robot with something for a Gaussian process, too."""
+    return Plant(controller, [apply(robot, [EccentricGear("elbow_joint", 0.02)])])
+
+
+def train(learner, plant, moves, first=0, run=slice(None)):
+    for move in range(first, moves):
+        learner.learn(DESIRED[run, move], plant.execute, move / moves)
+    return learner
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("moves", [0, 19])
+def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_path):
+    learner = train(makers[kind](RUNS), plant, moves)
+    save(tmp_path / "a.npz", learner, robot)
+    loaded = load(tmp_path / "a.npz", robot)
+    assert type(loaded) is type(learner)
+    assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
+    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
+    for each in (learner, loaded):
+        train(each, plant, 20, first=moves)
+    assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
+    paths = [tmp_path / f"{run}.npz" for run in range(RUNS)]
+    for run, path in enumerate(paths):
+        save(path, train(makers[kind](1), plant, 5 + run, run=[run]), robot)
+    join(tmp_path / "both.npz", paths)
+    for run, path in enumerate(paths):
+        alone, taken = load(path, robot), load(tmp_path / "both.npz", robot, run)
+        assert np.array_equal(taken.command(TESTS[[run]]), alone.command(TESTS[[run]]))
+    with pytest.raises(InvalidSetting, match="run is 2; valid: 0 to 1"):
+        load(tmp_path / "both.npz", robot, 2)
+
+
+def test_a_run_that_learned_nothing_is_kept_as_it_is(makers, plant, robot, tmp_path):
+    for kind in ("gaussian_process", "hybrid"):
+        learner = makers[kind](RUNS)
+
+        def refuse_the_first(commands):
+            outcome = plant.execute(commands)
+            return Outcome(outcome.achieved, outcome.executed & np.array([[False], [True]]))
+
+        learner.learn(DESIRED[:, 0], refuse_the_first, 0.0)
+        save(tmp_path / "a.npz", learner, robot)
+        commands = load(tmp_path / "a.npz", robot).command(TESTS)
+        assert np.array_equal(commands, learner.command(TESTS))
+        assert np.array_equal(commands[0], TESTS[0]) and not np.array_equal(commands[1], TESTS[1])
+
+
+def test_the_file_of_another_learner_cannot_be_joined(makers, robot, tmp_path):
+    for degree in (1, 2):
+        save(tmp_path / f"{degree}.npz", PolynomialLearner(1, degree), robot)
+    with pytest.raises(InvalidFile, match=r"2\.npz: it is of another learner"):
+        join(tmp_path / "both.npz", [tmp_path / "1.npz", tmp_path / "2.npz"])
+    assert not (tmp_path / "both.npz").exists()
+
+
+def otherwise(robot, change):
+    model = robot.arm.model.copy()
+    match change:
+        case "a longer link":
+            model.jointPlacements[3].translation[0] += 1e-3
+            return replace(robot, arm=Arm(model, robot.arm.tool)), "kinematics differs"
+        case "another tool":
+            return replace(robot, arm=Arm(model, "ee_link")), "tool is tool0, not ee_link"
+        case "other joints":
+            model.names[1] = "waist"
+            return replace(robot, arm=Arm(model, robot.arm.tool)), "joints are .*, not .*waist"
+        case "another home":
+            return replace(robot, home=robot.home + 0.1), r"home differs by up to 0\.1 m or rad"
+    wider = Workspace(robot.workspace.centre, 1.1 * robot.workspace.half_ranges)
+    return replace(robot, workspace=wider), "workspace differs"
+
+
+@pytest.mark.parametrize(
+    "change",
+    ["a longer link", "another tool", "other joints", "another home", "another workspace"],
+)
+def test_another_robot_is_refused_with_what_differs(change, robot, tmp_path):
+    save(tmp_path / "a.npz", PolynomialLearner(1, 1), robot)
+    other, message = otherwise(robot, change)
+    with pytest.raises(OtherRobot, match=rf"a\.npz is of another robot: its {message}"):
+        load(tmp_path / "a.npz", other)
+
+
+def test_another_name_is_no_other_robot(robot, tmp_path):
+    save(tmp_path / "a.npz", PolynomialLearner(1, 1), robot)
+    load(tmp_path / "a.npz", replace(robot, name="Marvin"))
+
+
+@pytest.mark.parametrize("left", [0.0, 0.01, 0.5, 0.99, 0.9999])
+def test_a_truncated_file_is_refused_by_its_name(left, robot, tmp_path):
+    path = tmp_path / "a.npz"
+    save(path, PolynomialLearner(3, 2), robot)
+    path.write_bytes(path.read_bytes()[: int(left * path.stat().st_size)])
+    with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole"):
+        load(path, robot)
+
+
+def test_a_file_of_something_else_is_refused_by_its_name(robot, tmp_path):
+    path = tmp_path / "a.npz"
+    writers = [
+        lambda: path.write_text("seed,iteration\n0,1\n"),
+        lambda: np.savez(path, theta=np.zeros(3)),
+        lambda: np.savez(path, header="{}"),
+        lambda: np.savez(path, header="[]"),
+        lambda: np.savez(path, header=np.array({"a": 1}, dtype=object)),
+        lambda: path.write_bytes(b"\x93NUMPY"),
+    ]
+    for write in writers:
+        write()
+        with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole, or not written by"):
+            load(path, robot)
+
+
+def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
+    path = tmp_path / "a.npz"
+    save(path, PolynomialLearner(1, 1), robot)
+    arrays = dict(np.load(path))
+    header = json.loads(str(arrays.pop("header"))) | {"version": 2}
+    np.savez(path, header=json.dumps(header), **arrays)
+    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 2\); valid: .* 1\)"):
+        load(path, robot)
+
+
+def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
+    with pytest.raises(UnknownName, match="UncorrectedLearner.*valid: gaussian_process"):
+        save(tmp_path / "a.npz", UncorrectedLearner(), robot)
+    trials = replace(SCHEDULE, initial_rate=np.array([0.5, 0.6]))
+    learner = HierarchicalLearner(2, Rules(True, True, True, True), trials)
+    with pytest.raises(InvalidSetting, match="one that all runs share"):
+        save(tmp_path / "a.npz", learner, robot)
+    assert not [*tmp_path.iterdir()]
