@@ -2,37 +2,45 @@
 
 import math
 import re
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from recalib.errors import InvalidQuantity
 
-LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-ANGLES = {"deg": math.pi / 180, "rad": 1.0}
-COMPLIANCES = {f"{unit}/Nm": radians for unit, radians in ANGLES.items()}
-_QUANTITY = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*")
+_TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
+_DIGITS = 17  # tell every float from every other
 
 
-def _parse(text: str, units: dict[str, float]) -> float:
-    match = _QUANTITY.fullmatch(text) if isinstance(text, str) else None
-    if match is None or match[2] not in units:
-        raise InvalidQuantity(text, units)
-    return float(match[1]) * units[match[2]]
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """A kind of quantity, and how it is read and written.
+
+    Attributes:
+        name: with its article.
+        units: the size of each in SI units; that of size 1 is among them.
+    """
+
+    name: str
+    units: Mapping[str, float]
+
+    def read(self, text: str) -> float:
+        """The number of SI units that the text means. Raises InvalidQuantity."""
+        match = _TEXT.fullmatch(text) if isinstance(text, str) else None
+        if match is None or match[2] not in self.units or math.isinf(float(match[1])):
+            raise InvalidQuantity(text, self.units)
+        return float(match[1]) * self.units[match[2]]
+
+    def write(self, value: float) -> str:
+        """The shortest text that reads as just this number of SI units, which must be finite."""
+        texts = (
+            f"{float(f'{value / size:.{digits}g}')!r}".removesuffix(".0") + f" {unit}"
+            for unit, size in self.units.items()
+            for digits in range(1, _DIGITS + 1)
+        )
+        return min((text for text in texts if self.read(text) == value), key=len)
 
 
-def length(text: str) -> float:
-    """Metres. Raises InvalidQuantity."""
-    return _parse(text, LENGTHS)
-
-
-def angle(text: str) -> float:
-    """Radians. Raises InvalidQuantity."""
-    return _parse(text, ANGLES)
-
-
-def compliance(text: str) -> float:
-    """Radians per newton metre. Raises InvalidQuantity."""
-    return _parse(text, COMPLIANCES)
-
-
-def degrees(radians: float) -> float:
-    """Degrees, for people."""
-    return radians / ANGLES["deg"]
+_DEGREE = math.pi / 180
+LENGTH = Quantity("a length", {"mm": 1e-3, "cm": 1e-2, "m": 1.0})
+ANGLE = Quantity("an angle", {"deg": _DEGREE, "rad": 1.0})
+COMPLIANCE = Quantity("a compliance", {"deg/Nm": _DEGREE, "rad/Nm": 1.0})

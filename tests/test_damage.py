@@ -1,9 +1,16 @@
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.damaged.kinds import DAMAGES
+from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, UnknownName
+from tests.conftest import ROOT
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
 
@@ -69,6 +76,34 @@ def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
         apply(robot, [damage])
 
 
-def test_a_link_cannot_grow(robot):
-    with pytest.raises(InvalidSetting, match="shorten of forearm_link is '-1 cm'; valid: from 0"):
-        apply(robot, [LinkShortening("forearm_link", -0.01)])
+def test_a_link_cannot_grow():
+    with pytest.raises(InvalidSetting, match="LinkShortening.length is -0.01; valid: a finite"):
+        LinkShortening("forearm_link", -0.01)
+
+
+@pytest.mark.parametrize(
+    ("damage", "twice"),
+    [
+        (LinkShortening("forearm_link", 0.01), LinkShortening("forearm_link", 0.02)),
+        (EncoderShift("elbow_joint", -0.1), EncoderShift("elbow_joint", -0.2)),
+        (BaseShift((1.0, 2.0, 0.0)), BaseShift((2.0, 4.0, 0.0))),
+        (EccentricGear("elbow_joint", 0.1, 0.3), EccentricGear("elbow_joint", 0.2, 0.3)),
+        (Sag("elbow_joint", 0.1), Sag("elbow_joint", 0.2)),
+        (Backlash("elbow_joint", 0.1), Backlash("elbow_joint", 0.2)),
+    ],
+)
+def test_a_damage_twice_as_large_has_twice_its_amounts(damage, twice):
+    assert damage.scaled(2) == twice
+    assert damage.scaled(1) == damage
+
+
+def test_every_damage_has_words_of_its_own():
+    said = [word.key for kind in DAMAGES for word in words(kind).values()]
+    assert len(set(said)) == len(said)
+
+
+def test_damages_are_described_without_the_libraries_that_move_arms():
+    script = "import sys, recalib.damaged.kinds; sys.exit(not {'pinocchio', 'scipy'}.isdisjoint("
+    assert (
+        subprocess.run([sys.executable, "-c", f"{script}sys.modules))"], cwd=ROOT).returncode == 0
+    )

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from recalib.damaged.damage import BaseShift, apply
-from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.disturbances import Disturbances, Noise, Repeatability
 from recalib.damaged.fleet import Fleet
 from recalib.damaged.plant import Plant
 
@@ -10,7 +10,7 @@ from recalib.damaged.plant import Plant
 @pytest.fixture
 def plants(controller, damaged):
     def make():
-        noisy = Disturbances(position_noise=1e-3, repeatability=1e-3)
+        noisy = Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3))
         moved = apply(controller.robot, [BaseShift(translation=(0.01, 0.0, 0.02))])
         return [
             Plant(controller, [damaged]),

@@ -2,13 +2,13 @@ import numpy as np
 import pytest
 
 from recalib.damaged.damage import apply
-from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.nongeometric import Sag
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import displacements, identify
 from recalib.nominal.poses import orientation_error, position_error
 
-NOISY = Disturbances(position_noise=2e-4, orientation_noise=np.radians(0.02))
+NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))
 
 
 @pytest.fixture(scope="module")

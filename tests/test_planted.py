@@ -5,14 +5,15 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 import pytest
+from pydantic import TypeAdapter
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.learners import hierarchical, schedules
 from recalib.learners.maps import HierarchicalMap
+from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments import campaign, tuned
-from recalib.study.scenarios import parse_damage
 from recalib.training import train
 from tests.conftest import ROOT
 
@@ -31,7 +32,10 @@ def final_errors(config, controller, learner="improved"):
     ]
     which = tuned.training(learner, config["learners"])
     history = train(
-        Plant(controller, [apply(controller.robot, map(parse_damage, damages))]),
+        Plant(
+            controller,
+            [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
+        ),
         tuned.build(which, len(SEEDS), config["learners"], ROOT / config["tuned"]),
         campaign.desired_poses(config["seed"], "links_encoders", SEEDS, which.iterations),
         campaign.test_poses(config["seed"], "links_encoders", SEEDS, config["training"]["tests"]),

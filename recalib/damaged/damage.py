@@ -1,16 +1,23 @@
-"""Damages of a robot: the whole of it shifted, links shortened, encoders shifted (section 7), and any combination."""
+"""Damages of a robot, alone or combined: moved as a whole, links shortened, encoders shifted.
+
+These are the damages of section 7; `recalib.damaged.nongeometric` has more.
+"""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from typing import Protocol
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
-import pinocchio as pin
-from scipy.spatial.transform import Rotation
 
+from recalib.damaged.words import Described, said, words
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.kinematics import Arm
-from recalib.nominal.robots import Robot, link_end
+from recalib.quantities import ANGLE, LENGTH
+
+# Pinocchio and SciPy take a second, and whoever only reads a configuration needs neither of them:
+# they are imported where an arm is made.
+if TYPE_CHECKING:
+    from recalib.nominal.kinematics import Arm
+    from recalib.nominal.robots import Robot
 
 
 @dataclass
@@ -20,22 +27,30 @@ class DamagedArm:
     Attributes:
         arm: the damaged kinematics.
         offsets: (6,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: functions of joint angles (n, 6) [rad] and of the torques (n, 6) [N m] that hold the arm against gravity
-            there: what each adds to these angles, (n, 6) [rad].
+        deflections: functions of joint angles (n, 6) [rad] and of the torques (n, 6) [N m] that
+            hold the arm against gravity there: what each adds to these angles, (n, 6) [rad].
     """
 
-    arm: Arm
+    arm: "Arm"
     offsets: np.ndarray
     deflections: list[Callable[[np.ndarray, np.ndarray], np.ndarray]] = field(default_factory=list)
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] where the controller believes in joint angles (n, 6) [rad]."""
+        """Poses (n, 4, 4) of the tool in the base frame [m].
+
+        Args:
+            angles: (n, 6) rad in which the controller believes.
+        """
         return self.arm.forward(self.standing(angles))
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """Joint angles (n, 6) [rad] at which the arm stands where the controller believes in `angles` (n, 6) [rad].
+        """Joint angles (n, 6) [rad] at which the arm stands.
 
-        Every deflection starts from the shifted angles, so that the order of the damages does not matter.
+        Every deflection starts from the shifted angles, so that the order of the damages does not
+        matter.
+
+        Args:
+            angles: (n, 6) rad in which the controller believes.
         """
         shifted = angles + self.offsets
         if not self.deflections:
@@ -44,81 +59,107 @@ class DamagedArm:
         return sum((deflection(shifted, torques) for deflection in self.deflections), start=shifted)
 
 
+class Damage(Described):
+    """Anything that can happen to an arm. A new one is a class like these, listed in `kinds`."""
+
+    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+        """Do it to the damaged arm; `robot` is the nominal one, which stays as it is.
+
+        Raises UnknownName (link, joint) and InvalidSetting (more than the robot can lose).
+        """
+        raise NotImplementedError
+
+    def scaled(self, factor: float) -> Self:
+        """This damage, `factor` times as large."""
+        grown = {}
+        for name, word in words(type(self)).items():
+            value = getattr(self, name)
+            if word.grows:
+                several = isinstance(value, tuple)
+                grown[name] = tuple(x * factor for x in value) if several else value * factor
+        return replace(self, **grown)
+
+
 @dataclass(frozen=True)
-class BaseShift:
-    """The whole robot moved in the world, which the controller does not notice.
+class BaseShift(Damage):
+    """The whole robot moved in the world, which the controller does not notice."""
 
-    Args:
-        translation: (3,) m along the base's axes.
-        rotation: (3,) rad, roll, pitch and yaw about the base's axes, R = Rz Ry Rx.
-    """
+    translation: tuple[float, float, float] = said(
+        "translate",
+        "Of the whole robot along the base's x, y and z.",
+        LENGTH,
+        signed=True,
+        default=(0.0, 0.0, 0.0),
+    )
+    rotation: tuple[float, float, float] = said(
+        "rotate",
+        "Of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx.",
+        ANGLE,
+        signed=True,
+        default=(0.0, 0.0, 0.0),
+    )
 
-    translation: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    rotation: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+        import pinocchio as pin
+        from scipy.spatial.transform import Rotation
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        shift = pin.SE3(
-            Rotation.from_euler("xyz", self.rotation).as_matrix(), np.array(self.translation)
-        )
-        first = damaged.arm.model.jointPlacements[1]
-        damaged.arm.model.jointPlacements[1] = shift * first
+        turn = Rotation.from_euler("xyz", self.rotation).as_matrix()
+        placements = damaged.arm.model.jointPlacements
+        placements[1] = pin.SE3(turn, np.array(self.translation)) * placements[1]
 
 
 @dataclass(frozen=True)
-class LinkShortening:
-    """A link shortened along the straight line between its two joints (or its joint and the tool).
+class LinkShortening(Damage):
+    """A link shortened along the straight line between its joints (the last: joint and tool)."""
 
-    Args:
-        link: its name.
-        length: m taken off.
-    """
+    link: str = said("link", "A link of the robot.")
+    length: float = said("shorten", "Length taken off.", LENGTH)
 
-    link: str
-    length: float
+    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+        from recalib.nominal.robots import link_end
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         if self.link not in robot.links:
             raise UnknownName(f"link of {robot.name}", self.link, robot.links)
         end = link_end(damaged.arm.model, damaged.arm.tool, robot.links[self.link])
         whole = np.linalg.norm(end)
-        if not 0 <= self.length < whole:
+        if self.length >= whole:
             valid = f"from 0 to below {whole * 100:.2f} cm, its length"
             raise InvalidSetting(f"shorten of {self.link}", f"{self.length * 100:g} cm", valid)
         end *= 1 - self.length / whole
 
 
 @dataclass(frozen=True)
-class EncoderShift:
-    """An encoder that reports an angle with a constant error.
+class EncoderShift(Damage):
+    """An encoder that reports an angle with a constant error."""
 
-    Args:
-        joint: its name.
-        angle: rad by which the joint stands beyond what its encoder reports.
-    """
+    joint: str = said("encoder", "A joint of the robot.")
+    angle: float = said(
+        "shift",
+        "Angle by which the joint stands beyond what its encoder reports.",
+        ANGLE,
+        signed=True,
+    )
 
-    joint: str
-    angle: float
-
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        if self.joint not in robot.joints:
-            raise UnknownName(f"joint of {robot.name}", self.joint, robot.joints)
-        damaged.offsets[robot.joints.index(self.joint)] += self.angle
+    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+        damaged.offsets[joint_index(robot, self.joint)] += self.angle
 
 
-class Damage(Protocol):
-    """Anything that can happen to an arm."""
+def joint_index(robot: "Robot", joint: str) -> int:
+    """Which joint of the robot has this name. Raises UnknownName."""
+    if joint not in robot.joints:
+        raise UnknownName(f"joint of {robot.name}", joint, robot.joints)
+    return robot.joints.index(joint)
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        """Do it to the damaged arm; `robot` is the nominal one, which knows the names and stays as it is."""
-        ...
 
-
-def apply(robot: Robot, damages: Iterable[Damage]) -> DamagedArm:
+def apply(robot: "Robot", damages: Iterable[Damage]) -> DamagedArm:
     """The arm of the nominal robot with the damages done to it, one after the other.
 
-    Raises UnknownName (link, joint) and InvalidSetting (a link shortened by more than its length, or lengthened; what the
-    damages of `recalib.damaged.nongeometric` refuse).
+    Raises what they raise: see `Damage.apply`.
     """
+    import pinocchio as pin
+
+    from recalib.nominal.kinematics import Arm
+
     damaged = DamagedArm(Arm(pin.Model(robot.arm.model), robot.arm.tool), np.zeros(len(robot.home)))
     for damage in damages:
         damage.apply(robot, damaged)

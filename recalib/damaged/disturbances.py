@@ -1,64 +1,90 @@
-"""What keeps a real arm from repeating itself and a real instrument from measuring it exactly."""
+"""What keeps a real arm from repeating itself and an instrument from measuring it exactly."""
 
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
+from recalib.damaged.words import Described, said
 from recalib.errors import InvalidSetting
+from recalib.quantities import ANGLE, LENGTH
+
+
+@dataclass(frozen=True)
+class Noise(Described):
+    """Standard deviations of each measurement."""
+
+    under = "noise"
+    position: float = said("position", "Along each axis.", LENGTH)
+    orientation: float = said("orientation", "About each axis.", ANGLE)
+
+
+@dataclass(frozen=True)
+class Repeatability(Described):
+    """An arm that does not stop where it should."""
+
+    angle: float = said(
+        "repeatability", "Standard deviation of the angle at which each joint stops.", ANGLE
+    )
+
+
+@dataclass(frozen=True)
+class Outliers(Described):
+    """Measurements that are grossly wrong, in a random direction. Raises InvalidSetting."""
+
+    under = "outliers"
+    share: float = said("share", "Of all measurements.")
+    size: float = said("size", "By how much they miss the true position.", LENGTH)
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.share > 1:
+            raise InvalidSetting("Outliers.share", self.share, "from 0 to 1")
 
 
 @dataclass(frozen=True)
 class Disturbances:
-    """Random errors of a move and of its measurement; all zero unless given.
+    """Random errors of a move and of its measurement; none unless given."""
 
-    Args:
-        position_noise: m, standard deviation of the measured position along each axis.
-        orientation_noise: rad, standard deviation of the measured orientation about each axis.
-        repeatability: rad, standard deviation of the angle at which each joint stops.
-        outlier_fraction: of the measurements that are grossly wrong, from 0 to 1.
-        outlier_size: m by which these miss the true position, in a random direction.
+    noise: Noise = Noise(0.0, 0.0)
+    repeatability: Repeatability = Repeatability(0.0)
+    outliers: Outliers = Outliers(0.0, 0.0)
 
-    Raises InvalidSetting.
-    """
-
-    position_noise: float = 0.0
-    orientation_noise: float = 0.0
-    repeatability: float = 0.0
-    outlier_fraction: float = 0.0
-    outlier_size: float = 0.0
-
-    def __post_init__(self):
-        for field in fields(self):
-            value, greatest = (
-                getattr(self, field.name),
-                1 if field.name == "outlier_fraction" else math.inf,
-            )
-            if not (0 <= value <= greatest and math.isfinite(value)):
-                valid = "from 0 to 1" if greatest == 1 else "a finite number from 0 on"
-                raise InvalidSetting(field.name, value, valid)
+    @classmethod
+    def of(cls, parts: Iterable[Noise | Repeatability | Outliers]) -> "Disturbances":
+        """Those that are among the parts, one of a kind."""
+        return cls(**{type(part).__name__.lower(): part for part in parts})
 
     def of_joints(self, generators: Sequence[np.random.Generator], moves: int) -> np.ndarray:
-        """By how much each joint stops beside its angle, (run, move, 6) rad; a generator for each run."""
-        return self.repeatability * np.stack(
+        """By how much each joint stops beside its angle, (run, move, 6) rad.
+
+        Args:
+            generators: one for each run.
+        """
+        return self.repeatability.angle * np.stack(
             [generator.standard_normal((moves, 6)) for generator in generators]
         )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
-        """What the instrument says of the poses (run, move, 4, 4); a generator for each run."""
+        """What the instrument says of the poses (run, move, 4, 4).
+
+        Args:
+            generators: one for each run.
+        """
+        from scipy.spatial.transform import Rotation
+
         moves = poses.shape[1]
-        # Every number is drawn whatever the sizes are: runs that differ in one size share all the rest of their luck.
+        # Every number is drawn whatever the sizes are: runs that differ in one size share all the
+        # rest of their luck.
         luck = [
             (each.standard_normal((3, moves, 3)), each.uniform(size=(moves, 1)))
             for each in generators
         ]
         shift, turn, direction = np.stack([normal for normal, _ in luck], axis=1)
-        is_outlier = np.stack([uniform for _, uniform in luck]) < self.outlier_fraction
-        gross = self.outlier_size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        is_outlier = np.stack([uniform for _, uniform in luck]) < self.outliers.share
+        gross = self.outliers.size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
         measured = poses.copy()
-        measured[..., :3, 3] += self.position_noise * shift + np.where(is_outlier, gross, 0.0)
-        turns = Rotation.from_rotvec(self.orientation_noise * turn.reshape(-1, 3)).as_matrix()
+        measured[..., :3, 3] += self.noise.position * shift + np.where(is_outlier, gross, 0.0)
+        turns = Rotation.from_rotvec(self.noise.orientation * turn.reshape(-1, 3)).as_matrix()
         measured[..., :3, :3] = turns.reshape(measured[..., :3, :3].shape) @ poses[..., :3, :3]
         return measured

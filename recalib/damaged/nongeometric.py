@@ -1,101 +1,82 @@
-"""Damages that no change of the arm's geometry explains: eccentric gears, sag under gravity, backlash.
+"""Damages that no change of the arm's geometry explains: eccentric gears, sag, backlash.
 
-Each makes a joint stand off by an angle that depends on the arm's posture. They combine with one another and with the
-damages of `recalib.damaged.damage` through its `apply`.
+Each makes a joint stand off by an angle that depends on the arm's posture. They combine with one
+another and with the damages of `recalib.damaged.damage` through its `apply`.
 """
 
-import math
 from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.damaged.damage import DamagedArm
-from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.robots import Robot
+from recalib.damaged.damage import Damage, DamagedArm, joint_index
+from recalib.damaged.words import said
+from recalib.quantities import ANGLE, COMPLIANCE
 
-# N m below which gravity does not decide to which side of its gap a joint falls: rounding of a vertical axis, no load.
+if TYPE_CHECKING:
+    from recalib.nominal.robots import Robot
+
+# N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
+# vertical axis, no load.
 NO_LOAD = 1e-6
 
 
-@dataclass(frozen=True)
-class EccentricGear:
-    """A gear out of centre: its joint is wrong by amplitude * sin(angle + phase).
-
-    Args:
-        joint: its name.
-        amplitude: rad, not negative.
-        phase: rad.
-    """
+class Deflection(Damage):
+    """A joint that stands off by an angle of its own angle and of the torque that it holds."""
 
     joint: str
-    amplitude: float
-    phase: float = 0.0
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        _check_size("amplitude of an eccentric gear", self.amplitude, "rad")
-        damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
+    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+        damaged.deflections.append(partial(self._deflections, joint_index(robot, self.joint)))
 
-    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        return _only(joint, self.amplitude * np.sin(angles[:, joint] + self.phase))
+    def _deflections(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        deflections = np.zeros_like(angles)
+        deflections[:, joint] = self.deflection(angles[:, joint], torques[:, joint])
+        return deflections
+
+    def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        """By how much it stands off, (n,) rad, at its angles (n,) [rad] and torques (n,) [N m]."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
-class Sag:
-    """A joint that gives way to gravity in proportion to the torque that it holds.
+class EccentricGear(Deflection):
+    """A gear out of centre: its joint is wrong by amplitude * sin(angle + phase)."""
 
-    Args:
-        joint: its name.
-        compliance: rad per N m, not negative.
-    """
+    joint: str = said("gear", "A joint of the robot.")
+    amplitude: float = said(
+        "eccentricity", "Amplitude of its error, which goes as the sine of its angle.", ANGLE
+    )
+    phase: float = said("phase", "Of that sine.", ANGLE, signed=True, grows=False, default=0.0)
 
-    joint: str
-    compliance: float
-
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        _check_size("compliance of a joint", self.compliance, "rad/Nm")
-        damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
-
-    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        return _only(joint, -self.compliance * torques[:, joint])
+    def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        return self.amplitude * np.sin(angles + self.phase)
 
 
 @dataclass(frozen=True)
-class Backlash:
-    """A gap in a gear: the joint lies on the side to which gravity pushes it, half the gap from where it should stand.
+class Sag(Deflection):
+    """A joint that gives way to gravity in proportion to the torque that it holds."""
 
-    Gravity decides rather than the last motion, so that the achieved pose is a function of the command alone: measuring an
-    arm in any order, or in between, changes nothing. A joint without load (a vertical axis) rests in the middle.
+    joint: str = said("sag", "A joint of the robot.")
+    compliance: float = said("compliance", "By how much it gives way to gravity.", COMPLIANCE)
 
-    Args:
-        joint: its name.
-        gap: rad from one side to the other, not negative.
+    def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        return -self.compliance * torques
+
+
+@dataclass(frozen=True)
+class Backlash(Deflection):
+    """A gap in a gear: gravity pushes the joint to one side, by half the gap.
+
+    Gravity decides rather than the last motion, so that the achieved pose is a function of the
+    command alone: measuring an arm in any order, or in between, changes nothing. A joint without
+    load (a vertical axis) rests in the middle.
     """
 
-    joint: str
-    gap: float
+    joint: str = said("backlash", "A joint of the robot.")
+    gap: float = said("gap", "From one side of the gear's gap to the other.", ANGLE)
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        _check_size("gap of a gear", self.gap, "rad")
-        damaged.deflections.append(partial(self._deflection, _index(robot, self.joint)))
-
-    def _deflection(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        loaded = np.abs(torques[:, joint]) > NO_LOAD
-        return _only(joint, np.where(loaded, -np.sign(torques[:, joint]) * self.gap / 2, 0.0))
-
-
-def _index(robot: Robot, joint: str) -> int:
-    if joint not in robot.joints:
-        raise UnknownName(f"joint of {robot.name}", joint, robot.joints)
-    return robot.joints.index(joint)
-
-
-def _check_size(what: str, size: float, unit: str) -> None:
-    if not 0 <= size < math.inf:
-        raise InvalidSetting(what, size, f"a finite number of {unit} from 0 on")
-
-
-def _only(joint: int, deflection: np.ndarray) -> np.ndarray:
-    deflections = np.zeros((len(deflection), 6))
-    deflections[:, joint] = deflection
-    return deflections
+    def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
+        loaded = np.abs(torques) > NO_LOAD
+        return np.where(loaded, -np.sign(torques) * self.gap / 2, 0.0)

@@ -1,1 +1,1 @@
-"""The configuration of a study: its keys, their meaning, units, ranges and defaults, and how it is read and checked."""
+"""The configuration of a study: its keys with meaning, unit and range, its reading and checking."""

@@ -1,14 +1,15 @@
 """A study as one typed value: every key of config.yaml, with its meaning, unit and range.
 
-The shipped replication is one value of `Study`. What a learner is called where, and which trainings there are,
-follows from it: see `recalib.study.trainings`.
+The shipped replication is one value of `Study`. Which trainings there are, and what they are
+called, follows from it: see `recalib.study.trainings`.
 """
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.part import Part
 from recalib.study.configuration.units import (
     Angle,
     Count,
@@ -23,13 +24,6 @@ from recalib.study.configuration.units import (
     Text,
     Turn,
 )
-
-
-class Part(BaseModel):
-    """A part of the configuration: it cannot be changed, and knows no other keys than its own."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
-
 
 Several = Field(min_length=1)
 Low = High = Positive
@@ -98,7 +92,7 @@ class Learner(Part):
     """A learner of the paper: four switches, the sizes of its nets, and how long it is trained."""
 
     maps: Literal["single", "separate"]
-    """One map for the whole command, or one for position and one for orientation commands (section 4)."""
+    """One map for the whole command, or one for position and one for orientation (section 4)."""
     theta: Literal["values", "increments"]
     """What is propagated of theta (section 5)."""
     jacobian: Literal["values", "increments"]
@@ -132,7 +126,7 @@ class Experiments(Part):
     beside: tuple[Name, ...]
     """More learners, trained on the study's own scenario alone."""
     switches: Switch
-    """Whether to take each of the four changes from the improved system and to add it to Ritter's."""
+    """Whether to take each of the four changes from the improved system and add it to Ritter's."""
     ladder: dict[Name, tuple[Count, ...]]
     """Learners trained on the study's own scenario for several numbers of iterations."""
     evidence: Switch
@@ -140,7 +134,7 @@ class Experiments(Part):
     robots: tuple[Name, ...]
     """Other robots for the study's own scenario."""
     ensemble: dict[Name, dict[Annotated[str, Field(pattern="^[a-z]+$")], Series]]
-    """For each learner, series of robots with other assignments or amounts of the paper's damage."""
+    """For each learner, robots with other assignments or amounts of the paper's damage."""
     draws_per_job: Count
     """Robots of a series that one job trains."""
 
@@ -259,15 +253,13 @@ class Ranges(Part):
     """As a fraction of the initial one."""
 
 
-class Search(Part):
-    """The search for widths and rates."""
+class Budget(Part):
+    """What every training may spend on the search for its widths and rates."""
 
     rounds: Annotated[int, Field(strict=True, ge=1, le=9)]
     """Of trials, each around the best of those before."""
     trials: Count
     """Trials of a round."""
-    trials_per_job: Count
-    """Trials that one job makes."""
     seeds: Count
     """Seeds over which a trial is averaged."""
     seed: Seed
@@ -276,19 +268,26 @@ class Search(Part):
     """Lowest and highest values."""
 
 
+class Search(Budget):
+    """The search for widths and rates."""
+
+    trials_per_job: Count
+    """Trials that one job makes."""
+
+
 class Study(Part):
-    """A study: robot, damage, learners, settings, budgets and seeds. Findings are a function of it and of the code."""
+    """Robot, damage, learners, settings, budgets and seeds: findings follow from it and code."""
 
     name: Annotated[str, Field(strict=True, pattern=r"^[a-z]\w*$", max_length=40)]
-    """Of the study: `replication` is the shipped one; results of any other lie in results/studies/NAME."""
+    """`replication` is the shipped study; results of any other lie in results/studies/NAME."""
     seed: Seed
     """Of the whole study."""
     robot: Name
     """The study's robot, a key of robots."""
     scenario: Name
-    """The study's own scenario, the paper's damage: that of Figure 1, of the ladders and of the search."""
+    """The study's own, the paper's damage: that of Figure 1, of the ladders and of the search."""
     settings: Literal["shipped", "own"]
-    """Widths and rates: those that were searched for the shipped study, where there are any, or the study's own."""
+    """Widths and rates: those searched for the shipped study, where there are any, or its own."""
     expected: Text | None
     """File with the bands in which final errors are expected; null: no check."""
     robots: Annotated[dict[Name, Robot], Several]

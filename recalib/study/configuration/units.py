@@ -1,58 +1,66 @@
-"""Values of the configuration as types: each knows its unit and its range, and reads what it writes.
+"""Values of the configuration as types: each knows its unit and range, and reads what it writes.
 
 Quantities are text such as `4 cm` and become SI numbers. Counts are whole numbers, no text, no 4.0.
+`patternErrorMessage` says what would be valid, to editors as to the messages of this project.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from annotated_types import Ge, Gt, Le, Lt
-from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    PlainSerializer,
+    StringConstraints,
+    WithJsonSchema,
+)
 from pydantic_core import PydanticCustomError
 
-from recalib import quantities
 from recalib.errors import InvalidQuantity
+from recalib.quantities import ANGLE, COMPLIANCE, LENGTH, Quantity
 
 MOST = 1_000_000  # of whatever is counted: more would run for days
-NAME = r"^[A-Za-z]\w*$"  # of a robot, a scenario, a learner: it becomes part of paths
 
 
-def _quantity(
-    kind: str, parse: Callable[[str], float], units: dict[str, float], example: str, *limits: Any
-) -> Any:
-    """The type of text such as `4 cm` that becomes a number of SI units within the limits."""
-    si = next(unit for unit, size in units.items() if size == 1.0)
+def _quantity(quantity: Quantity, limits: str, example: str, *bounds: Any) -> Any:
+    """The type of text such as `4 cm` that becomes a number of SI units within the bounds."""
+    valid = f"{quantity.name} {limits}, such as '{example}', in {' or '.join(quantity.units)}"
+    pattern = rf"^\s*[-+]?\d.*({'|'.join(quantity.units)})\s*$"
+    said = {"type": "string", "pattern": pattern, "patternErrorMessage": valid}
 
-    def read(text: object) -> float:
+    def read(text: Any) -> float:
         try:
-            return parse(text)
+            return quantity.read(text)
         except InvalidQuantity:
-            valid = f"{kind} as a number and one of {', '.join(units)}, such as '{example}'"
-            raise PydanticCustomError("quantity", "{valid}", {"valid": valid}) from None
+            raise PydanticCustomError("quantity", "no quantity") from None
 
-    schema = {"type": "string", "pattern": rf"^[-+]?\d.* ?({'|'.join(units)})$", "examples": [example]}
     return Annotated[
         float,
         BeforeValidator(read),
-        *limits,
-        Field(allow_inf_nan=False),
-        PlainSerializer(lambda value: f"{value!r} {si}", when_used="json"),
-        WithJsonSchema(schema),
+        *bounds,
+        PlainSerializer(quantity.write, when_used="json"),
+        WithJsonSchema(said),
     ]
 
 
-_LENGTH = "a length", quantities.length, quantities.LENGTHS
-_ANGLE = "an angle", quantities.angle, quantities.ANGLES
+def _text(pattern: str, valid: str, longest: int) -> Any:
+    """The type of text that follows a pattern."""
+    return Annotated[
+        str,
+        StringConstraints(strict=True, pattern=pattern, max_length=longest),
+        Field(json_schema_extra={"patternErrorMessage": valid}),
+    ]
 
-Length = _quantity(*_LENGTH, "-4 cm", Ge(-100.0), Le(100.0))
-Size = _quantity(*_LENGTH, "4 cm", Gt(0.0), Le(100.0))
-Amount = _quantity(*_LENGTH, "0.2 mm", Ge(0.0), Le(100.0))
-Angle = _quantity(*_ANGLE, "-3 deg", Ge(-100.0), Le(100.0))
-Range = _quantity(*_ANGLE, "40 deg", Gt(0.0), Lt(3.15))
-Turn = _quantity(*_ANGLE, "0.02 deg", Ge(0.0), Le(3.15))
-Compliance = _quantity(
-    "a compliance", quantities.compliance, quantities.COMPLIANCES, "0.0002 rad/Nm", Ge(0.0), Le(1.0)
-)
+
+Length = _quantity(LENGTH, "within 100 m", "-4 cm", Ge(-100.0), Le(100.0))
+Size = _quantity(LENGTH, "above 0, up to 100 m", "4 cm", Gt(0.0), Le(100.0))
+Amount = _quantity(LENGTH, "from 0 to 100 m", "0.2 mm", Ge(0.0), Le(100.0))
+Angle = _quantity(ANGLE, "within 100 rad", "-3 deg", Ge(-100.0), Le(100.0))
+Range = _quantity(ANGLE, "above 0, up to 180 deg", "40 deg", Gt(0.0), Lt(3.15))
+Turn = _quantity(ANGLE, "from 0 to 180 deg", "0.02 deg", Ge(0.0), Le(3.15))
+Compliance = _quantity(COMPLIANCE, "from 0 to 1 rad/Nm", "0.0002 rad/Nm", Ge(0.0), Le(1.0))
 
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
 Seed = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
@@ -60,6 +68,25 @@ Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0, le=1e6)]
 Share = Annotated[Number, Field(ge=0, lt=1)]
 Fraction = Annotated[Number, Field(gt=0, le=1)]
-Name = Annotated[str, Field(strict=True, pattern=NAME, max_length=60)]
+Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths
+    r"^[A-Za-z][A-Za-z0-9_]*$", "a name of letters, digits and _, a letter first", 60
+)
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=300)]
 Switch = Annotated[bool, Field(strict=True)]
+
+
+def _distinct(values: Sequence) -> Sequence:
+    twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
+    if twice is not None:
+        raise PydanticCustomError("distinct", "twice", {"twice": str(twice)})
+    return values
+
+
+def _ordered(values: tuple[float, float]) -> tuple[float, float]:
+    if values[0] > values[1]:
+        raise PydanticCustomError("ordered", "not ordered")
+    return values
+
+
+Distinct = [AfterValidator(_distinct), Field(json_schema_extra={"uniqueItems": True})]
+Ordered = AfterValidator(_ordered)

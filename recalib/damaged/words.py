@@ -1,0 +1,76 @@
+"""How people describe what is wrong with an arm: {link: forearm_link, shorten: 4 cm}.
+
+A class says its words beside its fields. What reads and writes descriptions follows from them.
+"""
+
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from recalib.errors import InvalidSetting
+from recalib.quantities import Quantity
+
+
+@dataclass(frozen=True)
+class Word:
+    """What people write for a field.
+
+    Attributes:
+        key: the word.
+        meaning: of what stands behind it.
+        quantity: in SI units; None: a name, or a bare number.
+        signed: whether it may be negative.
+        grows: whether it is larger where the damage is.
+    """
+
+    key: str
+    meaning: str
+    quantity: Quantity | None
+    signed: bool
+    grows: bool
+
+
+def said(
+    key: str,
+    meaning: str,
+    quantity: Quantity | None = None,
+    *,
+    signed: bool = False,
+    grows: bool = True,
+    default: Any = dataclasses.MISSING,
+) -> Any:
+    """A field of a `Described` dataclass, with its word."""
+    word = Word(key, meaning, quantity, signed, grows and quantity is not None)
+    return dataclasses.field(default=default, metadata={"word": word})
+
+
+class Described:
+    """Base of frozen dataclasses whose fields are `said`: words and SI units.
+
+    Attributes:
+        under: the word under which the others stand, as `noise` in {noise: {position: 1 mm}}.
+
+    Raises InvalidSetting for an amount that is not finite, or negative where it must not be.
+    """
+
+    under: ClassVar[str | None] = None
+
+    def __post_init__(self):
+        for name, word in words(type(self)).items():
+            for amount in _numbers(getattr(self, name)):
+                if not math.isfinite(amount) or (amount < 0 and not word.signed):
+                    valid = "finite" if word.signed else "a finite number from 0 on"
+                    raise InvalidSetting(f"{type(self).__name__}.{name}", amount, valid)
+
+
+def words(kind: type[Described]) -> dict[str, Word]:
+    """The word of each field."""
+    return {field.name: field.metadata["word"] for field in dataclasses.fields(kind)}
+
+
+def _numbers(value: str | float | Iterable[float]) -> Iterable[float]:
+    if isinstance(value, str):
+        return ()
+    return value if isinstance(value, tuple) else (value,)

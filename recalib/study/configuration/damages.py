@@ -1,0 +1,127 @@
+"""The entries of a scenario: words in the configuration, damages and disturbances in the code.
+
+Words, meanings and units stand beside the fields of the damage's class (`recalib.damaged.words`).
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping
+from typing import Annotated, Any, Literal, Union, get_origin
+
+from pydantic import Discriminator, Field, PlainSerializer, Tag, WrapValidator, create_model
+
+from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
+from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.kinds import DAMAGES, DISTURBANCES
+from recalib.damaged.words import Described, words
+from recalib.quantities import ANGLE, COMPLIANCE, LENGTH
+from recalib.study.configuration.messages import nearest
+from recalib.study.configuration.part import Part
+from recalib.study.configuration.units import (
+    Amount,
+    Angle,
+    Compliance,
+    Length,
+    Share,
+    Text,
+    Turn,
+)
+
+
+class Assigned(Part):
+    """A part of the paper's damage, as it is assigned to the robot."""
+
+    assigned: Literal["links", "encoders"]
+    """That part of the paper's damage."""
+
+    def part_of(self, assignment: Iterable[Damage]) -> list[Damage]:
+        """Those damages of an assignment that are meant."""
+        kind = LinkShortening if self.assigned == "links" else EncoderShift
+        return [damage for damage in assignment if isinstance(damage, kind)]
+
+
+_TYPES = {
+    (LENGTH, True): Length,
+    (LENGTH, False): Amount,
+    (ANGLE, True): Angle,
+    (ANGLE, False): Turn,
+    (COMPLIANCE, False): Compliance,
+}
+
+
+def _model(kind: type[Described]) -> type[Part]:
+    """The words of a damage or a disturbance as a part of the configuration."""
+    said = {}
+    for field in dataclasses.fields(kind):
+        word = words(kind)[field.name]
+        number = _TYPES[word.quantity, word.signed] if word.quantity else Share
+        each = Text if field.type is str else number
+        its_type = tuple[each, each, each] if get_origin(field.type) is tuple else each
+        default = ... if field.default is dataclasses.MISSING else field.default
+        said[word.key] = its_type, Field(default, description=word.meaning)
+    inner = create_model(kind.__name__, __base__=Part, __doc__=kind.__doc__, **said)
+    if kind.under is None:
+        return inner
+    outer = {kind.under: (inner, Field(description=kind.__doc__))}
+    return create_model(f"{kind.__name__}Entry", __base__=Part, __doc__=kind.__doc__, **outer)
+
+
+def _choice(kind: type[Described], model: type[Part]) -> Any:
+    """The type of an entry that is such a damage: reads its words, takes it as it is."""
+
+    def read(value: Any, validate: Callable[[Any], Part]) -> Described:
+        if isinstance(value, kind):
+            return value
+        read = validate(value)
+        said = getattr(read, kind.under) if kind.under else read
+        return kind(**{name: getattr(said, word.key) for name, word in words(kind).items()})
+
+    return Annotated[model, WrapValidator(read), Tag(kind.__name__)]
+
+
+_MODELS = {kind: _model(kind) for kind in (*DAMAGES, *DISTURBANCES)}
+_NAMES = {key: kind.__name__ for kind, model in _MODELS.items() for key in model.model_fields}
+_NAMES["assigned"] = Assigned.__name__
+
+
+def _name_of(value: Any) -> str | None:
+    """The kind that an entry is meant to be: by the first of its words that is one, or nearly."""
+    if not isinstance(value, Mapping):
+        return type(value).__name__
+    known = next((key for key in value if key in _NAMES), None)
+    near = (nearest(key, _NAMES) for key in value)
+    return _NAMES.get(known or next(filter(None, near), None))
+
+
+def describe(entry: "Entry") -> dict[str, Any]:
+    """The words that read as just this entry. What is as by default is left out."""
+    if isinstance(entry, Assigned):
+        return {"assigned": entry.assigned}
+    said, default = {}, {}
+    for field in dataclasses.fields(entry):
+        word, value = words(type(entry))[field.name], getattr(entry, field.name)
+        write = word.quantity.write if word.quantity else lambda value: value
+        text = [write(each) for each in value] if isinstance(value, tuple) else write(value)
+        (default if value == field.default else said)[word.key] = text
+    said = said or default  # nothing at all would say nothing
+    return {entry.under: said} if entry.under else said
+
+
+Entry = Annotated[
+    Union[
+        *(_choice(kind, model) for kind, model in _MODELS.items()),
+        Annotated[Assigned, Tag(Assigned.__name__)],
+    ],
+    Discriminator(_name_of),
+    PlainSerializer(describe),
+]
+
+
+def damages_among(entries: Iterable[Entry]) -> list[Damage]:
+    """The damages of a scenario's entries."""
+    return [entry for entry in entries if isinstance(entry, Damage)]
+
+
+def disturbances_among(entries: Iterable[Entry]) -> Disturbances | None:
+    """What disturbs moves and measurements, if anything."""
+    parts = [entry for entry in entries if isinstance(entry, DISTURBANCES)]
+    return Disturbances.of(parts) if parts else None
