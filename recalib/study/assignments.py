@@ -1,7 +1,7 @@
-"""Which links, which encoders, which signs? Every way to assign the paper's damage to a robot (section 7).
+"""Which links, which encoders, which signs? Every way to assign the paper's damage (section 7).
 
-The paper says that three links lost 1, 1 and 4 cm and that three encoders were shifted by 4, 3 and 4 degrees, and that the
-initial errors were 8.3 cm and 4.7 degrees. It says neither which links and encoders nor which signs.
+The paper says by how much three links were shortened and three encoders were shifted, and what
+the initial errors were. It says neither which links and encoders nor which signs.
 """
 
 from collections.abc import Iterator, Sequence
@@ -13,6 +13,13 @@ import pandas as pd
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
+from recalib.randomness import generator
+from recalib.study import jobs
+from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.study import Part, Published
+from recalib.study.plants import nominal_controller
+
+TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 
 
 def shortenings(links: Sequence[str], lengths: Sequence[float]) -> list[tuple[LinkShortening, ...]]:
@@ -25,7 +32,7 @@ def shortenings(links: Sequence[str], lengths: Sequence[float]) -> list[tuple[Li
 
 
 def shifts(joints: Sequence[str], angles: Sequence[float]) -> list[tuple[EncoderShift, ...]]:
-    """Every way to shift as many different encoders by the angles [rad], each in either direction."""
+    """Every way to shift as many different encoders by the angles [rad], in either direction."""
     ways = dict.fromkeys(
         tuple(sorted(zip(chosen, signed, strict=True)))
         for chosen in permutations(joints, len(angles))
@@ -34,82 +41,96 @@ def shifts(joints: Sequence[str], angles: Sequence[float]) -> list[tuple[Encoder
     return [tuple(EncoderShift(joint, angle) for joint, angle in way) for way in ways]
 
 
+class Ways:
+    """Every way to assign the paper's damage to a robot, in one order.
+
+    Args:
+        links: to which the lengths [m] may be assigned.
+        joints: to whose encoders the angles [rad] may be, with either sign.
+    """
+
+    def __init__(
+        self,
+        links: Sequence[str],
+        lengths: Sequence[float],
+        joints: Sequence[str],
+        angles: Sequence[float],
+    ):
+        self._links, self._joints = list(links), list(joints)
+        self.short, self.shifted = shortenings(links, lengths), shifts(joints, angles)
+
+    def __len__(self) -> int:
+        return len(self.short) * len(self.shifted)
+
+    def __getitem__(self, index: int) -> tuple[LinkShortening | EncoderShift, ...]:
+        """The damages of one assignment, links first, each from the base to the tool."""
+        short, shifted = divmod(int(index), len(self.shifted))
+        links = sorted(self.short[short], key=lambda damage: self._links.index(damage.link))
+        joints = sorted(self.shifted[shifted], key=lambda damage: self._joints.index(damage.joint))
+        return (*links, *joints)
+
+
 def initial_errors(
-    controller: Controller,
-    short: Sequence[tuple[LinkShortening, ...]],
-    shifted: Sequence[tuple[EncoderShift, ...]],
-    coordinates: np.ndarray,
+    controller: Controller, ways: Ways, coordinates: np.ndarray
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Mean position [m] and orientation errors [rad] of the uncorrected robot, (len(shifted),) for each of `short`.
+    """Mean position [m] and orientation errors [rad] of the uncorrected robot.
 
     Args:
         coordinates: (n, 6) desired poses over which the errors are averaged.
+
+    Yields both (shift,) for each of the shortenings.
     """
     robot = controller.robot
     desired = robot.workspace.to_poses(coordinates)
     angles = controller.inverse(desired)
-    offsets = np.array([apply(robot, shift).offsets for shift in shifted])
+    offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
     believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
-    for shortening in short:
-        achieved = (
-            apply(robot, shortening).arm.forward(believed).reshape(len(shifted), len(desired), 4, 4)
-        )
-        yield (
-            position_error(achieved, desired).mean(axis=1),
-            orientation_error(achieved, desired).mean(axis=1),
-        )
+    for shortening in ways.short:
+        achieved = apply(robot, shortening).arm.forward(believed)
+        achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
+        errors = position_error(achieved, desired), orientation_error(achieved, desired)
+        yield errors[0].mean(axis=1), errors[1].mean(axis=1)
 
 
-def enumerate_assignments(
-    controller: Controller,
-    links: Sequence[str],
-    lengths: Sequence[float],
-    angles: Sequence[float],
-    coordinates: np.ndarray,
-) -> pd.DataFrame:
-    """The initial errors of every assignment of `lengths` [m] to `links` and of `angles` [rad] to the encoders.
+class Assignment(Part):
+    """The assignment that is used, as the file of the rule `assignments` keeps it."""
 
-    Returns: a row for each assignment, with a column for each link (`shorten LINK` [m], zero where it is whole), one for
-    each joint (`shift JOINT` [rad]), and the mean initial errors position_error_cm and orientation_error_deg.
+    robot: str
+    assignments: int
+    damages: tuple[Entry, ...]
+    distance: float
+    within_5_percent: int
+
+
+def assign(job: jobs.Assignments) -> tuple[pd.DataFrame, Assignment]:
+    """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
+
+    Returns a table with a row for each of `Ways`: the mean initial errors position_error_cm and
+    orientation_error_deg, and `distance`, the larger of their relative deviations from the
+    published ones. Of several equally near, up to rounding, the first is used.
     """
-    joints = controller.robot.joints
-    short, shifted = shortenings(links, lengths), shifts(joints, angles)
-    rows = []
-    for shortening, errors in zip(
-        short, initial_errors(controller, short, shifted, coordinates), strict=True
-    ):
-        off = {f"shorten {damage.link}": damage.length for damage in shortening}
-        for shift, position, orientation in zip(shifted, *errors, strict=True):
-            row = {
-                "position_error_cm": position * 100,
-                "orientation_error_deg": np.degrees(orientation),
-            }
-            rows.append(row | off | {f"shift {damage.joint}": damage.angle for damage in shift})
-    columns = [f"shorten {link}" for link in links] + [f"shift {joint}" for joint in joints]
-    return pd.DataFrame(
-        rows, columns=[*columns, "position_error_cm", "orientation_error_deg"]
-    ).fillna(0.0)
+    controller = nominal_controller(job.nominal)
+    robot, damage = controller.robot, job.damage
+    ways = Ways(job.nominal.robot.links, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(job.seed, "assignments"), damage.poses)
+    position, orientation = map(
+        np.concatenate, zip(*initial_errors(controller, ways, poses), strict=True)
+    )
+    table = pd.DataFrame(
+        {"position_error_cm": 100 * position, "orientation_error_deg": np.degrees(orientation)}
+    )
+    table["distance"] = distance_to(table, damage.published)
+    nearest = int(table["distance"].round(TIE).idxmin())
+    return table, Assignment(
+        robot=robot.name,
+        assignments=len(table),
+        damages=ways[nearest],
+        distance=round(table["distance"][nearest], TIE),
+        within_5_percent=int((table["distance"] <= 0.05).sum()),
+    )
 
 
-def distance_to(
-    table: pd.DataFrame, position_error_cm: float, orientation_error_deg: float
-) -> pd.Series:
-    """How far each assignment's initial errors are from the published ones: the larger of the two relative deviations."""
-    position = (table["position_error_cm"] / position_error_cm - 1).abs()
-    orientation = (table["orientation_error_deg"] / orientation_error_deg - 1).abs()
-    return np.maximum(position, orientation)
-
-
-def damages_of(row: pd.Series) -> tuple[LinkShortening | EncoderShift, ...]:
-    """The damages of one row of `enumerate_assignments`, links first."""
-    links = [
-        LinkShortening(key[8:], value)
-        for key, value in row.items()
-        if key.startswith("shorten ") and value
-    ]
-    encoders = [
-        EncoderShift(key[6:], value)
-        for key, value in row.items()
-        if key.startswith("shift ") and value
-    ]
-    return (*links, *encoders)
+def distance_to(table: pd.DataFrame, published: Published) -> pd.Series:
+    """The larger of the relative deviations of both errors from the published ones."""
+    deviations = [(table[error] / value - 1).abs() for error, value in published]
+    return np.maximum(*deviations)

@@ -1,4 +1,4 @@
-"""Where the results of a study lie: the one home of their paths, for the rules that make them and for all who read them."""
+"""Where the results of a study lie: the one home of their paths, for all who make or read them."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ def root_of(study: str) -> str:
 
 @dataclass(frozen=True)
 class Layout:
-    """The paths below a study's folder of results, or the patterns of rules where the folder is `{root}`.
+    """The paths below a study's folder of results; patterns of rules where that is `{root}`.
 
     Args:
         root: the folder.
@@ -69,7 +69,7 @@ class Layout:
         return f"{self.root}/real.csv"
 
     def assignments(self, robot: str, suffix: str = ".parquet") -> str:
-        """Initial errors of every assignment of the paper's damage to a robot; .json: the one that is used."""
+        """Initial errors of every assignment of the paper's damage; .json: the one that is used."""
         return f"{self.root}/assignments/{robot}{suffix}"
 
     def scenario(self, scenario: str) -> str:

@@ -1,4 +1,4 @@
-"""Which trainings a study consists of: the names of learners, what they mean, and who is compared with whom."""
+"""Which trainings a study consists of: what learners are called, and who is compared with whom."""
 
 import re
 from collections.abc import Iterable
@@ -51,7 +51,7 @@ SWITCHES = (
 
 
 def learners(study: Study) -> dict[str, Learner]:
-    """Every learner of a study by name: those of its configuration, and those that differ from them by one switch."""
+    """Every learner of a study by name: the configured ones, and those with one switch changed."""
     named = dict(study.learners)
     if IMPROVED in named and RITTER in named:
         improved, ritter = named[IMPROVED], named[RITTER]
@@ -95,7 +95,10 @@ def switched(study: Study) -> list[str]:
 
 
 def scenario_of(study: Study, scenario: str) -> tuple[str, str]:
-    """The scenario's name and its robot's: `NAME` is on the study's robot, `NAME-ROBOT` on another. Raises UnknownName."""
+    """Names of a scenario and its robot: `NAME` is on the study's robot, `NAME-ROBOT` on another.
+
+    Raises UnknownName.
+    """
     name, _, robot = scenario.partition("-")
     if name not in study.scenarios:
         raise UnknownName("scenario", name, study.scenarios)
@@ -112,7 +115,7 @@ def elsewhere(study: Study) -> dict[str, str]:
 
 
 class Trainings:
-    """All trainings of a study, each a scenario and a learner, under one name where two names mean the same.
+    """All trainings of a study, each a scenario and a learner: one name where two mean the same.
 
     Args:
         study: the study.
@@ -151,6 +154,6 @@ class Trainings:
         return list(dict.fromkeys(scenario for scenario, _ in self.runs))
 
     def tuned(self) -> list[str]:
-        """All trainings that settings are needed for, the longest first, so that no core waits for one at the end."""
+        """All trainings that need settings, the longest first: no core waits for one at the end."""
         needed: Iterable[Training] = self._short
         return [str(each) for each in sorted(needed, key=lambda each: -each.iterations)]

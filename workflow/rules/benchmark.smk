@@ -1,34 +1,17 @@
 """What should one use today? No part of the default run."""
 
-SIDE_BY_SIDE = 5  # scenarios in a job: a move takes half the time where the controller solves a hundred in one call
-
-
-def batches(names):
-    """The scenarios that share a job, and so a robot, by the name of their batch."""
-    by_robot = {}
-    for name in names:
-        by_robot.setdefault(scenarios.robot_of(name, config)[1], []).append(name)
-    shared = [own[first : first + SIDE_BY_SIDE] for own in by_robot.values() for first in range(0, len(own), SIDE_BY_SIDE)]
-    return {str(number): batch for number, batch in enumerate(shared)}
-
-
-BATCHES = batches(BENCHMARK["scenarios"])
-
 
 rule benchmark_run:
     input:
         code=code("benchmark.py"),
-        scenarios=lambda w: expand(rules.scenario.output[0], scenario=BATCHES[w.batch]),
+        scenarios=lambda w: [layout(w).scenario(name) for name in plan(w).batches()[w.batch]],
+        sample=lambda w: sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else [],
     output:
-        f"{RESULTS}/benchmark/{{learner}}/{{batch}}.parquet",
+        LAYOUT.benchmark_batch("{learner}", "{batch}"),
     params:
-        scenarios=lambda w: BATCHES[w.batch],
-        benchmark={key: BENCHMARK[key] for key in ("seeds", "moves", "longer")},
-        learner=lambda w: entry_of(w.learner) if training_of(w.learner, config["learners"]) else w.learner,
-        tests=TRAINING["tests"],
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     message:
-        "Let {wildcards.learner} work through {params.scenarios}"
+        "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
         "../scripts/benchmark.py"
 
@@ -36,30 +19,30 @@ rule benchmark_run:
 rule benchmark_table:
     input:
         code=code("benchmark_table.py"),
-        histories=expand(rules.benchmark_run.output, learner=BENCHMARK["learners"], batch=BATCHES),
+        histories=lambda w: [
+            layout(w).benchmark_batch(learner, batch)
+            for learner in study(w).benchmark.learners
+            for batch in plan(w).batches()
+        ],
     output:
-        table=f"{RESULTS}/benchmark.csv",
-        reached=f"{RESULTS}/benchmark_moves.csv",
-        seconds=f"{RESULTS}/benchmark_seconds.csv",
+        table=LAYOUT.benchmark,
+        reached=LAYOUT.benchmark_moves,
+        seconds=LAYOUT.benchmark_seconds,
     params:
-        thresholds=BENCHMARK["thresholds"],
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).benchmark_table()),
     message:
         "Put the benchmark together"
     script:
         "../scripts/benchmark_table.py"
 
 
-REAL = config["real"]
-
-
 rule real_data:
     input:
         code=code("real_data.py"),
     output:
-        f"{RESULTS}/real/{{part}}.csv",
+        LAYOUT.real_data("{part}"),
     params:
-        source=lambda w: REAL["data"][w.part],
+        job=lambda w: as_text(plan(w).real_data(w.part)),
     wildcard_constraints:
         part="fit|test",
     message:
@@ -71,13 +54,12 @@ rule real_data:
 rule real_run:
     input:
         code=code("real_run.py"),
-        fit=f"{RESULTS}/real/fit.csv",
-        test=f"{RESULTS}/real/test.csv",
+        fit=LAYOUT.real_data("fit"),
+        test=LAYOUT.real_data("test"),
     output:
-        f"{RESULTS}/real/runs/{{learner}}.csv",
+        LAYOUT.real_run("{learner}"),
     params:
-        real={key: REAL[key] for key in ("robot", "poses", "subsets")},
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).real_run(w.learner)),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
@@ -87,13 +69,12 @@ rule real_run:
 rule real_twin:
     input:
         code=code("real_twin.py"),
-        fit=f"{RESULTS}/real/fit.csv",
+        fit=LAYOUT.real_data("fit"),
+        sample=lambda w: sample(w, w.learner),
     output:
-        f"{RESULTS}/real/twin/{{learner}}.csv",
+        LAYOUT.real_twin("{learner}"),
     params:
-        real={key: REAL[key] for key in ("robot", "poses", "subsets")},
-        learner=lambda w: entry_of(w.learner),
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).real_twin(w.learner)),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:
@@ -103,42 +84,15 @@ rule real_twin:
 rule real_table:
     input:
         code=code("real_table.py"),
-        runs=[
-            *expand(rules.real_run.output, learner=REAL["learners"]),
-            *expand(rules.real_twin.output, learner=REAL["twin"]),
+        runs=lambda w: [
+            *(layout(w).real_run(learner) for learner in study(w).real.learners),
+            *(layout(w).real_twin(learner) for learner in study(w).real.twin),
         ],
     output:
-        f"{RESULTS}/real.csv",
+        LAYOUT.real,
     params:
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).real_table()),
     message:
         "Put the results on the real arm together"
     script:
         "../scripts/real_table.py"
-
-
-# Its part on the real arm is written where `real` was run before.
-rule guidance:
-    input:
-        code=code("guidance.py"),
-        template="workflow/templates/guidance.md.j2",
-        benchmark=rules.benchmark_table.output,
-        real=lambda w: [path for path in rules.real_table.output if Path(path).exists()],
-    output:
-        update("docs/guidance.md"),
-    message:
-        "Write the page of guidance"
-    script:
-        "../scripts/guidance.py"
-
-
-rule benchmark:
-    input:
-        rules.guidance.output,
-        expand(rules.figure.output, figure="figure12"),
-
-
-rule real:
-    input:
-        rules.real_table.output,
-        expand(rules.figure.output, figure="figure13"),

@@ -1,89 +1,65 @@
-"""Validation before anything runs, and what the other stages share."""
+"""The studies of this call, checked before anything runs, and what all rules share."""
 
-import hashlib
 import os
-from functools import cache
-from itertools import product
-from modulefinder import ModuleFinder
+import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import validate
-
-validate(config, schema="../schemas/config.schema.yaml")
-
-# A job has one core: without this, every job's linear algebra starts a thread for each core of the machine.
-os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-
-from recalib.study import scenarios
-from recalib.errors import InvalidSetting, RecalibError
-from recalib.study.evidence.claims import missing
-from recalib.study.experiments import tuned
-from recalib.study.experiments.benchmark import training_of
 
 ROOT = Path(workflow.basedir)
-RESULTS, FIGURE_FOLDER = config["results"], config["figures"]
+# The project's own modules, also where another copy of it is installed; and one core for each job:
+# without this, the linear algebra of every job starts a thread for each core of the machine.
+sys.path.insert(0, str(ROOT))
+os.environ.update(PYTHONPATH=str(ROOT), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
-
-@cache
-def code(script):
-    """The script and every module of recalib that it imports, directly or not: editing one re-runs what depends on it."""
-    finder = ModuleFinder(path=[str(ROOT)])
-    path = ROOT / "workflow" / "scripts" / script
-    finder.run_script(str(path))
-    modules = {Path(module.__file__) for module in finder.modules.values() if module.__file__}
-    return sorted(str(module.relative_to(ROOT)) for module in {*modules, path})
-
-
-def digest(path):
-    """What a file holds, as a parameter: an input that is also the output of `tune` would start the search."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest() if Path(path).exists() else None
-
-
-def chunks(total, size):
-    """Names of the chunks of so many seeds or trials."""
-    return range(-(-total // size))
-
-
-def bounds(chunk, total, size):
-    """The first and one past the last seed or trial of a chunk."""
-    return [int(chunk) * size, min((int(chunk) + 1) * size, total)]
-
-
-EXPERIMENTS, BENCHMARK = config["experiments"], config["benchmark"]
-SCENARIOS, PAPER = EXPERIMENTS["scenarios"], config["search"]["scenario"]
-RUNS = [
-    *product(SCENARIOS, EXPERIMENTS["learners"]),
-    *product([f"{PAPER}-{robot}" for robot in EXPERIMENTS["robots"]], EXPERIMENTS["learners"]),
-    *product([PAPER], EXPERIMENTS["paper"]),
-    *((PAPER, f"{learner}_{iterations}") for learner, rungs in EXPERIMENTS["ladder"].items() for iterations in rungs),
-]
+from recalib.errors import RecalibError
+from recalib.study.layout import RESULTS, SEARCHED, Layout
+from recalib.study.plan import Plan
+from recalib.study.studies import read_studies
+from recalib.study.trainings import Trainings
+from workflow.dependencies import code
 
 try:
-    scenarios.check(config)
-    for scenario in dict.fromkeys(scenario for scenario, _ in RUNS):
-        scenarios.robot_of(scenario, config)
-    for learner in EXPERIMENTS["ensemble"]:
-        tuned.training(learner, config["learners"])
-    for learner in BENCHMARK["learners"]:
-        training_of(learner, config["learners"])
-    if EXPERIMENTS["evidence"] and (lacking := missing(config)):
-        raise InvalidSetting("experiments.evidence", True, f"with {', '.join(lacking)}, or false")
-    # `improved` and `improved_200` may be one training: it is done once, under the shorter name.
-    TRAININGS = {}
-    for _, learner in RUNS:
-        TRAININGS.setdefault(tuned.training(learner, config["learners"]), learner)
+    # by the folder of their results: the shipped one, those of workflow/studies, and this call's
+    MAIN, STUDIES = read_studies(
+        ROOT, workflow.config_settings.configfiles, workflow.config_settings.config
+    )
 except RecalibError as error:
-    raise WorkflowError(f"config.yaml: {error}")
+    raise WorkflowError(str(error)) from None
 
-RUNS = list(dict.fromkeys((scenario, TRAININGS[tuned.training(learner, config["learners"])]) for scenario, learner in RUNS))
+LAYOUT = Layout("{root}")  # of rules, in which the folder is a wildcard
+TRAININGS = {root: Trainings(each) for root, each in STUDIES.items()}
+PLANS = {root: Plan(each) for root, each in STUDIES.items()}
+
+
+def layout(wildcards):
+    """The paths of the study that a job belongs to."""
+    return Layout(wildcards.root)
+
+
+def study(wildcards):
+    """The study that a job belongs to."""
+    return STUDIES[wildcards.root]
+
+
+def plan(wildcards):
+    """What each job of a study needs."""
+    return PLANS[wildcards.root]
+
+
+def as_text(job):
+    """A job as a parameter that Snakemake tracks: of all types it tracks only the built-in ones."""
+    return job.model_dump_json()
 
 
 wildcard_constraints:
-    scenario=r"[\w-]+",
+    root="|".join(STUDIES),
+    scenario=r"\w+(-\w+)?",
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",
     batch=r"\d+",
     round=r"[1-9]",
     series=r"[a-z]+",
+    figure=r"\w+",
+    training=r"\w+_\d+",

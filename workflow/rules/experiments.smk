@@ -1,50 +1,28 @@
 """Train every learner on its scenarios, in chunks of seeds."""
 
-TRAINING = config["training"]
-
-
-EVALUATION = {key: value for key, value in TRAINING.items() if key.startswith(("tests", "measure"))}
-
-
-def entry_of(learner):
-    """All that a learner's training depends on: its rules, its iterations and the settings found for them."""
-    which = tuned.training(learner, config["learners"])
-    rules_, settings = config["learners"][which.name], tuned.settings(which, config["tuned"])
-    return {**rules_, "iterations": which.iterations, "settings": settings}
-
-
-def seeds_of(learner):
-    """How many seeds a learner is trained with."""
-    iterations = tuned.training(learner, config["learners"]).iterations
-    return TRAINING["seeds" if iterations <= TRAINING["short"] else "seeds_long"]
-
 
 rule train:
     input:
         code=code("train.py"),
-        scenario=rules.scenario.output[0],
+        scenario=LAYOUT.scenario("{scenario}"),
+        sample=lambda w: sample(w, w.learner),
     output:
-        history=f"{RESULTS}/chunks/{{scenario}}/{{learner}}.{{chunk}}.parquet",
-        learned=f"{RESULTS}/chunks/{{scenario}}/{{learner}}.{{chunk}}.npz",
+        history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
+        learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
     params:
-        seeds=lambda w: bounds(w.chunk, seeds_of(w.learner), TRAINING["seeds_per_job"]),
-        learner=lambda w: entry_of(w.learner),
-        training=EVALUATION,
-        throughout=lambda w: w.scenario in SCENARIOS and w.learner in EXPERIMENTS["learners"],
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     priority: 10
     message:
-        "Train seeds {params.seeds[0]} to {params.seeds[1]} of {wildcards.learner} on {wildcards.scenario}"
+        "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
     script:
         "../scripts/train.py"
 
 
-def chunks_of(kind):
+def training_chunks(suffix):
     def of(wildcards):
-        return [
-            getattr(rules.train.output, kind).format(**wildcards, chunk=chunk)
-            for chunk in chunks(seeds_of(wildcards.learner), TRAINING["seeds_per_job"])
-        ]
+        numbers = plan(wildcards).training_chunks(wildcards.learner)
+        where = wildcards.scenario, wildcards.learner
+        return [layout(wildcards).chunk(*where, number, suffix) for number in numbers]
 
     return of
 
@@ -52,17 +30,59 @@ def chunks_of(kind):
 rule run:
     input:
         code=code("gather.py"),
-        histories=chunks_of("history"),
-        learned=chunks_of("learned"),
+        histories=training_chunks(".parquet"),
+        learned=training_chunks(".npz"),
     output:
-        history=f"{RESULTS}/runs/{{scenario}}/{{learner}}.parquet",
-        learned=f"{RESULTS}/runs/{{scenario}}/{{learner}}.npz",
+        history=LAYOUT.history("{scenario}", "{learner}"),
+        learned=LAYOUT.learned("{scenario}", "{learner}"),
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
         "../scripts/gather.py"
 
 
-def histories(runs):
-    """The histories of trainings, each a scenario and a learner."""
-    return [rules.run.output.history.format(scenario=scenario, learner=learner) for scenario, learner in runs]
+rule ensemble_chunk:
+    input:
+        code=code("ensemble.py"),
+        sample=lambda w: sample(w, w.learner),
+    output:
+        LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
+    params:
+        job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
+    message:
+        "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
+    script:
+        "../scripts/ensemble.py"
+
+
+rule ensemble:
+    input:
+        code=code("concat.py"),
+        chunks=lambda w: [
+            layout(w).ensemble_chunk(w.series, w.learner, chunk)
+            for chunk in plan(w).draw_chunks(w.series, w.learner)
+        ],
+    output:
+        LAYOUT.ensemble("{series}", "{learner}"),
+    message:
+        "Put the other damages for {wildcards.learner} together: {wildcards.series}"
+    script:
+        "../scripts/concat.py"
+
+
+rule bench:
+    input:
+        code=code("bench.py"),
+        scenario=own_scenario,
+        samples=lambda w: [sample(w, learner) for learner in MEASURED],
+    output:
+        LAYOUT.bench,
+    params:
+        job=lambda w: as_text(plan(w).speed(MEASURED)),
+    message:
+        "Measure the speed of moves and trainings"
+    script:
+        "../scripts/bench.py"
+
+
+MEASURED = ["improved", "ritter"]

@@ -1,16 +1,17 @@
 """Which damage, on which robot."""
 
+from recalib.study.configuration.damages import Assigned
+from recalib.study.trainings import scenario_of
+
 
 rule assignments:
     input:
         code=code("assign.py"),
     output:
-        table=f"{RESULTS}/assignments/{{robot}}.parquet",
-        assignment=f"{RESULTS}/assignments/{{robot}}.json",
+        table=LAYOUT.assignments("{robot}"),
+        assignment=LAYOUT.assignments("{robot}", ".json"),
     params:
-        robot=lambda w: config["robots"][w.robot],
-        damage=config["paper_damage"],
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).assignments(w.robot)),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
     script:
@@ -18,8 +19,10 @@ rule assignments:
 
 
 def assignment(wildcards):
-    name, robot = scenarios.robot_of(wildcards.scenario, config)
-    return rules.assignments.output.assignment.format(robot=robot) if scenarios.is_assigned(config["scenarios"][name]) else []
+    """The assignment of the paper's damage, for a scenario that has a part of it."""
+    name, robot = scenario_of(study(wildcards), wildcards.scenario)
+    assigned = any(isinstance(entry, Assigned) for entry in study(wildcards).scenarios[name])
+    return layout(wildcards).assignments(robot, ".json") if assigned else []
 
 
 rule scenario:
@@ -27,13 +30,15 @@ rule scenario:
         code=code("scenario.py"),
         assignment=assignment,
     output:
-        f"{RESULTS}/scenarios/{{scenario}}.json",
+        LAYOUT.scenario("{scenario}"),
     params:
-        damages=lambda w: config["scenarios"][scenarios.robot_of(w.scenario, config)[0]],
-        robot=lambda w: config["robots"][scenarios.robot_of(w.scenario, config)[1]],
-        controller=config["controller"],
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).scenario(w.scenario)),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"
     script:
         "../scripts/scenario.py"
+
+
+def own_scenario(wildcards):
+    """The paper's damage, as resolved in this study."""
+    return layout(wildcards).scenario(study(wildcards).scenario)

@@ -1,43 +1,65 @@
-"""The rough search for widths and rates. It is no part of the default run, which uses the files that it left."""
+"""The rough search for widths and rates: no part of a run that finds its samples in workflow/search."""
 
-SEARCH = config["search"]
-ROUNDS = range(1, SEARCH["rounds"] + 1)
-# The longest first, so that no core waits for one of them at the end.
-TUNED = sorted(map(str, TRAININGS), key=lambda name: -tuned.training(name, config["learners"]).iterations)
+from functools import cache
+
+from recalib.study.trainings import rules as rules_of, training
 
 
-def search_chunks(round_, learner):
+def sample(wildcards, learner):
+    """The file with the search's sample for a training: the shipped one, or the study's own."""
+    return sample_at(wildcards.root, str(training(study(wildcards), learner)))
+
+
+@cache
+def sample_at(root, name):
+    shipped, wanted = Path(SEARCHED, f"{name}.csv"), rules_of(STUDIES[root], name)
+    if STUDIES[root].settings == "shipped" and (ROOT / shipped).exists():
+        from recalib.study.experiments.samples import searched_for
+
+        if searched_for(ROOT / shipped).learner == wanted:
+            return shipped.as_posix()
+    return Layout(root).searched(name)
+
+
+def trial_chunks(wildcards, rounds):
     return [
-        rules.search_trials.output[0].format(learner=learner, round=round_, chunk=chunk)
-        for chunk in chunks(SEARCH["trials"], SEARCH["trials_per_job"])
+        layout(wildcards).search_chunk(wildcards.training, round_, chunk)
+        for round_ in rounds
+        for chunk in plan(wildcards).trial_chunks()
     ]
 
 
 rule search_trials:
     input:
         code=code("search_trials.py"),
-        scenario=rules.scenario.output[0].format(scenario=SEARCH["scenario"]),
-        earlier=lambda w: [path for round_ in range(1, int(w.round)) for path in search_chunks(round_, w.learner)],
+        scenario=own_scenario,
+        earlier=lambda w: trial_chunks(w, range(1, int(w.round))),
     output:
-        f"{RESULTS}/search/{{learner}}.{{round}}.{{chunk}}.csv",
+        LAYOUT.search_chunk("{training}", "{round}", "{chunk}"),
     params:
-        trials=lambda w: bounds(w.chunk, SEARCH["trials"], SEARCH["trials_per_job"]),
-        search={key: value for key, value in SEARCH.items() if key not in ("rounds", "trials_per_job")},
-        learner=lambda w: config["learners"][tuned.training(w.learner, config["learners"]).name],
-        tests=TRAINING["tests"],
+        job=lambda w: as_text(plan(w).trials(w.training, int(w.round), int(w.chunk))),
     message:
-        "Try settings {params.trials[0]} to {params.trials[1]} of round {wildcards.round} for {wildcards.learner}"
+        "Search for {wildcards.training}: round {wildcards.round}, chunk {wildcards.chunk}"
     script:
         "../scripts/search_trials.py"
 
 
+rule search:
+    input:
+        code=code("search_sample.py"),
+        trials=lambda w: trial_chunks(w, plan(w).rounds()),
+    output:
+        LAYOUT.searched("{training}"),
+    params:
+        job=lambda w: as_text(plan(w).sample(w.training)),
+    message:
+        "Keep all trials of the search for {wildcards.training}"
+    script:
+        "../scripts/search_sample.py"
+
+
 rule tune:
     input:
-        [path for learner in TUNED for round_ in ROUNDS for path in search_chunks(round_, learner)],
-    output:
-        settings=update(f"{config['tuned']}/settings.yaml"),
-        sample=update(f"{config['tuned']}/trials.csv"),
+        [Layout(MAIN).searched(name) for name in TRAININGS[MAIN].tuned()],
     message:
-        "Keep the best settings of the search for every training"
-    script:
-        "../scripts/search_settings.py"
+        "All widths and rates are searched for: see {input[0]} and its neighbours"

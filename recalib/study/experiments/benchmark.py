@@ -1,64 +1,23 @@
-"""What should one use today? Every learner on the same scenarios, in the unit that costs: robot moves."""
+"""What should one use today? Every learner on the same scenarios, in the unit that costs: moves."""
 
 import time
-from collections.abc import Callable, Mapping
-from functools import partial
-from typing import NamedTuple
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from recalib.errors import UnknownName
 from recalib.interfaces import Learner
 from recalib.learners import peers
-from recalib.nominal.controller import Controller
-from recalib.study.experiments import tuned
-from recalib.study.experiments.tuned import Training
+from recalib.study import jobs
+from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import Resolved, fleet
+from recalib.study.progress import progress_bar
+from recalib.training import train
 
 BLACK_BOX = "measured poses, two moves for each"
-
-
-class Entrant(NamedTuple):
-    """A learner in the benchmark: how it is made, and its iterations and moves."""
-
-    make: Callable[[int, Controller], Learner]
-    iterations: int
-    moves_per_iteration: int
-
-    def measure_at(self, budgets) -> list[int]:
-        """Iterations after which its moves meet one of the budgets."""
-        moves = self.moves_per_iteration
-        return [
-            budget // moves
-            for budget in budgets
-            if budget % moves == 0 and budget <= self.iterations * moves
-        ]
-
-
-def training_of(name: str, learners: Mapping) -> Training | None:
-    """The training of the paper's maps that the name means; None for a peer. Raises UnknownName."""
-    if name in peers.NEEDS:
-        return None
-    try:
-        return tuned.training(name, learners)
-    except UnknownName as error:
-        raise UnknownName("learner", name, [*peers.NEEDS, *error.valid]) from None
-
-
-def entrant(name: str, config: Mapping) -> Entrant:
-    """The learner of this name: a peer, or a training of the paper's maps with the settings found for it.
-
-    Raises UnknownName and InvalidSetting.
-    """
-    which = training_of(name, config["learners"])
-    if which is None:
-        return Entrant(partial(peers.build, name), max(config["benchmark"]["moves"]), 1)
-    tuned.settings(which, config["tuned"])
-    return Entrant(
-        lambda runs, _: tuned.build(which, runs, config["learners"], config["tuned"]),
-        which.iterations,
-        2,
-    )
+MOVES = 2  # of an iteration of the paper's learners
 
 
 class Timed:
@@ -88,8 +47,49 @@ class Timed:
         self.seconds += time.perf_counter() - start - moving
 
 
+def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int]:
+    """Iterations, of so many moves each, after which the moves meet one of the budgets."""
+    met = (budget for budget in budgets if budget % moves == 0)
+    return [budget // moves for budget in met if budget <= iterations * moves]
+
+
+def compete(
+    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None
+) -> pd.DataFrame:
+    """Let a learner work through scenarios of one robot side by side.
+
+    Args:
+        scenarios: files of the scenarios as resolved.
+        sample: for a learner of the paper, file of the search for it.
+
+    Returns a row for each scenario, seed and budget of moves.
+    """
+    runs, total = range(job.seeds), len(scenarios) * job.seeds
+    controller, plants = fleet([Resolved.read(path) for path in scenarios], job.seed, runs)
+    if job.learner is None:
+        iterations, moves = max(job.moves), 1
+        learner = Timed(peers.build(job.name, total, controller))
+    else:
+        iterations, moves = job.learner.iterations, MOVES
+        learner = Timed(build_tuned(job.learner, sample, total))
+    desired, tests = (
+        np.concatenate([poses(job.seed, scenario, runs, count) for scenario in job.scenarios])
+        for poses, count in ((desired_poses, iterations), (test_poses, job.tests))
+    )
+    budgets = measured_at([*job.moves, *job.longer], iterations, moves)
+    with progress_bar(f"{job.name} on {', '.join(job.scenarios)}", iterations) as progress:
+        history = train(plants, learner, desired, tests, budgets, progress)
+    frame = pd.DataFrame(history.columns())
+    return frame.assign(
+        scenario=np.array(job.scenarios)[frame["seed"] // len(runs)],
+        seed=frame["seed"] % len(runs),
+        learner=job.name,
+        seconds_per_move=learner.seconds / (total * iterations * moves),
+    )
+
+
 def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
-    """For each seed (seed,), the moves of the first measurement within the threshold; infinity where there is none."""
+    """Moves (seed,) of the first measurement within the threshold; infinity where there is none."""
     within = history[history[error] <= threshold].groupby("seed")["moves"].min()
     return (
         within.astype(float)

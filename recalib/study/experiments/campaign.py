@@ -1,54 +1,73 @@
-"""Trainings of one learner over many seeds, on one scenario or several side by side, as the workflow runs them."""
+"""Trainings of one learner over many seeds: their poses, and the chunks that the workflow runs."""
 
-import json
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
-from recalib.damaged.damage import DamagedArm, apply
-from recalib.damaged.fleet import Fleet
-from recalib.damaged.plant import Plant
-from recalib.nominal.controller import Controller
+from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.randomness import generator
-from recalib.study import scenarios
+from recalib.study import jobs
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import Resolved
+from recalib.study.progress import progress_bar
+from recalib.training import measuring_grid, train
 
 
-def load_scenario(path: str | Path, config: Mapping) -> tuple[Controller, DamagedArm]:
-    """The controller and the damaged arm that a file of the rule `scenario` describes."""
-    described = json.loads(Path(path).read_text())
-    controller = scenarios.load_controller(described["robot"], config)
-    return controller, apply(controller.robot, scenarios.parse_damages(described["damages"]))
+def desired_poses(seed: int, scope: str, runs: Sequence[int], iterations: int) -> np.ndarray:
+    """Poses to learn from, (run, iteration, 6): the same for every learner.
 
-
-def load_plant(path: str | Path, config: Mapping, runs: Sequence[int]) -> tuple[Controller, Plant]:
-    """The controller and the plant that a file of the rule `scenario` describes, with the disturbances of these runs."""
-    described = json.loads(Path(path).read_text())
-    controller, arm = load_scenario(path, config)
-    disturbances = scenarios.parse_disturbances(described["damages"])
-    generators = [
-        generator(config["seed"], described["scenario"], run, "disturbances") for run in runs
-    ]
-    return controller, Plant(controller, [arm], disturbances, generators)
-
-
-def load_fleet(
-    paths: Sequence[str | Path], config: Mapping, runs: Sequence[int]
-) -> tuple[Controller, Fleet]:
-    """As `load_plant`, for several scenarios of one robot side by side."""
-    controllers, plants = zip(*(load_plant(path, config, runs) for path in paths), strict=True)
-    return controllers[0], Fleet(controllers[0], plants)
-
-
-def desired_poses(seed: int, scenario: str, runs: Sequence[int], iterations: int) -> np.ndarray:
-    """Poses to learn from, (run, iteration, 6): the same for every learner, and fewer iterations see the first of them."""
+    Fewer iterations see the first of them. The scope is a scenario, or a word for another purpose.
+    """
     return np.stack(
-        [generator(seed, scenario, run, "desired").uniform(-1, 1, (iterations, 6)) for run in runs]
+        [generator(seed, scope, run, "desired").uniform(-1, 1, (iterations, 6)) for run in runs]
     )
 
 
-def test_poses(seed: int, scenario: str, runs: Sequence[int], count: int) -> np.ndarray:
+def test_poses(seed: int, scope: str, runs: Sequence[int], count: int) -> np.ndarray:
     """Poses to measure on, (run, pose, 6), never used for learning."""
     return np.stack(
-        [generator(seed, scenario, run, "tests").uniform(-1, 1, (count, 6)) for run in runs]
+        [generator(seed, scope, run, "tests").uniform(-1, 1, (count, 6)) for run in runs]
     )
+
+
+def measured_at(measuring: jobs.Measuring, iterations: int) -> list[int]:
+    """The iterations after which a training is measured throughout."""
+    return measuring_grid(iterations, measuring.every, measuring.evenly, measuring.measurements)
+
+
+def train_seeds(
+    job: jobs.Training, scenario: str | Path, sample: str | Path
+) -> tuple[pd.DataFrame, HierarchicalLearner]:
+    """Train some seeds of a learner on a scenario.
+
+    Args:
+        scenario: file of the scenario as resolved.
+        sample: file of the search for this training.
+
+    Returns the history, a row for each seed and measurement, and the trained learner.
+    """
+    resolved, runs, iterations = (
+        Resolved.read(scenario),
+        range(job.first, job.last),
+        job.learner.iterations,
+    )
+    plant = resolved.plant(resolved.controller(), job.seed, runs)
+    learner = build_tuned(job.learner, sample, len(runs))
+    name = f"{Path(sample).stem} on {job.scenario}"
+    with progress_bar(name, iterations) as progress:
+        history = train(
+            plant,
+            learner,
+            desired_poses(job.seed, job.scenario, runs, iterations),
+            test_poses(job.seed, job.scenario, runs, job.measuring.tests),
+            measured_at(job.measuring, iterations) if job.throughout else [0, iterations],
+            progress,
+        )
+    if refused := history.refused[:, -1].sum():
+        print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
+    frame = pd.DataFrame(history.columns())
+    frame["seed"] += job.first
+    return frame, learner

@@ -1,4 +1,4 @@
-"""Recordings are made here, of an arm that the tests bend: the real ones are no part of the project."""
+"""Measurementss are made here, of an arm that the tests bend: the real ones are no part of the project."""
 
 import numpy as np
 import pandas as pd
@@ -8,9 +8,9 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.study.experiments import recorded
-from recalib.study.experiments.recorded import (
+from recalib.study.experiments.real_arm import (
     LEARNERS,
-    read_recording,
+    read_measurements,
     remaining_errors,
     with_tool_point,
 )
@@ -65,7 +65,7 @@ def table(ur5) -> pd.DataFrame:
 def recording(table, tmp_path_factory):
     path = tmp_path_factory.mktemp("recorded") / "recording.csv"
     table.to_csv(path)
-    return read_recording(path)
+    return read_measurements(path)
 
 
 def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
@@ -107,4 +107,4 @@ def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
 def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, tmp_path):
     spoil(table).to_csv(tmp_path / "spoilt.csv")
     with pytest.raises(InvalidSetting, match="y_dif"):
-        read_recording(tmp_path / "spoilt.csv")
+        read_measurements(tmp_path / "spoilt.csv")

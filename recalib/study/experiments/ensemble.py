@@ -1,0 +1,69 @@
+"""Trainings on many assignments of the paper's damage, each a robot of its own, at several scales."""
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.damaged.damage import Damage, DamagedArm, apply
+from recalib.damaged.plant import Plant
+from recalib.errors import InvalidSetting
+from recalib.nominal.robots import Robot
+from recalib.randomness import generator
+from recalib.study import jobs
+from recalib.study.assignments import Ways
+from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import nominal_controller
+from recalib.training import train
+
+
+def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
+    """The arm with the damages `scale` times as large. Raises InvalidSetting: links are too short."""
+    return apply(robot, [damage.scaled(scale) for damage in damages])
+
+
+def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> Iterator[tuple]:
+    """Of the assignments in this order, the damages of those for which the links are long enough."""
+    for index in order:
+        try:
+            scaled_arm(robot, ways[index], scale)
+        except InvalidSetting:
+            continue
+        yield ways[index]
+
+
+def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
+    """Train a learner on some robots of a series, each with all scales of its damage.
+
+    Args:
+        sample: file of the search for this training.
+
+    Returns a row for each robot and scale.
+    """
+    controller = nominal_controller(job.nominal)
+    robot, iterations, scales = controller.robot, job.learner.iterations, job.plan.scales
+    ways = Ways(job.nominal.robot.links, job.shorten, robot.joints, job.shift)
+    order = generator(job.seed, "ensemble", job.series).permutation(len(ways))
+    drawn = list(islice(feasible(robot, ways, order, max(scales)), job.first, job.last))
+    cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
+    arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]
+    runs = [job.first + index for index, _ in cases]
+    history = train(
+        Plant(controller, arms),
+        build_tuned(job.learner, sample, len(cases)),
+        desired_poses(job.seed, "ensemble", runs, iterations),
+        test_poses(job.seed, "ensemble", runs, job.tests),
+        [0, iterations],
+    )
+    table = {
+        "robot": runs,
+        "scale": [scale for _, scale in cases],
+        "refused": history.refused[:, -1],
+    }
+    for moment, when in (("initial", 0), ("final", -1)):
+        table[f"{moment}_position_error_cm"] = 100 * history.position[:, when, 0]
+        table[f"{moment}_orientation_error_deg"] = np.degrees(history.orientation[:, when, 0])
+    return pd.DataFrame(table)

@@ -1,0 +1,257 @@
+"""A real arm: a UR5 whose tool was followed by a laser tracker, which saw positions only.
+
+Its table (CSV) has a row for each pose: joint_1 to joint_6 [deg] as commanded, x_t, y_t, z_t [mm]
+where the nominal kinematics put the tool, and x_dif, y_dif, z_dif [mm] by how much it was measured
+to be beside that. The joints' zero is that of the URDF; the manufacturer's base stands turned by
+half a turn about the vertical axis of the URDF's.
+"""
+
+import hashlib
+import shutil
+import urllib.request
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+
+from recalib.damaged.plant import Plant
+from recalib.errors import InvalidSetting, RecalibError, UnknownName
+from recalib.identification.calibration import Calibration, calibrate
+from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.nominal.controller import Controller
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.poses import POSITION, Workspace
+from recalib.nominal.robots import Robot
+from recalib.randomness import generator
+from recalib.study import jobs
+from recalib.study.experiments.benchmark import MOVES
+from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import nominal_robot
+from recalib.training import train
+
+ANGLES = [f"joint_{number}" for number in range(1, 7)]
+NOMINAL, MISSED = (["x_t", "y_t", "z_t"], ["x_dif", "y_dif", "z_dif"])
+TO_URDF_BASE = np.array([-1.0, -1.0, 1.0])
+PATIENCE = 60  # seconds for the public address to answer
+TOOL_POINT = 0.0, 0.00007, 0.031  # m, in the flange's frame: where the tracker's target was
+
+
+class WrongData(RecalibError):
+    """Measurements of the real arm that cannot be had, or are not those that are meant."""
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """What the tracker saw, in the conventions of the URDF.
+
+    Attributes:
+        angles: (n, 6) rad that were commanded.
+        nominal: (n, 3) m in the base frame, where the table says that the tool should have been.
+        measured: (n, 3) m in the base frame, where it was.
+    """
+
+    angles: np.ndarray
+    nominal: np.ndarray
+    measured: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
+    def __getitem__(self, rows) -> "Measurements":
+        return Measurements(self.angles[rows], self.nominal[rows], self.measured[rows])
+
+
+def read_measurements(path: str | PathLike) -> Measurements:
+    """The measurements in the table at `path`.
+
+    Raises InvalidSetting where a column is missing or holds anything but finite numbers.
+    """
+    table = pd.read_csv(path)
+    for column in (*ANGLES, *NOMINAL, *MISSED):
+        if (
+            column not in table
+            or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all()
+        ):
+            raise InvalidSetting(
+                f"column of {path}", column, "there, with a finite number in every row"
+            )
+    nominal = table[NOMINAL].to_numpy() * 1e-3 * TO_URDF_BASE
+    missed = table[MISSED].to_numpy() * 1e-3 * TO_URDF_BASE
+    return Measurements(np.radians(table[ANGLES].to_numpy()), nominal, nominal + missed)
+
+
+def with_tool_point(robot: Robot, point: tuple[float, float, float] = TOOL_POINT) -> Robot:
+    """The robot with its tool at a point of the flange, (3,) m in the tool's frame.
+
+    Its workspace moves along.
+    """
+    model = pin.Model(robot.arm.model)
+    tool = model.frames[tool_frame(model, robot.arm.tool)]
+    tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
+    arm = Arm(model, robot.arm.tool)
+    workspace = Workspace(arm.forward(robot.home[None])[0], robot.workspace.half_ranges)
+    return replace(robot, arm=arm, workspace=workspace)
+
+
+def calibrate_geometric(arm: Arm, measurements: Measurements) -> Calibration:
+    """The geometry of the nominal arm, identified."""
+    model = ErrorModel(arm, OFFSETS)
+    return Calibration(model, identify(model, measurements.angles, measurements.measured))
+
+
+def calibrate_hybrid(arm: Arm, measurements: Measurements) -> Calibration:
+    """Geometry, and as much else as the measurements show: a twin of the arm, for a `Plant`."""
+    return calibrate(
+        arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), measurements.angles, measurements.measured
+    )
+
+
+def _model_based(
+    fit: Callable[[Arm, Measurements], Calibration],
+    arm: Arm,
+    known: Measurements,
+    unknown: Measurements,
+) -> np.ndarray:
+    return unknown.measured - fit(arm, known).forward(unknown.angles)[:, :3, 3]
+
+
+def _black_box(
+    make: Callable[[int], PolynomialLearner | GaussianProcessLearner],
+    arm: Arm,
+    known: Measurements,
+    unknown: Measurements,
+) -> np.ndarray:
+    """Asked for the pose that was measured, the learner should command the one that was."""
+    commanded = arm.forward(known.angles)
+    centre = commanded[
+        np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
+    ]
+    raw = Workspace(centre, np.ones(6)).to_coordinates(commanded)
+    workspace = Workspace(centre, np.abs(raw).max(axis=0))
+    learner = make(1)
+    sent, achieved = _coordinates(arm, workspace, known)
+    learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
+    sent, achieved = _coordinates(arm, workspace, unknown)
+    return (sent - learner.command(achieved))[0, :, POSITION] * workspace.half_ranges[POSITION]
+
+
+def _coordinates(
+    arm: Arm, workspace: Workspace, measurements: Measurements
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates (1, n, 6) commanded and achieved.
+
+    The orientation, which was not measured, counts as commanded.
+    """
+    commanded = arm.forward(measurements.angles)
+    achieved = commanded.copy()
+    achieved[:, :3, 3] = measurements.measured
+    return workspace.to_coordinates(commanded)[None], workspace.to_coordinates(achieved)[None]
+
+
+# By name: from the nominal arm, measurements to learn from and others to be tested on, the errors
+# left there (m, 3) [m].
+LEARNERS: Mapping[str, Callable[[Arm, Measurements, Measurements], np.ndarray]] = {
+    "uncorrected": lambda arm, known, unknown: unknown.measured - unknown.nominal,
+    "affine": partial(_black_box, partial(PolynomialLearner, degree=1)),
+    "quadratic": partial(_black_box, partial(PolynomialLearner, degree=2)),
+    "gaussian_process": partial(_black_box, GaussianProcessLearner),
+    "geometric": partial(_model_based, calibrate_geometric),
+    "hybrid": partial(_model_based, calibrate_hybrid),
+}
+
+
+def remaining_errors(
+    learner: str, arm: Arm, known: Measurements, unknown: Measurements
+) -> np.ndarray:
+    """Distances (m,) [m] that the learner leaves at poses it has not learned from.
+
+    Args:
+        learner: one of `LEARNERS`.
+        arm: the nominal arm, its tool at the point that was measured; see `with_tool_point`.
+        known, unknown: what it learns from, and what it is tested on.
+
+    Raises UnknownName.
+    """
+    if learner not in LEARNERS:
+        raise UnknownName("learner from recorded poses", learner, LEARNERS)
+    return np.linalg.norm(LEARNERS[learner](arm, known, unknown), axis=-1)
+
+
+def fetch(job: jobs.RealData, path: Path) -> None:
+    """Bring a table to `path`, from a file or from its public address.
+
+    Raises WrongData where it is out of reach or not the one that is meant.
+    """
+    source = job.source
+    try:
+        if source.file:
+            shutil.copy(source.file, path)
+        else:
+            with urllib.request.urlopen(source.url, timeout=PATIENCE) as reply:
+                path.write_bytes(reply.read())
+    except OSError as error:
+        raise WrongData(
+            f"{source.file or source.url} is out of reach ({error}); a copy on this machine can be"
+            " named in real.data, as `file`"
+        ) from None
+    found = hashlib.sha256(path.read_bytes()).hexdigest()
+    if found != source.sha256:
+        where = source.file or source.url
+        raise WrongData(f"{where} has SHA-256 {found}; expected {source.sha256}")
+
+
+def learn_from_tables(job: jobs.RealRun, fit: str | PathLike, test: str | PathLike) -> pd.DataFrame:
+    """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
+
+    Returns a row for each number of poses and subset, with the mean error in mm.
+    """
+    robot = with_tool_point(nominal_robot(job.nominal))
+    known, tests = read_measurements(fit), read_measurements(test)
+    rows = []
+    for poses in job.poses:
+        # With all of them there is one subset only; what learns nothing needs one, too.
+        once = poses >= len(known) or job.learner == "uncorrected"
+        for subset in range(1 if once else job.subsets):
+            order = generator(job.seed, "real", poses, subset).permutation(len(known))
+            errors = remaining_errors(job.learner, robot.arm, known[order[:poses]], tests)
+            cells = {"learner": job.learner, "poses": poses, "subset": subset}
+            rows.append(cells | {"position_error_mm": 1e3 * errors.mean()})
+    return pd.DataFrame(rows)
+
+
+def learn_on_twin(job: jobs.RealTwin, fit: str | PathLike, sample: str | PathLike) -> pd.DataFrame:
+    """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
+
+    Args:
+        sample: file of the search for this training.
+
+    Returns a row for each number of moves and subset, with the mean error in mm.
+    """
+    robot = with_tool_point(nominal_robot(job.nominal))
+    twin = calibrate_hybrid(robot.arm, read_measurements(fit))
+    iterations, runs = job.learner.iterations, range(job.subsets)
+    met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
+    history = train(
+        Plant(Controller(robot, job.nominal.controller.greatest_condition), [twin]),
+        build_tuned(job.learner, sample, len(runs)),
+        desired_poses(job.seed, "twin", runs, iterations),
+        test_poses(job.seed, "twin", runs, job.tests),
+        sorted(met | {iterations}),
+    )
+    return pd.DataFrame(
+        {
+            "learner": f"{job.name} on a twin",
+            "poses": np.tile(history.moves, len(runs)),
+            "subset": np.repeat(runs, len(history.moves)),
+            "position_error_mm": 1e3 * history.position[..., 0].ravel(),
+        }
+    )

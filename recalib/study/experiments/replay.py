@@ -1,0 +1,48 @@
+"""Is the controller left alone (section 8)? A learner taught by a robot, and by a table of what it did."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.learned import flat
+from recalib.study import jobs
+from recalib.study.experiments.campaign import desired_poses
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import Resolved
+
+
+def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.DataFrame:
+    """For each array that the learner holds, the largest difference between both teachers.
+
+    Args:
+        scenario: file of the scenario as resolved.
+        sample: file of the search for this training.
+    """
+    resolved, iterations = Resolved.read(scenario), job.learner.iterations
+    plant = resolved.plant(resolved.controller(), job.seed, [0])
+    desired = desired_poses(job.seed, "replay", [0], iterations)
+    table = {}
+
+    def by_robot(commands):
+        """Ask the robot, and write down what it did."""
+        table[commands.tobytes()] = plant.execute(commands)
+        return table[commands.tobytes()]
+
+    def by_table(commands):
+        """Look it up; a command that was never sent is an error."""
+        return table[commands.tobytes()]
+
+    learned = []
+    for execute in (by_robot, by_table):
+        learner = build_tuned(job.learner, sample, 1)
+        for iteration in range(iterations):
+            learner.learn(desired[:, iteration], execute, iteration / iterations)
+        learned.append(flat(learner.state()[0]))
+    first, second = learned
+    return pd.DataFrame(
+        [
+            {"array": name, "difference": np.abs(second[name] - values).max()}
+            for name, values in first.items()
+        ]
+    )

@@ -1,0 +1,46 @@
+"""Samples of the search in files: all trials for a training, below what was searched for.
+
+Reading the head of a file needs no table: the workflow does it whenever it starts.
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from recalib.errors import RecalibError
+from recalib.study import jobs
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+COMMENT = "# "
+
+
+class BrokenSample(RecalibError):
+    """A file that holds no sample of the search."""
+
+    def __init__(self, path: str | Path):
+        self.path = path
+        super().__init__(f"{path} holds no sample of the search; delete it, and it is made anew")
+
+
+def write_sample(path: str | Path, job: jobs.Sample, trials: "pd.DataFrame") -> None:
+    """Keep the trials (a row each) of the search for a training."""
+    head = COMMENT + job.model_dump_json() + "\n"
+    Path(path).write_text(head + trials.to_csv(index=False), encoding="utf-8")
+
+
+def searched_for(path: str | Path) -> jobs.Sample:
+    """What the sample in a file was searched for. Raises BrokenSample."""
+    try:
+        with Path(path).open(encoding="utf-8") as lines:
+            return jobs.Sample.model_validate_json(next(lines).removeprefix(COMMENT))
+    except (ValueError, StopIteration):
+        raise BrokenSample(path) from None
+
+
+def read_sample(path: str | Path) -> "pd.DataFrame":
+    """The trials in a file, a row each. Raises BrokenSample."""
+    import pandas as pd
+
+    searched_for(path)
+    return pd.read_csv(path, skiprows=1)

@@ -1,0 +1,77 @@
+"""How fast are moves and trainings, in one process and beside a bare Pinocchio loop of the moves?"""
+
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.damaged.damage import DamagedArm
+from recalib.damaged.plant import Plant
+from recalib.nominal.kinematics import tool_frame
+from recalib.nominal.robots import Robot
+from recalib.study import jobs
+from recalib.study.experiments.campaign import desired_poses
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.plants import Resolved
+from recalib.training import train
+
+RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
+
+
+def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
+    """What one move costs at least: a nominal Jacobian and a damaged forward kinematics."""
+    nominal, damaged = robot.arm.model, arm.arm.model
+    data, other = nominal.createData(), damaged.createData()
+    frame = tool_frame(nominal, robot.arm.tool)
+    for q in angles:
+        pin.computeFrameJacobian(nominal, data, q, frame, pin.LOCAL_WORLD_ALIGNED)
+        pin.forwardKinematics(damaged, other, q + arm.offsets)
+        pin.updateFramePlacement(damaged, other, frame)
+
+
+def seconds(function, *arguments) -> float:
+    """How long a call takes."""
+    start = time.perf_counter()
+    function(*arguments)
+    return time.perf_counter() - start
+
+
+def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, str]) -> str:
+    """A line for moves, one for the bare loop, one for their ratio, and one for each learner.
+
+    Args:
+        scenario: file of the scenario as resolved.
+        samples: by learner, file of the search for it.
+    """
+    resolved = Resolved.read(scenario)
+    controller = resolved.controller()
+    robot, arm = controller.robot, resolved.arm(controller.robot)
+    plant, rng = Plant(controller, [arm]), np.random.default_rng(0)
+    commands = rng.uniform(-1, 1, (MOVES, RUNS, 1, 6))
+    angles = controller.inverse(robot.workspace.to_poses(commands.reshape(-1, 6)))
+    # Both in turn, and the ratio pair by pair: the machine may be shared.
+    pairs = [
+        (
+            seconds(lambda: [plant.execute(each) for each in commands]),
+            seconds(bare_loop, robot, arm, angles),
+        )
+        for _ in range(REPEATS)
+    ]
+    ours, bare = np.median(pairs, axis=0) / len(angles)
+    lines = [
+        f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second",
+        f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second",
+        f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}",
+    ]
+    desired = desired_poses(0, "bench", range(RUNS), ITERATIONS)
+    for name, rules in job.learners.items():
+        learner = build_tuned(rules, samples[name], RUNS)
+        arguments = Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
+        spent = seconds(train, *arguments) / (RUNS * ITERATIONS)
+        lines.append(
+            f"{name}: {1e6 * spent:.0f} us an iteration and seed,"
+            f" {10_000 * spent:.2f} s for 10,000 iterations"
+        )
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,205 @@
+"""What each kind of job needs, as one typed value: made from the study once, and handed over whole.
+
+Beside its inputs, a script sees nothing else. It travels as JSON, because of all types Snakemake
+tracks only the built-in ones: a change of any other would not run a job again.
+"""
+
+from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.study import (
+    Budget,
+    Controller,
+    Learner,
+    Mapping,
+    PaperDamage,
+    Part,
+    Ranges,
+    Robot,
+    Series,
+    Source,
+)
+from recalib.study.configuration.units import Size, Turn
+
+
+class Nominal(Part):
+    """The robot as its controller believes in it."""
+
+    name: str
+    robot: Robot
+    controller: Controller
+
+
+class Assignments(Part):
+    """Every assignment of the paper's damage to a robot."""
+
+    nominal: Nominal
+    damage: PaperDamage
+    seed: int
+
+
+class Scenario(Part):
+    """A damage to be resolved, and its initial errors."""
+
+    name: str
+    nominal: Nominal
+    damages: tuple[Entry, ...]
+    poses: int
+    seed: int
+
+
+class Measuring(Part):
+    """On how many poses a training is measured, and when."""
+
+    tests: int
+    every: int
+    evenly: int
+    measurements: int
+
+
+class Training(Part):
+    """Some seeds of a training: from `first` to before `last`."""
+
+    scenario: str
+    learner: Learner
+    first: int
+    last: int
+    measuring: Measuring
+    throughout: bool
+    seed: int
+
+
+class Trials(Part):
+    """Some trials of one round of the search for a training: from `first` to before `last`."""
+
+    training: str
+    learner: Learner
+    ranges: Ranges
+    trials: int
+    seeds: int
+    seed: int
+    round: int
+    first: int
+    last: int
+    tests: int
+
+
+class Sample(Part):
+    """The whole sample of the search for a training, and what was searched for, on what."""
+
+    learner: Learner
+    budget: Budget
+    robot: str
+    scenario: str
+
+
+class Draws(Part):
+    """Some robots of a series of other damages: from `first` to before `last`."""
+
+    nominal: Nominal
+    shorten: tuple[Size, ...]
+    shift: tuple[Turn, ...]
+    series: str
+    plan: Series
+    first: int
+    last: int
+    learner: Learner
+    tests: int
+    seed: int
+
+
+class TrueMapping(Part):
+    """Measurements of the true mapping."""
+
+    plan: Mapping
+    seed: int
+
+
+class Visits(Part):
+    """The Monte Carlo of the expected learning."""
+
+    seed: int
+
+
+class Replay(Part):
+    """A training by a robot, and by the table of what the robot did."""
+
+    learner: Learner
+    seed: int
+
+
+class Benchmark(Part):
+    """A learner on scenarios that share a job: a learner of the paper, or today's of this name."""
+
+    name: str
+    learner: Learner | None
+    scenarios: tuple[str, ...]
+    seeds: int
+    moves: tuple[int, ...]
+    longer: tuple[int, ...]
+    tests: int
+    seed: int
+
+
+class RealData(Part):
+    """A recording of the real arm to be fetched."""
+
+    source: Source
+
+
+class RealRun(Part):
+    """A learner on random subsets of the recorded poses."""
+
+    nominal: Nominal
+    learner: str
+    poses: tuple[int, ...]
+    subsets: int
+    seed: int
+
+
+class RealTwin(Part):
+    """A learner of the paper on the twin of the real arm."""
+
+    nominal: Nominal
+    name: str
+    learner: Learner
+    poses: tuple[int, ...]
+    subsets: int
+    tests: int
+    seed: int
+
+
+class Summary(Part):
+    """The final errors of trainings, each a scenario and a learner, in this order."""
+
+    trainings: tuple[tuple[str, str], ...]
+    seed: int
+
+
+class BenchmarkTable(Part):
+    """The errors of the benchmark, and the moves to each threshold."""
+
+    scenarios: tuple[str, ...]
+    learners: tuple[str, ...]
+    thresholds: tuple[float, ...]
+    seed: int
+
+
+class RealTable(Part):
+    """The errors on the real arm."""
+
+    seed: int
+
+
+class Recording(Part):
+    """Learners that are recorded side by side, by name; the arm follows the first."""
+
+    scenario: str
+    learners: dict[str, Learner]
+    measuring: Measuring
+    seed: int
+    published: dict[str, float]
+
+
+class Speed(Part):
+    """The learners whose speed is measured, by name."""
+
+    learners: dict[str, Learner]

@@ -1,0 +1,256 @@
+"""From a study to what each of its jobs needs."""
+
+from collections.abc import Iterable
+
+from recalib.errors import UnknownName
+from recalib.study import jobs
+from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.trainings import (
+    IMPROVED,
+    Trainings,
+    ritter_short,
+    rules,
+    scenario_of,
+    training,
+)
+
+SIDE_BY_SIDE = (
+    5  # scenarios in a job: a move takes half the time where a hundred are solved at once
+)
+
+
+def chunks(total: int, size: int) -> list[int]:
+    """The numbers of the chunks into which so many seeds, trials or robots are cut."""
+    return list(range(-(-total // size)))
+
+
+def bounds(chunk: int, total: int, size: int) -> dict[str, int]:
+    """The first of a chunk, and one past its last."""
+    return {"first": chunk * size, "last": min((chunk + 1) * size, total)}
+
+
+class Plan:
+    """What each job of a study needs.
+
+    Args:
+        study: the study.
+    """
+
+    def __init__(self, study: Study):
+        self.study = study
+
+    def nominal(self, robot: str) -> jobs.Nominal:
+        """A robot and its controller."""
+        study = self.study
+        return jobs.Nominal(name=robot, robot=study.robots[robot], controller=study.controller)
+
+    def assignments(self, robot: str) -> jobs.Assignments:
+        """Every assignment of the paper's damage to a robot."""
+        damage, seed = self.study.paper_damage, self.study.seed
+        return jobs.Assignments(nominal=self.nominal(robot), damage=damage, seed=seed)
+
+    def scenario(self, scenario: str) -> jobs.Scenario:
+        """The damage of `NAME` or `NAME-ROBOT`."""
+        name, robot = scenario_of(self.study, scenario)
+        return jobs.Scenario(
+            name=scenario,
+            nominal=self.nominal(robot),
+            damages=self.study.scenarios[name],
+            poses=self.study.paper_damage.poses,
+            seed=self.study.seed,
+        )
+
+    def seeds(self, learner: str) -> int:
+        """How many seeds a learner is trained with."""
+        plan = self.study.training
+        short = training(self.study, learner).iterations <= plan.short
+        return plan.seeds if short else plan.seeds_long
+
+    def measuring(self) -> jobs.Measuring:
+        """How trainings are measured."""
+        plan = self.study.training
+        return jobs.Measuring(
+            tests=plan.tests,
+            every=plan.measure_every,
+            evenly=plan.measure_evenly,
+            measurements=plan.measurements,
+        )
+
+    def training_chunks(self, learner: str) -> list[int]:
+        """The chunks of a training."""
+        return chunks(self.seeds(learner), self.study.training.seeds_per_job)
+
+    def training(self, scenario: str, learner: str, chunk: int) -> jobs.Training:
+        """Some seeds of a training."""
+        plan = self.study.experiments
+        return jobs.Training(
+            scenario=scenario,
+            learner=rules(self.study, learner),
+            **bounds(chunk, self.seeds(learner), self.study.training.seeds_per_job),
+            measuring=self.measuring(),
+            throughout=scenario in plan.scenarios and learner in plan.learners,
+            seed=self.study.seed,
+        )
+
+    def rounds(self) -> range:
+        """The rounds of the search."""
+        return range(1, self.study.search.rounds + 1)
+
+    def trial_chunks(self) -> list[int]:
+        """The chunks of a round of the search."""
+        return chunks(self.study.search.trials, self.study.search.trials_per_job)
+
+    def trials(self, learner: str, round_: int, chunk: int) -> jobs.Trials:
+        """Some trials of the search for a training."""
+        search = self.study.search
+        return jobs.Trials(
+            training=learner,
+            learner=rules(self.study, learner),
+            ranges=search.ranges,
+            trials=search.trials,
+            seeds=search.seeds,
+            seed=search.seed,
+            round=round_,
+            **bounds(chunk, search.trials, search.trials_per_job),
+            tests=self.study.training.tests,
+        )
+
+    def sample(self, learner: str) -> jobs.Sample:
+        """The whole sample of the search for a training."""
+        study = self.study
+        return jobs.Sample(
+            learner=rules(study, learner),
+            budget=Budget.model_validate(study.search.model_dump(include=set(Budget.model_fields))),
+            robot=study.robot,
+            scenario=study.scenario,
+        )
+
+    def draw_chunks(self, series: str, learner: str) -> list[int]:
+        """The chunks of a series of other damages."""
+        plan = self.study.experiments
+        return chunks(plan.ensemble[learner][series].draws, plan.draws_per_job)
+
+    def draws(self, series: str, learner: str, chunk: int) -> jobs.Draws:
+        """Some robots of a series of other damages."""
+        plan = self.study.experiments
+        its = plan.ensemble[learner][series]
+        return jobs.Draws(
+            nominal=self.nominal(self.study.robot),
+            shorten=self.study.paper_damage.shorten,
+            shift=self.study.paper_damage.shift,
+            series=series,
+            plan=its,
+            **bounds(chunk, its.draws, plan.draws_per_job),
+            learner=rules(self.study, learner),
+            tests=self.study.training.tests,
+            seed=self.study.seed,
+        )
+
+    def true_mapping(self) -> jobs.TrueMapping:
+        """Measurements of the true mapping."""
+        return jobs.TrueMapping(plan=self.study.mapping, seed=self.study.seed)
+
+    def visits(self) -> jobs.Visits:
+        """The Monte Carlo of the expected learning."""
+        return jobs.Visits(seed=self.study.seed)
+
+    def replay(self) -> jobs.Replay:
+        """A training by a robot, and by a table."""
+        return jobs.Replay(learner=rules(self.study, IMPROVED), seed=self.study.seed)
+
+    def batches(self) -> dict[str, list[str]]:
+        """The benchmark's scenarios that share a job, and so a robot, by their batch."""
+        by_robot: dict[str, list[str]] = {}
+        for name in self.study.benchmark.scenarios:
+            by_robot.setdefault(scenario_of(self.study, name)[1], []).append(name)
+        shared = [
+            own[first : first + SIDE_BY_SIDE]
+            for own in by_robot.values()
+            for first in range(0, len(own), SIDE_BY_SIDE)
+        ]
+        return {str(number): batch for number, batch in enumerate(shared)}
+
+    def benchmark(self, learner: str, batch: str) -> jobs.Benchmark:
+        """A learner on scenarios that share a job."""
+        study, plan = self.study, self.study.benchmark
+        return jobs.Benchmark(
+            name=learner,
+            learner=self._rules_unless_peer(learner),
+            scenarios=self.batches()[batch],
+            seeds=plan.seeds,
+            moves=plan.moves,
+            longer=plan.longer,
+            tests=study.training.tests,
+            seed=study.seed,
+        )
+
+    def _rules_unless_peer(self, learner: str) -> Learner | None:
+        try:
+            return rules(self.study, learner)
+        except UnknownName:  # one of today's, which have no settings: names were checked before
+            return None
+
+    def real_data(self, part: str) -> jobs.RealData:
+        """A recording of the real arm."""
+        return jobs.RealData(source=getattr(self.study.real.data, part))
+
+    def real_run(self, learner: str) -> jobs.RealRun:
+        """A learner on recorded poses."""
+        plan = self.study.real
+        return jobs.RealRun(
+            nominal=self.nominal(plan.robot),
+            learner=learner,
+            poses=plan.poses,
+            subsets=plan.subsets,
+            seed=self.study.seed,
+        )
+
+    def real_twin(self, learner: str) -> jobs.RealTwin:
+        """A learner of the paper on the twin of the real arm."""
+        plan = self.study.real
+        return jobs.RealTwin(
+            nominal=self.nominal(plan.robot),
+            name=learner,
+            learner=rules(self.study, learner),
+            poses=plan.poses,
+            subsets=plan.subsets,
+            tests=self.study.training.tests,
+            seed=self.study.seed,
+        )
+
+    def summary(self) -> jobs.Summary:
+        """The final errors of every training."""
+        return jobs.Summary(trainings=Trainings(self.study).runs, seed=self.study.seed)
+
+    def benchmark_table(self) -> jobs.BenchmarkTable:
+        """The tables of the benchmark."""
+        plan = self.study.benchmark
+        return jobs.BenchmarkTable(
+            scenarios=plan.scenarios,
+            learners=plan.learners,
+            thresholds=plan.thresholds,
+            seed=self.study.seed,
+        )
+
+    def real_table(self) -> jobs.RealTable:
+        """The errors on the real arm."""
+        return jobs.RealTable(seed=self.study.seed)
+
+    def recorded(self) -> list[str]:
+        """The learners that are recorded side by side."""
+        both = [IMPROVED, ritter_short(self.study)]
+        return [name for name in both if name in self.study.experiments.learners]
+
+    def recording(self, scenario: str) -> jobs.Recording:
+        """The recording of a scenario."""
+        return jobs.Recording(
+            scenario=scenario,
+            learners={name: rules(self.study, name) for name in self.recorded()},
+            measuring=self.measuring(),
+            seed=self.study.seed,
+            published=self.study.paper_damage.published.model_dump(),
+        )
+
+    def speed(self, learners: Iterable[str]) -> jobs.Speed:
+        """The learners whose speed is measured."""
+        return jobs.Speed(learners={name: rules(self.study, name) for name in learners})

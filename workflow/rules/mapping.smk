@@ -1,0 +1,45 @@
+"""What the paper says of the true mapping, measured without a learner, and of the controller."""
+
+
+rule study_mapping:
+    input:
+        code=code("study_mapping.py"),
+        scenarios=lambda w: [layout(w).scenario(name) for name in study(w).experiments.scenarios],
+        own=own_scenario,
+    output:
+        coupling=LAYOUT.mapping("coupling"),
+        propagation=LAYOUT.mapping("propagation"),
+    params:
+        job=lambda w: as_text(plan(w).true_mapping()),
+    message:
+        "Measure what sections 4 and 5 say of the true mapping"
+    script:
+        "../scripts/study_mapping.py"
+
+
+rule study_visits:
+    input:
+        code=code("study_visits.py"),
+    output:
+        LAYOUT.mapping("visits"),
+    params:
+        job=lambda w: as_text(plan(w).visits()),
+    message:
+        "Measure the expected learning of section 6"
+    script:
+        "../scripts/study_visits.py"
+
+
+rule study_replay:
+    input:
+        code=code("study_replay.py"),
+        scenario=own_scenario,
+        sample=lambda w: sample(w, "improved"),
+    output:
+        LAYOUT.mapping("replay"),
+    params:
+        job=lambda w: as_text(plan(w).replay()),
+    message:
+        "Teach the improved learner by a table instead of a robot"
+    script:
+        "../scripts/study_replay.py"
