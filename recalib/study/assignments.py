@@ -16,7 +16,8 @@ from recalib.nominal.poses import orientation_error, position_error
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.damages import Entry
-from recalib.study.configuration.study import Part, Published
+from recalib.study.configuration.study import Published
+from recalib.study.kept import Kept
 from recalib.study.plants import nominal_controller
 
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
@@ -92,7 +93,7 @@ def initial_errors(
         yield errors[0].mean(axis=1), errors[1].mean(axis=1)
 
 
-class Assignment(Part):
+class Assignment(Kept):
     """The assignment that is used, as the file of the rule `assignments` keeps it."""
 
     robot: str

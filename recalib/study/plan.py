@@ -82,13 +82,13 @@ class Plan:
 
     def training(self, scenario: str, learner: str, chunk: int) -> jobs.Training:
         """Some seeds of a training."""
-        plan = self.study.experiments
+        _, robot = scenario_of(self.study, scenario)
         return jobs.Training(
             scenario=scenario,
             learner=rules(self.study, learner),
             **bounds(chunk, self.seeds(learner), self.study.training.seeds_per_job),
             measuring=self.measuring(),
-            throughout=scenario in plan.scenarios and learner in plan.learners,
+            throughout=robot == self.study.robot and learner in self.study.experiments.learners,
             seed=self.study.seed,
         )
 
@@ -242,13 +242,14 @@ class Plan:
         return [name for name in both if name in self.study.experiments.learners]
 
     def recording(self, scenario: str) -> jobs.Recording:
-        """The recording of a scenario."""
+        """The recording of a scenario; what is published belongs to the study's own."""
+        published = self.study.paper_damage.published
         return jobs.Recording(
             scenario=scenario,
             learners={name: rules(self.study, name) for name in self.recorded()},
             measuring=self.measuring(),
             seed=self.study.seed,
-            published=self.study.paper_damage.published.model_dump(),
+            published=published.model_dump() if scenario == self.study.scenario else {},
         )
 
     def speed(self, learners: Iterable[str]) -> jobs.Speed:

@@ -1,8 +1,6 @@
 """Scenarios as resolved: a robot, its controller and its damages, from which a plant is made."""
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +18,7 @@ from recalib.study.configuration.damages import (
     damages_among,
     disturbances_among,
 )
-from recalib.study.configuration.study import Part
+from recalib.study.kept import Kept
 
 
 def nominal_robot(nominal: jobs.Nominal) -> Robot:
@@ -42,7 +40,7 @@ def nominal_controller(nominal: jobs.Nominal) -> Controller:
     return Controller(nominal_robot(nominal), nominal.controller.greatest_condition)
 
 
-class Resolved(Part):
+class Resolved(Kept):
     """A scenario as resolved: all that a plant is made of, as the rule `scenario` keeps it."""
 
     scenario: str
@@ -52,11 +50,6 @@ class Resolved(Part):
     initial_position_error_cm: float
     initial_orientation_error_deg: float
     nominal: jobs.Nominal
-
-    @classmethod
-    def read(cls, path: str | Path) -> "Resolved":
-        """The scenario in a file."""
-        return cls.model_validate_json(Path(path).read_bytes())
 
     def controller(self) -> Controller:
         """The nominal controller."""
@@ -86,7 +79,7 @@ def fleet(
     return controller, Fleet(controller, [each.plant(controller, seed, runs) for each in scenarios])
 
 
-def resolve(job: jobs.Scenario, assignment: Sequence[Entry]) -> Resolved:
+def resolve(job: jobs.Scenario, assignment: Sequence[Entry] = ()) -> Resolved:
     """The scenario with its part of the assignment put in, and the initial errors that it causes.
 
     Args:
@@ -113,8 +106,3 @@ def resolve(job: jobs.Scenario, assignment: Sequence[Entry]) -> Resolved:
         initial_orientation_error_deg=np.degrees(orientation_error(achieved, desired).mean()),
         nominal=job.nominal,
     )
-
-
-def as_json(part: Part) -> str:
-    """The text of a file that keeps it."""
-    return json.dumps(part.model_dump(mode="json"), indent=2) + "\n"

@@ -22,7 +22,7 @@ def assignment(wildcards):
     """The assignment of the paper's damage, for a scenario that has a part of it."""
     name, robot = scenario_of(study(wildcards), wildcards.scenario)
     assigned = any(isinstance(entry, Assigned) for entry in study(wildcards).scenarios[name])
-    return layout(wildcards).assignments(robot, ".json") if assigned else []
+    return [layout(wildcards).assignments(robot, ".json")] if assigned else []
 
 
 rule scenario:

@@ -1,76 +1,133 @@
-"""Everything that figures are drawn from and claims are judged by, as the workflow leaves it in its folders."""
+"""Everything that figures are drawn from and claims are judged by: what was declared, and no more."""
 
 import json
-from collections.abc import Mapping
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
+from pydantic import JsonValue
 
+from recalib.errors import RecalibError
 from recalib.randomness import generator
-from recalib.study.experiments import tuned
+from recalib.study.evidence.needs import Needs
+from recalib.study.layout import Layout
+from recalib.study.measured import ERRORS
 
-ERRORS = ["position_error_cm", "orientation_error_deg"]
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+class Undeclared(RecalibError):
+    """Something that was read without being declared: a change of it would go unnoticed."""
+
+    def __init__(self, what: str):
+        self.what = what
+        super().__init__(f"{what} is read, but not among the declared needs")
 
 
 class Evidence:
     """Results by name.
 
     Args:
-        config: the configuration.
+        needs: what may be read.
     """
 
-    def __init__(self, config: Mapping):
-        self.config, self.results = config, Path(config["results"])
-        self.paper, self.robot = config["search"]["scenario"], config["robot"]
-        self.published: Mapping[str, float] = config["paper_damage"]["published"]
-        self.scenarios: list[str] = config["experiments"]["scenarios"]
+    def __init__(self, needs: Needs):
+        self._needs, self._layout = needs, Layout(needs.root)
 
-    def history(self, learner: str, scenario: str | None = None) -> pd.DataFrame:
-        """A row for each seed and measurement of a training; the scenario is the paper's damage unless given."""
-        return pd.read_parquet(
-            self.results / "runs" / (scenario or self.paper) / f"{learner}.parquet"
-        )
+    def fact(self, name: str) -> JsonValue:
+        """What is known of the study beside its results. Raises Undeclared."""
+        if name not in self._needs.facts:
+            raise Undeclared(name)
+        return self._needs.facts[name]
+
+    def _declared(self, path: str) -> str:
+        if path not in self._needs.files:
+            raise Undeclared(path)
+        return path
+
+    def _table(self, path: str) -> "pd.DataFrame":
+        import pandas as pd
+
+        read = pd.read_parquet if path.endswith(".parquet") else pd.read_csv
+        return read(self._declared(path))
+
+    def history(self, learner: str, scenario: str | None = None) -> "pd.DataFrame":
+        """A row for each seed and measurement of a training.
+
+        Args:
+            learner: name of the training.
+            scenario: the study's own unless given.
+        """
+        return self._table(self._layout.history(scenario or self.fact("scenario"), learner))
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
-        """Position errors in cm and orientation errors in degrees (seed, 2) of the last or the first measurement."""
+        """Position [cm] and orientation errors [degrees] (seed, 2), last or first measurement."""
         history = self.history(learner, scenario)
         when = history["iteration"].max() if moment == "last" else history["iteration"].min()
-        return history[history["iteration"] == when].sort_values("seed")[ERRORS].to_numpy()
+        then = history[history["iteration"] == when].sort_values("seed")
+        return then[list(ERRORS)].to_numpy()
 
-    def ladder(self, name: str) -> dict[int, np.ndarray]:
-        """Final errors (seed, 2) for each number of iterations that the learner was tuned and trained for."""
-        learners = self.config["learners"]
-        short = {
-            tuned.training(learner, learners): learner
-            for learner in self.config["experiments"]["learners"]
-        }
-        rungs = self.config["experiments"]["ladder"][name]
-        return {
-            rung: self.errors(short.get((name, rung), f"{name}_{rung}")) for rung in sorted(rungs)
-        }
+    def ladder(self, learner: str) -> dict[int, np.ndarray]:
+        """Final errors (seed, 2) for each number of iterations that it was tuned and trained for."""
+        return {rung: self.errors(name) for rung, name in self.fact("ladder")[learner]}
 
-    def ensemble(self, learner: str, series: str) -> pd.DataFrame:
+    def ensemble(self, learner: str, series: str) -> "pd.DataFrame":
         """A row for each robot and scale of a series of other damages."""
-        return pd.read_parquet(self.results / "ensemble" / f"{series}.{learner}.parquet")
+        return self._table(self._layout.ensemble(series, learner))
 
-    def study(self, name: str) -> pd.DataFrame:
+    def mapping(self, name: str) -> "pd.DataFrame":
         """A measurement of the true mapping."""
-        return pd.read_parquet(self.results / "studies" / f"{name}.parquet")
+        return self._table(self._layout.mapping(name))
 
-    def assignments(self) -> pd.DataFrame:
+    def assignments(self) -> "pd.DataFrame":
         """The initial errors of every assignment of the paper's damage."""
-        return pd.read_parquet(self.results / "assignments" / f"{self.robot}.parquet")
+        return self._table(self._layout.assignments(self.fact("robot")))
 
-    def trials(self, training: str) -> pd.DataFrame:
-        """The sample of the search for one training."""
-        sample = pd.read_csv(Path(self.config["tuned"]) / "trials.csv")
-        return sample[sample["training"] == training].dropna(axis=1)
+    def sample(self, learner: str) -> "pd.DataFrame":
+        """The sample of the search for a training, a trial a row."""
+        from recalib.study.experiments.samples import read_sample
+
+        return read_sample(self._sample_path(learner))
+
+    def search_seeds(self, learner: str) -> int:
+        """Seeds over which each trial of the search for a training was averaged."""
+        from recalib.study.experiments.samples import searched_for
+
+        return searched_for(self._sample_path(learner)).budget.seeds
+
+    def _sample_path(self, learner: str) -> str:
+        if learner not in self._needs.samples:
+            raise Undeclared(f"the search for {learner}")
+        return self._needs.samples[learner]
+
+    def scenario(self, scenario: str | None = None) -> dict:
+        """A damage as resolved."""
+        return self._read(self._layout.scenario(scenario or self.fact("scenario")))
 
     def claims(self) -> list[dict]:
         """The judged claims."""
-        return json.loads((self.results / "claims.json").read_text())
+        return self._read(self._layout.claims)
+
+    def _read(self, path: str):
+        with open(self._declared(path), encoding="utf-8") as text:
+            return json.load(text)
+
+    def summary(self) -> "pd.DataFrame":
+        """The first and the last errors of every training."""
+        return self._table(self._layout.summary)
+
+    def benchmark(self) -> "pd.DataFrame":
+        """Errors of every learner against moves."""
+        return self._table(self._layout.benchmark)
+
+    def benchmark_moves(self) -> "pd.DataFrame":
+        """Moves to each threshold."""
+        return self._table(self._layout.benchmark_moves)
+
+    def real(self) -> "pd.DataFrame":
+        """Errors on the real arm."""
+        return self._table(self._layout.real)
 
     def rng(self, *keys: str) -> np.random.Generator:
         """Randomness of an interval."""
-        return generator(self.config["seed"], "evidence", *keys)
+        return generator(self.fact("seed"), "evidence", *keys)

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.experiments.settings import build_tuned
@@ -40,21 +41,19 @@ def measured_at(measuring: jobs.Measuring, iterations: int) -> list[int]:
 
 def train_seeds(
     job: jobs.Training, scenario: str | Path, sample: str | Path
-) -> tuple[pd.DataFrame, HierarchicalLearner]:
+) -> tuple[pd.DataFrame, HierarchicalLearner, Robot]:
     """Train some seeds of a learner on a scenario.
 
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the search for this training.
 
-    Returns the history, a row for each seed and measurement, and the trained learner.
+    Returns the history, a row for each seed and measurement, the trained learner, and the robot as
+    its controller believes in it.
     """
-    resolved, runs, iterations = (
-        Resolved.read(scenario),
-        range(job.first, job.last),
-        job.learner.iterations,
-    )
-    plant = resolved.plant(resolved.controller(), job.seed, runs)
+    resolved, iterations = Resolved.read(scenario), job.learner.iterations
+    controller, runs = resolved.controller(), range(job.first, job.last)
+    plant = resolved.plant(controller, job.seed, runs)
     learner = build_tuned(job.learner, sample, len(runs))
     name = f"{Path(sample).stem} on {job.scenario}"
     with progress_bar(name, iterations) as progress:
@@ -70,4 +69,4 @@ def train_seeds(
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
     frame = pd.DataFrame(history.columns())
     frame["seed"] += job.first
-    return frame, learner
+    return frame, learner, controller.robot

@@ -1,4 +1,4 @@
-"""Is the controller left alone (section 8)? A learner taught by a robot, and by a table of what it did."""
+"""Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
 
 from pathlib import Path
 
@@ -42,7 +42,8 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.Dat
     first, second = learned
     return pd.DataFrame(
         [
-            {"array": name, "difference": np.abs(second[name] - values).max()}
-            for name, values in first.items()
+            {"array": f"{group}/{name}", "difference": np.abs(second[group][name] - values).max()}
+            for group, arrays in first.items()
+            for name, values in arrays.items()
         ]
     )
