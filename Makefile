@@ -11,9 +11,10 @@ all: setup ## the full replication
 
 setup: .venv/installed ## the environment, from the lock file
 
-.venv/installed: requirements.lock
+.venv/installed: requirements.lock pyproject.toml
 	$(PYTHON) -m venv .venv
 	.venv/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-index --no-build-isolation --no-deps --editable .
 	touch $@
 
 test: setup ## the linters and all tests
@@ -41,7 +42,7 @@ tune: setup ## repeat the search for widths and rates from scratch
 	$(SNAKEMAKE) tune
 
 lock: ## pin the dependencies of pyproject.toml anew (needs uv)
-	uv pip compile pyproject.toml --extra dev --universal --generate-hashes --no-emit-index-url --python-version 3.11 \
+	uv pip compile pyproject.toml --extra study --extra dev --universal --generate-hashes --no-emit-index-url --python-version 3.11 \
 	  --custom-compile-command "make lock" --output-file requirements.lock
 
 clean: ## remove results, keep the environment

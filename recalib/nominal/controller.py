@@ -23,6 +23,7 @@ DEGREE = (
 )
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
+GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 
 
@@ -58,7 +59,7 @@ class Controller:
     Raises UnfitWorkspace where the workspace is out of reach, beyond a joint limit or too near to a singularity.
     """
 
-    def __init__(self, robot: Robot, greatest_condition: float):
+    def __init__(self, robot: Robot, greatest_condition: float = GREATEST_CONDITION):
         self.robot = robot
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
         knots, solved = np.tile(robot.home, (len(grid), 1)), []

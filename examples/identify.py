@@ -1,0 +1,30 @@
+"""Identify an arm from positions measured at 0.1 mm, each where a measurement teaches the most."""
+
+import numpy as np
+from ur10 import robot
+
+from recalib import Controller, calibrate
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.identification.design import information_gains
+from recalib.identification.error_model import OFFSETS
+from recalib.nominal.poses import position_error
+
+rng = np.random.default_rng(1996)
+arm = apply(robot, [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.07)])
+
+
+def measure(angles):
+    """The tool's positions (n, 3) [m] at joint angles (n, 6) [rad]: here comes your instrument."""
+    return arm.forward(angles)[:, :3, 3] + rng.normal(scale=1e-4, size=(len(angles), 3))
+
+
+poses = robot.workspace.to_poses(robot.workspace.sample(rng, 300))
+candidates, tests = np.split(Controller(robot).inverse(poses), [200])
+angles, measured = candidates[:1], measure(candidates[:1])
+for _ in range(12):
+    calibration = calibrate(robot.arm, [OFFSETS], angles, measured)
+    missed = position_error(calibration.forward(tests), arm.forward(tests)).mean()
+    print(f"{len(angles):2} positions: predictions miss by {1e3 * missed:.2f} mm")
+    best = information_gains(calibration, candidates).argmax()
+    angles = np.vstack([angles, candidates[best]])
+    measured = np.vstack([measured, measure(candidates[[best]])])

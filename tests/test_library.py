@@ -1,0 +1,125 @@
+"""The library by itself: its public names, its examples, and its wheel where nothing else is."""
+
+import importlib
+import importlib.metadata
+import inspect
+import re
+import runpy
+import shutil
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import recalib
+from tests.conftest import ROOT
+
+EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem != "ur10")
+FOR_STUDIES = "matplotlib", "pandas", "pydantic", "rerun", "snakemake", "yaml"
+
+
+@pytest.mark.parametrize("name", recalib.__all__)
+def test_a_public_name_has_a_home_and_says_what_it_is(name):
+    value = getattr(recalib, name)
+    assert name in dir(recalib)
+    if name.isupper():
+        return
+    assert value.__module__.startswith("recalib.")
+    assert len(inspect.getdoc(value)) > 40
+
+
+def test_an_unknown_name_is_no_attribute():
+    with pytest.raises(ImportError, match="cannot import name 'trian'"):
+        from recalib import trian  # noqa: F401
+
+
+def test_the_packages_come_with_the_names_that_need_them():
+    code = "import recalib, sys; print(*sys.modules)"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
+    assert not {"numpy", "scipy", "pinocchio", "sklearn"} & set(loaded.stdout.split())
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
+    path = ROOT / "examples" / f"{name}.py"
+    assert len(path.read_text().splitlines()) <= 30
+    monkeypatch.syspath_prepend(path.parent)
+    monkeypatch.setattr("matplotlib.pyplot.show", lambda: None)
+    runpy.run_path(str(path))
+    told = capsys.readouterr().out
+    errors = [float(number) for number in re.findall(r"([\d.]+) (?:mm|cm)", told)]
+    assert 0 <= errors[-1] < 0.1 * errors[0]
+    if name == "save_and_load":
+        assert "is of another robot: its home differs by up to 0.1" in told
+
+
+def closure(names) -> set[str]:
+    """These distributions and all that they need, extras left out."""
+    needed, waiting = set(), {canonicalize_name(name) for name in names}
+    while waiting:
+        name = waiting.pop()
+        needed.add(name)
+        for text in importlib.metadata.requires(name) or []:
+            requirement = Requirement(text)
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                waiting |= {canonicalize_name(requirement.name)} - needed
+    return needed
+
+
+def link(names, site: Path) -> None:
+    """Put what these distributions installed here into another environment, by links."""
+    for each in map(importlib.metadata.distribution, names):
+        for top in {file.parts[0] for file in each.files} - {"..", "__pycache__"}:
+            if not (site / top).exists():  # Pinocchio's distributions share a folder
+                (site / top).symlink_to(each.locate_file(top))
+
+
+@pytest.fixture(scope="module")
+def empty(tmp_path_factory) -> Path:
+    """The Python of an environment with the wheel and what it declares to need, nothing else."""
+    folder = tmp_path_factory.mktemp("wheel")
+    source, environment = folder / "source", folder / "environment"
+    source.mkdir()
+    shutil.copytree(ROOT / "recalib", source / "recalib")
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source / name)
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    alone = ["--no-index", "--no-deps"]
+    subprocess.run(
+        [*pip, "wheel", *alone, "--no-build-isolation", "--wheel-dir", folder, source], check=True
+    )
+    venv.create(environment, symlinks=True)
+    python = environment / "bin" / "python"
+    (wheel,) = folder.glob("*.whl")
+    subprocess.run([*pip, "--python", python, "install", *alone, wheel], check=True)
+    (site,) = environment.glob("lib/python*/site-packages")
+    (installed,) = importlib.metadata.distributions(path=[str(site)])
+    needed = map(Requirement, installed.requires)
+    declared = [
+        each.name for each in needed if not each.marker or each.marker.evaluate({"extra": ""})
+    ]
+    link(closure(declared), site)
+    return python
+
+
+def test_the_wheel_works_where_nothing_of_the_studies_is(empty, tmp_path):
+    code = f"""
+import importlib.util
+import recalib
+assert "environment" in recalib.__file__, recalib.__file__
+assert [name for name in {FOR_STUDIES} if importlib.util.find_spec(name)] == []
+for name in recalib.__all__:
+    getattr(recalib, name)
+"""
+    subprocess.run([empty, "-I", "-c", code], cwd=tmp_path, check=True)
+    example = shutil.copytree(ROOT / "examples", tmp_path / "examples") / "save_and_load.py"
+    told = subprocess.run(
+        [empty, example], cwd=tmp_path, check=True, capture_output=True, text=True
+    ).stdout
+    assert "commanded corrected: 0.0000" in told
