@@ -75,21 +75,21 @@ def _choice(kind: type[Described], model: type[Part]) -> Any:
         said = getattr(read, kind.under) if kind.under else read
         return kind(**{name: getattr(said, word.key) for name, word in words(kind).items()})
 
-    return Annotated[model, WrapValidator(read), Tag(kind.__name__)]
+    return Annotated[model, WrapValidator(read), Tag(model.__name__)]
 
 
 _MODELS = {kind: _model(kind) for kind in (*DAMAGES, *DISTURBANCES)}
-_NAMES = {key: kind.__name__ for kind, model in _MODELS.items() for key in model.model_fields}
-_NAMES["assigned"] = Assigned.__name__
+_BY_KEY = {key: model for model in (*_MODELS.values(), Assigned) for key in model.model_fields}
 
 
 def _name_of(value: Any) -> str | None:
     """The kind that an entry is meant to be: by the first of its words that is one, or nearly."""
     if not isinstance(value, Mapping):
-        return type(value).__name__
-    known = next((key for key in value if key in _NAMES), None)
-    near = (nearest(key, _NAMES) for key in value)
-    return _NAMES.get(known or next(filter(None, near), None))
+        return _MODELS.get(type(value), type(value)).__name__
+    said = next((key for key in value if key in _BY_KEY), None)
+    near = (nearest(key, _BY_KEY) for key in value)
+    meant = said or next(filter(None, near), None)
+    return _BY_KEY[meant].__name__ if meant else None
 
 
 def describe(entry: "Entry") -> dict[str, Any]:

@@ -13,20 +13,22 @@ from recalib.study.configuration.part import Part
 from recalib.study.configuration.units import (
     Angle,
     Count,
+    Distinct,
     Fraction,
     Name,
     Number,
+    Ordered,
     Positive,
     Range,
     Seed,
     Size,
+    SomeDistinct,
     Switch,
     Text,
     Turn,
 )
 
 Several = Field(min_length=1)
-Low = High = Positive
 
 
 class Workspace(Part):
@@ -47,11 +49,11 @@ class Robot(Part):
     """Link whose frame is the pose."""
     home: Annotated[dict[str, Angle], Several]
     """Joint angles at the centre of the workspace."""
-    limits: dict[str, tuple[Angle, Angle]] = {}
+    limits: dict[str, Ordered[Angle]] = Field(default={})
     """Joint limits that replace those of the URDF."""
     workspace: Workspace
     """Full size of the workspace."""
-    links: Annotated[tuple[Text, ...], Several]
+    links: SomeDistinct[Text]
     """Links to which the paper's damage may be assigned."""
 
 
@@ -71,13 +73,18 @@ class Published(Part):
     """In degrees."""
 
 
-class PaperDamage(Part):
-    """The damage of section 7, whose links, encoders and signs are not published."""
+class Amounts(Part):
+    """By how much the paper's robot was damaged (section 7)."""
 
     shorten: Annotated[tuple[Size, ...], Several]
     """Lengths taken off as many links."""
     shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Several]
     """Angles by which as many encoders are shifted, in either direction."""
+
+
+class PaperDamage(Amounts):
+    """The damage of section 7, whose links, encoders and signs are not published."""
+
     published: Published
     """Initial errors in the paper."""
     poses: Count
@@ -112,26 +119,26 @@ class Series(Part):
 
     draws: Count
     """Assignments drawn."""
-    scales: Annotated[tuple[Positive, ...], Several]
+    scales: SomeDistinct[Positive]
     """Factors of all amounts."""
 
 
 class Experiments(Part):
     """Which learners are trained on which scenarios."""
 
-    scenarios: Annotated[tuple[Text, ...], Several]
+    scenarios: SomeDistinct[Text]
     """On the study's robot, or NAME-ROBOT."""
-    learners: Annotated[tuple[Name, ...], Several]
+    learners: SomeDistinct[Name]
     """Trained on each of them: learners, or NAME_ITERATIONS."""
-    beside: tuple[Name, ...]
+    beside: Distinct[Name]
     """More learners, trained on the study's own scenario alone."""
     switches: Switch
     """Whether to take each of the four changes from the improved system and add it to Ritter's."""
-    ladder: dict[Name, tuple[Count, ...]]
+    ladder: dict[Name, Distinct[Count]]
     """Learners trained on the study's own scenario for several numbers of iterations."""
     evidence: Switch
     """Whether to judge the claims of the paper and to draw their figures."""
-    robots: tuple[Name, ...]
+    robots: Distinct[Name]
     """Other robots for the study's own scenario."""
     ensemble: dict[Name, dict[Annotated[str, Field(pattern="^[a-z]+$")], Series]]
     """For each learner, robots with other assignments or amounts of the paper's damage."""
@@ -142,17 +149,17 @@ class Experiments(Part):
 class Benchmark(Part):
     """The comparison of all learners in robot moves."""
 
-    scenarios: Annotated[tuple[Text, ...], Several]
+    scenarios: SomeDistinct[Text]
     """On the study's robot, or NAME-ROBOT."""
-    learners: Annotated[tuple[Name, ...], Several]
+    learners: SomeDistinct[Name]
     """Today's learners, the paper's, or NAME_ITERATIONS."""
     seeds: Count
     """Seeds of each learner on each scenario."""
-    moves: Annotated[tuple[Count, ...], Several]
+    moves: SomeDistinct[Count]
     """Budgets of moves at which to measure."""
-    longer: tuple[Count, ...]
+    longer: Distinct[Count]
     """More budgets, for trainings that go on."""
-    thresholds: Annotated[tuple[Positive, ...], Several]
+    thresholds: SomeDistinct[Positive]
     """Errors to reach, in cm and degrees; the first of them is the page's."""
 
 
@@ -194,11 +201,11 @@ class Real(Part):
     """Its recordings."""
     published: PublishedReal
     """What was published with them."""
-    learners: Annotated[tuple[Name, ...], Several]
+    learners: SomeDistinct[Name]
     """Those that can learn from recorded poses."""
-    twin: tuple[Name, ...]
+    twin: Distinct[Name]
     """Those that choose their poses, and so learn on a twin."""
-    poses: Annotated[tuple[Count, ...], Several]
+    poses: SomeDistinct[Count]
     """How many poses to learn from."""
     subsets: Count
     """Random subsets for each number of poses."""
@@ -215,7 +222,7 @@ class Mapping(Part):
     """Random points of a ball."""
     radius: Fraction
     """Of a ball, in workspace coordinates."""
-    scales: Annotated[tuple[Positive, ...], Several]
+    scales: SomeDistinct[Positive]
     """Factors of the damage."""
 
 
@@ -243,13 +250,13 @@ class Training(Part):
 class Ranges(Part):
     """Lowest and highest values of what is searched for."""
 
-    initial_width: tuple[Positive, Positive]
+    initial_width: Ordered[Positive]
     """Of all neighbourhoods; the workspace is 2 wide."""
-    final_width: tuple[Fraction, Fraction]
+    final_width: Ordered[Fraction]
     """As a fraction of the initial one."""
-    initial_rate: tuple[Fraction, Fraction]
+    initial_rate: Ordered[Fraction]
     """In (0, 1]."""
-    final_rate: tuple[Fraction, Fraction]
+    final_rate: Ordered[Fraction]
     """As a fraction of the initial one."""
 
 

@@ -5,7 +5,7 @@ Quantities are text such as `4 cm` and become SI numbers. Counts are whole numbe
 """
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from annotated_types import Ge, Gt, Le, Lt
 from pydantic import (
@@ -26,7 +26,7 @@ MOST = 1_000_000  # of whatever is counted: more would run for days
 
 def _quantity(quantity: Quantity, limits: str, example: str, *bounds: Any) -> Any:
     """The type of text such as `4 cm` that becomes a number of SI units within the bounds."""
-    valid = f"{quantity.name} {limits}, such as '{example}', in {' or '.join(quantity.units)}"
+    valid = f"{quantity.name} {limits}, such as '{example}' ({', '.join(quantity.units)})"
     pattern = rf"^\s*[-+]?\d.*({'|'.join(quantity.units)})\s*$"
     said = {"type": "string", "pattern": pattern, "patternErrorMessage": valid}
 
@@ -54,22 +54,22 @@ def _text(pattern: str, valid: str, longest: int) -> Any:
     ]
 
 
-Length = _quantity(LENGTH, "within 100 m", "-4 cm", Ge(-100.0), Le(100.0))
-Size = _quantity(LENGTH, "above 0, up to 100 m", "4 cm", Gt(0.0), Le(100.0))
+Length = _quantity(LENGTH, "from -100 to 100 m", "-4 cm", Ge(-100.0), Le(100.0))
+Size = _quantity(LENGTH, "above 0 and up to 100 m", "4 cm", Gt(0.0), Le(100.0))
 Amount = _quantity(LENGTH, "from 0 to 100 m", "0.2 mm", Ge(0.0), Le(100.0))
-Angle = _quantity(ANGLE, "within 100 rad", "-3 deg", Ge(-100.0), Le(100.0))
-Range = _quantity(ANGLE, "above 0, up to 180 deg", "40 deg", Gt(0.0), Lt(3.15))
+Angle = _quantity(ANGLE, "from -100 to 100 rad", "-3 deg", Ge(-100.0), Le(100.0))
+Range = _quantity(ANGLE, "above 0 and up to 180 deg", "40 deg", Gt(0.0), Lt(3.15))
 Turn = _quantity(ANGLE, "from 0 to 180 deg", "0.02 deg", Ge(0.0), Le(3.15))
 Compliance = _quantity(COMPLIANCE, "from 0 to 1 rad/Nm", "0.0002 rad/Nm", Ge(0.0), Le(1.0))
 
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
-Seed = Annotated[int, Field(strict=True, ge=0, lt=2**32)]
+Seed = Annotated[int, Field(strict=True, ge=0, le=2**32 - 1)]
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0, le=1e6)]
 Share = Annotated[Number, Field(ge=0, lt=1)]
 Fraction = Annotated[Number, Field(gt=0, le=1)]
 Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths
-    r"^[A-Za-z][A-Za-z0-9_]*$", "a name of letters, digits and _, a letter first", 60
+    r"^[A-Za-z][A-Za-z0-9_]*$", "a name (letters, digits and _, beginning with a letter)", 60
 )
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=300)]
 Switch = Annotated[bool, Field(strict=True)]
@@ -78,15 +78,18 @@ Switch = Annotated[bool, Field(strict=True)]
 def _distinct(values: Sequence) -> Sequence:
     twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
     if twice is not None:
-        raise PydanticCustomError("distinct", "twice", {"twice": str(twice)})
+        raise PydanticCustomError("distinct", "one of them twice", {"twice": twice})
     return values
 
 
 def _ordered(values: tuple[float, float]) -> tuple[float, float]:
     if values[0] > values[1]:
-        raise PydanticCustomError("ordered", "not ordered")
+        raise PydanticCustomError("ordered", "the higher value first")
     return values
 
 
-Distinct = [AfterValidator(_distinct), Field(json_schema_extra={"uniqueItems": True})]
-Ordered = AfterValidator(_ordered)
+Each = TypeVar("Each")
+_UNIQUE = AfterValidator(_distinct), Field(json_schema_extra={"uniqueItems": True})
+Distinct = Annotated[tuple[Each, ...], *_UNIQUE]
+SomeDistinct = Annotated[tuple[Each, ...], Field(min_length=1), *_UNIQUE]
+Ordered = Annotated[tuple[Each, Each], AfterValidator(_ordered)]

@@ -1,0 +1,5 @@
+"""What types cannot say of a configuration."""
+
+
+def check(study):
+    return []

@@ -1,0 +1,126 @@
+"""What the types say of every key: for editors as a JSON schema, and for messages in words.
+
+`python -m recalib.study.configuration.schema` writes workflow/schemas/config.schema.json.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from pydantic.json_schema import GenerateJsonSchema
+
+from recalib.storage import whole
+from recalib.study.configuration.messages import KeyPath, listed
+from recalib.study.configuration.study import Study
+
+FILE = Path("workflow/schemas/config.schema.json")
+
+
+class _WithoutTitles(GenerateJsonSchema):
+    """Titles would repeat the keys."""
+
+    def field_title_should_be_set(self, schema) -> bool:
+        return False
+
+
+def json_schema() -> dict:
+    """The schema of a configuration."""
+    return Study.model_json_schema(schema_generator=_WithoutTitles)
+
+
+def text() -> str:
+    """The schema as its file holds it."""
+    return json.dumps(json_schema(), indent=1) + "\n"
+
+
+class Schema:
+    """What a JSON schema says of a path: its meaning and what would be valid there.
+
+    Args:
+        schema: as pydantic makes it.
+    """
+
+    def __init__(self, schema: Mapping):
+        self._root = schema
+
+    def at(self, schema: Mapping, part: str | int) -> Mapping:
+        """The schema of a key or an index; {} where there is none."""
+        schema = self.resolved(schema)
+        if isinstance(part, int):
+            return (schema.get("prefixItems") or [schema.get("items", {})] * (part + 1))[part]
+        named = schema.get("patternProperties", {}).values()
+        whatever = next(iter(named), schema.get("additionalProperties") or {})
+        return schema.get("properties", {}).get(part, whatever)
+
+    def find(self, location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
+        """The path and the schema of a place in pydantic's errors, which name choices, too."""
+        schema, path = self._root, ()
+        for part in location:
+            schema = self.resolved(schema)
+            if "oneOf" in schema:
+                schema = self._root["$defs"][part]
+            else:
+                schema, path = self.at(schema, part), (*path, part)
+        return path, schema
+
+    def resolved(self, schema: Mapping) -> Mapping:
+        """The schema itself in the place of a reference to it, or of it or null."""
+        for each in schema.get("anyOf", ()):
+            if each.get("type") != "null":
+                return self.resolved(each)
+        reference = schema.get("$ref")
+        return self._root["$defs"][reference.rsplit("/")[-1]] if reference else schema
+
+    def keys(self, schema: Mapping) -> list[str]:
+        """The keys of a mapping."""
+        return list(self.resolved(schema).get("properties", {}))
+
+    def valid(self, schema: Mapping) -> str:
+        """What would be valid."""
+        if {"type": "null"} in schema.get("anyOf", ()):
+            return f"{self.valid(self.resolved(schema))}, or null"
+        schema = self.resolved(schema)
+        if "patternErrorMessage" in schema:
+            return schema["patternErrorMessage"]
+        if "enum" in schema:
+            return listed(schema["enum"], "or")
+        if "oneOf" in schema:
+            return listed((" + ".join(self.keys(each)) for each in schema["oneOf"]), "or")
+        match schema.get("type"):
+            case "boolean":
+                return "true or false"
+            case "integer":
+                return f"a whole number{_limits(schema)}"
+            case "number":
+                return f"a number{_limits(schema)}"
+            case "array":
+                return self._valid_list(schema)
+            case "object" if "properties" in schema:
+                return f"a mapping of {listed(self.keys(schema), 'and')}"
+            case "object":
+                number = "one or more names" if schema.get("minProperties") else "names"
+                return f"a mapping of {number}, each with {self.valid(self.at(schema, ''))}"
+        return "text"
+
+    def _valid_list(self, schema: Mapping) -> str:
+        each = self.valid(self.at(schema, 0))
+        if "prefixItems" in schema:
+            return f"a list of {len(schema['prefixItems'])}, each {each}"
+        return f"a list{' of one or more' if schema.get('minItems') else ''}, each {each}"
+
+
+def _limits(schema: Mapping) -> str:
+    words = {
+        "minimum": " from {}",
+        "exclusiveMinimum": " above {}",
+        "maximum": " to {}" if "minimum" in schema else " and up to {}",
+        "exclusiveMaximum": " to below {}",
+    }
+    return "".join(
+        text.format(f"{schema[key]:.12g}") for key, text in words.items() if key in schema
+    )
+
+
+if __name__ == "__main__":
+    with whole(FILE) as path:
+        path.write_text(text(), encoding="utf-8")

@@ -1,0 +1,170 @@
+"""YAML, read strictly: every value knows where it stands, and no key stands twice.
+
+Words are those of YAML 1.2: `yes`, dates and 1:30 are text.
+"""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from recalib.study.configuration.messages import InvalidConfiguration, KeyPath, dotted
+
+COMMAND_LINE = "the command line"
+Place = tuple[str | int, ...]  # file, line, column
+
+
+@dataclass(frozen=True)
+class Value:
+    """A value and where it stands.
+
+    Attributes:
+        content: a scalar, or a mapping or a list of values.
+        place: of its key, where it has one.
+        origin: the same for all uses of an anchor.
+    """
+
+    content: Any
+    place: Place
+    origin: Any = field(default_factory=object)
+
+    def plain(self) -> Any:
+        """The same without places."""
+        match self.content:
+            case dict():
+                return {key: value.plain() for key, value in self.content.items()}
+            case list():
+                return [value.plain() for value in self.content]
+        return self.content
+
+    def at(self, path: KeyPath) -> "Value":
+        """The value at a path, or the last one on the way to it."""
+        value = self
+        for part in path:
+            try:
+                value = value.content[part]
+            except (KeyError, IndexError, TypeError):
+                break
+        return value
+
+    def under(self, other: "Value") -> "Value":
+        """This value with another laid over it: mappings key by key, anything else as a whole."""
+        if not (isinstance(self.content, dict) and isinstance(other.content, dict)):
+            return other
+        laid = {
+            key: self.content[key].under(value) if key in self.content else value
+            for key, value in other.content.items()
+        }
+        return Value(self.content | laid, self.place, self.origin)
+
+
+def from_mapping(data: Any) -> Value:
+    """Values from the command line."""
+    match data:
+        case Mapping():
+            content = {str(key): from_mapping(each) for key, each in data.items()}
+        case list() | tuple():
+            content = [from_mapping(each) for each in data]
+        case _:
+            content = data
+    return Value(content, (COMMAND_LINE,))
+
+
+def from_file(path: str | PathLike) -> Value:
+    """Values of a YAML file. Raises InvalidConfiguration."""
+    name = fspath(path)
+    try:
+        loader = _Loader(Path(path).read_text(encoding="utf-8-sig"))
+        loader.name = name
+        node = loader.get_single_node()
+        value = loader.value(node, (name, 1, 1), ()) if node else Value({}, (name, 1, 1))
+    except yaml.MarkedYAMLError as error:
+        raise InvalidConfiguration([_unreadable(name, error)]) from None
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
+        raise InvalidConfiguration([f"{name}: {reason}"]) from None
+    if loader.twice:
+        raise InvalidConfiguration(loader.twice)
+    return value
+
+
+def _unreadable(name: str, error: yaml.MarkedYAMLError) -> str:
+    """PyYAML's reason in a sentence."""
+    place = shown(_place(name, error.problem_mark))
+    if "\\t" in error.problem:
+        return f"{place}: a tab; valid: spaces"
+    begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    return f"{place}: no YAML: {error.problem}{begun}"
+
+
+def _place(name: str, mark: yaml.Mark) -> Place:
+    return name, mark.line + 1, mark.column + 1
+
+
+def shown(place: Place) -> str:
+    """A place as compilers write it."""
+    return ":".join(map(str, place))
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML's, with the words of YAML 1.2.
+
+    Attributes:
+        twice: what is wrong with keys that stand twice.
+    """
+
+    yaml_implicit_resolvers: dict = {}  # noqa: RUF012 as PyYAML declares it
+
+    def __init__(self, text: str):
+        super().__init__(text)
+        self.twice: list[str] = []
+
+    def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Value:
+        """What a node says."""
+        match node:
+            case yaml.MappingNode():
+                content = self._mapping(node, path)
+            case yaml.SequenceNode():
+                content = [
+                    self.value(each, _place(self.name, each.start_mark), (*path, index))
+                    for index, each in enumerate(node.value)
+                ]
+            case _:
+                content = self.construct_object(node)
+        return Value(content, place, node)
+
+    def _mapping(self, node: yaml.MappingNode, path: KeyPath) -> dict[str, Value]:
+        first: dict[str, yaml.Node] = {}
+        for key, _ in node.value:
+            if not isinstance(key, yaml.ScalarNode):
+                problem = "a key that is no text"
+                raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
+            if key.value in first:
+                where = shown(_place(self.name, key.start_mark))
+                line = first[key.value].start_mark.line + 1
+                stands = f"{dotted((*path, key.value))} stands twice, first in line {line}"
+                self.twice.append(f"{where}: {stands}")
+            first[key.value] = key
+        self.flatten_mapping(node)  # puts in what is merged by <<
+        return {
+            key.value: self.value(each, _place(self.name, key.start_mark), (*path, key.value))
+            for key, each in node.value
+        }
+
+
+for kind, pattern, first in (
+    ("merge", "<<", "<"),
+    ("bool", "true|True|TRUE|false|False|FALSE", "tTfF"),
+    ("null", "~|null|Null|NULL|", ["~", "n", "N", ""]),
+    ("int", r"[-+]?[0-9]{1,18}", "-+0123456789"),
+    (
+        "float",
+        r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)",
+        "-+0123456789.",
+    ),
+):
+    _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{kind}", re.compile(f"^({pattern})$"), first)
