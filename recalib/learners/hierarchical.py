@@ -169,6 +169,20 @@ class HierarchicalLearner:
             else:
                 propagate_values(each.jacobian, jacobian_weights, jacobian_kl + jacobian_step)
 
+    def widths(self, name: str, fraction: float) -> tuple[np.ndarray, np.ndarray]:
+        """Widths of g_k and of g_kl, each (run,), after this fraction of the training.
+
+        Args:
+            name: of a map; see `Rules.maps`.
+        """
+        plan, runs = self.schedule, len(self.maps[name].theta)
+        narrow = schedules.equal_visits if self.rules.equal_visits else schedules.exponential
+        of_k, of_kl = (
+            np.broadcast_to(narrow(plan.initial_width, end, fraction), runs)
+            for end in plan.final_widths[name]
+        )
+        return of_k, of_kl
+
     def settings(self) -> dict[str, Any]:
         """Rules and schedule.
 
@@ -199,11 +213,7 @@ class HierarchicalLearner:
     def _weights(self, name: str, k: np.ndarray, l: np.ndarray, fraction: float) -> np.ndarray:
         """c' g_k g_kl (run, K, L)."""
         plan = self.schedule
-        narrow = schedules.equal_visits if self.rules.equal_visits else schedules.exponential
         weaken = schedules.linear if self.rules.equal_visits else schedules.exponential
-        widths = (
-            np.broadcast_to(narrow(plan.initial_width, end, fraction), k.shape)
-            for end in plan.final_widths[name]
-        )
         rate = np.broadcast_to(weaken(plan.initial_rate, plan.final_rate, fraction), k.shape)
+        widths = self.widths(name, fraction)
         return rate[:, None, None] * self.maps[name].neighbourhood(k, l, *widths)

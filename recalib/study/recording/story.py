@@ -7,7 +7,6 @@ import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
-from recalib.learners import schedules
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
@@ -109,12 +108,7 @@ def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration:
     if iteration == 0:
         return np.zeros(len(position_map.w_k))
     last = iteration - 1
-    narrow = schedules.equal_visits if learner.rules.equal_visits else schedules.exponential
-    plan = learner.schedule
-    widths = (
-        np.full(1, narrow(plan.initial_width, end, last / len(desired)))
-        for end in plan.final_widths[name]
-    )
+    widths = learner.widths(name, last / len(desired))
     k, l = (index[:, 0] for index in position_map.winner(desired[None, last : last + 1]))
     return position_map.neighbourhood(k, l, *widths)[0, :, l[0]]
 
