@@ -6,6 +6,7 @@ tracks only the built-in ones: a change of any other would not run a job again.
 
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.study import (
+    Amounts,
     Budget,
     Controller,
     Learner,
@@ -17,7 +18,6 @@ from recalib.study.configuration.study import (
     Series,
     Source,
 )
-from recalib.study.configuration.units import Size, Turn
 
 
 class Nominal(Part):
@@ -95,8 +95,7 @@ class Draws(Part):
     """Some robots of a series of other damages: from `first` to before `last`."""
 
     nominal: Nominal
-    shorten: tuple[Size, ...]
-    shift: tuple[Turn, ...]
+    damage: Amounts
     series: str
     plan: Series
     first: int

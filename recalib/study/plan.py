@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from recalib.errors import UnknownName
 from recalib.study import jobs
-from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.configuration.study import Learner, Study
 from recalib.study.trainings import (
     IMPROVED,
     Trainings,
@@ -120,7 +120,7 @@ class Plan:
         study = self.study
         return jobs.Sample(
             learner=rules(study, learner),
-            budget=Budget.model_validate(study.search.model_dump(include=set(Budget.model_fields))),
+            budget=study.search,
             robot=study.robot,
             scenario=study.scenario,
         )
@@ -136,8 +136,7 @@ class Plan:
         its = plan.ensemble[learner][series]
         return jobs.Draws(
             nominal=self.nominal(self.study.robot),
-            shorten=self.study.paper_damage.shorten,
-            shift=self.study.paper_damage.shift,
+            damage=self.study.paper_damage,
             series=series,
             plan=its,
             **bounds(chunk, its.draws, plan.draws_per_job),

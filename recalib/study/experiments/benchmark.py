@@ -79,7 +79,7 @@ def compete(
     budgets = measured_at([*job.moves, *job.longer], iterations, moves)
     with progress_bar(f"{job.name} on {', '.join(job.scenarios)}", iterations) as progress:
         history = train(plants, learner, desired, tests, budgets, progress)
-    frame = pd.DataFrame(history.columns())
+    frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     return frame.assign(
         scenario=np.array(job.scenarios)[frame["seed"] // len(runs)],
         seed=frame["seed"] % len(runs),

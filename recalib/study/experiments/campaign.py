@@ -67,6 +67,6 @@ def train_seeds(
         )
     if refused := history.refused[:, -1].sum():
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
-    frame = pd.DataFrame(history.columns())
+    frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     frame["seed"] += job.first
     return frame, learner, controller.robot

@@ -45,7 +45,7 @@ def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
     """
     controller = nominal_controller(job.nominal)
     robot, iterations, scales = controller.robot, job.learner.iterations, job.plan.scales
-    ways = Ways(job.nominal.robot.links, job.shorten, robot.joints, job.shift)
+    ways = Ways(job.nominal.robot.links, job.damage.shorten, robot.joints, job.damage.shift)
     order = generator(job.seed, "ensemble", job.series).permutation(len(ways))
     drawn = list(islice(feasible(robot, ways, order, max(scales)), job.first, job.last))
     cases = [(index, scale) for index in range(len(drawn)) for scale in scales]

@@ -42,8 +42,7 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.Dat
     first, second = learned
     return pd.DataFrame(
         [
-            {"array": f"{group}/{name}", "difference": np.abs(second[group][name] - values).max()}
-            for group, arrays in first.items()
-            for name, values in arrays.items()
+            {"array": name, "difference": np.abs(second[name] - values).max()}
+            for name, values in first.items()
         ]
     )
