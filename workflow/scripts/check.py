@@ -12,4 +12,5 @@ with job(snakemake):
     if not table["ok"].all():
         raise CheckFailed(table[~table["ok"]])
     with whole(snakemake.output[0]) as path:
-        path.write_text(table.to_string(index=False, float_format="{:.4g}".format) + "\n")
+        text = table.to_string(index=False, float_format="{:.4g}".format)
+        path.write_text(text + "\n", encoding="utf-8")

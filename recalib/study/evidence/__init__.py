@@ -1,1 +1,1 @@
-"""Evidence: the results of all runs, the verdicts and checks that rest on them, and the pages that say so."""
+"""Evidence: results of all trainings, the verdicts and checks on them, and pages that say so."""

@@ -1,16 +1,16 @@
-"""The check of final errors: every training against the band in which its errors are expected."""
+"""The check of final errors: every training against the band in which they are expected."""
 
 import pandas as pd
 
 from recalib.errors import RecalibError
+from recalib.study.measured import ERRORS
 
-ERRORS = ("position_error_cm", "orientation_error_deg")
 KEYS = ["scenario", "learner"]
 
-# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds would stay inside, and a
-# change of a rule that matters does not.
+# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds would
+# stay inside, and a change of a rule that matters does not.
 STANDARD_ERRORS = 4
-# Below these, an error is rounding and the nominal controller's tolerance: nothing is expected of it but to be small.
+# Below these, an error is rounding and the nominal controller's tolerance: it is only to stay small.
 NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 
 
@@ -20,7 +20,8 @@ class CheckFailed(RecalibError):
     def __init__(self, failed: pd.DataFrame):
         self.failed = failed
         rows = [
-            f"{row.scenario} {row.learner}: {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
+            f"{row.scenario} {row.learner}: {row.error} is {row.value:.4g},"
+            f" expected {row.low:.4g} to {row.high:.4g}"
             for row in failed.itertuples()
         ]
         super().__init__(
@@ -29,7 +30,7 @@ class CheckFailed(RecalibError):
 
 
 def expect(summary: pd.DataFrame) -> pd.DataFrame:
-    """Bands for the final errors of a summary: a row for each scenario, learner and error with columns low and high."""
+    """Bands for the final errors of a summary, low to high: a row for each training and error."""
     rows = []
     for cells in summary.to_dict("records"):
         for error in ERRORS:
@@ -48,7 +49,7 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
 
 
 def check(summary: pd.DataFrame, expected: pd.DataFrame) -> pd.DataFrame:
-    """Every final error beside its band and whether it is `ok`; one that is missing on either side is not."""
+    """Every final error beside its band, and whether it is `ok`: not if either is missing."""
     final = summary.melt(KEYS, [f"final_{error}" for error in ERRORS], "error", "value")
     final["error"] = final["error"].str.removeprefix("final_")
     table = expected.merge(final, "outer", [*KEYS, "error"])

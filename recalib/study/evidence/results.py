@@ -1,6 +1,7 @@
 """Everything that figures are drawn from and claims are judged by: what was declared, and no more."""
 
 import json
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,11 +35,16 @@ class Evidence:
     def __init__(self, needs: Needs):
         self._needs, self._layout = needs, Layout(needs.root)
 
+    @property
+    def facts(self) -> Mapping[str, JsonValue]:
+        """All that is known of the study beside its results."""
+        return self._needs.facts
+
     def fact(self, name: str) -> JsonValue:
-        """What is known of the study beside its results. Raises Undeclared."""
-        if name not in self._needs.facts:
+        """One of the facts. Raises Undeclared."""
+        if name not in self.facts:
             raise Undeclared(name)
-        return self._needs.facts[name]
+        return self.facts[name]
 
     def _declared(self, path: str) -> str:
         if path not in self._needs.files:

@@ -13,8 +13,9 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
         errors: (rung, 2) mean final errors.
         target: (2,) errors to reach.
 
-    Returns the number, interpolated on logarithmic scales between the last rung that misses and the first that reaches;
-    NaN where the first rung reaches already, since fewer iterations might have, and infinity where none does.
+    Returns the number, interpolated on logarithmic scales between the last rung that misses and the
+    first that reaches; NaN where the first rung reaches already, since fewer iterations might have,
+    and infinity where none does.
     """
     worse = np.max(errors / target, axis=1)
     reached = np.flatnonzero(worse <= 1)
@@ -29,15 +30,18 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
 
 
 def speed_up(
-    slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, generator: np.random.Generator
+    slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, random: np.random.Generator
 ) -> Estimate:
-    """Iterations needed by the slow learner over those needed by the fast one, with a bootstrap interval over seeds.
+    """Iterations that the slow learner needs over those of the fast one, bootstrapped over seeds.
 
     Args:
         slow, fast: for each rung of iterations, final errors (seed, 2).
-        target: a pair of errors (2,), or a rung of the fast learner: then the errors that it reaches there.
+        target: a pair of errors (2,), or a rung of the fast learner: the errors that it reaches.
+        random: of the interval.
 
-    NaN where the ladders do not go low enough. An infinite bound says that the slow learner does not get there on its rungs.
+    NaN where the first rung of a ladder is within the target already, or the fast learner does not
+    get there. An infinite bound says that the slow learner does not get there on its rungs, so
+    that it needs more than the highest of them: nothing else is known.
     """
 
     def ratio(pick) -> float:
@@ -54,7 +58,7 @@ def speed_up(
         return needed[0] / needed[1] if needed[1] < np.inf else np.nan
 
     resampled = [
-        ratio(lambda errors: errors[generator.integers(len(errors), size=len(errors))])
+        ratio(lambda errors: errors[random.integers(len(errors), size=len(errors))])
         for _ in range(RESAMPLES // 4)
     ]
     low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], method="nearest")

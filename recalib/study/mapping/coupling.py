@@ -1,24 +1,32 @@
 """How much do positions influence orientation commands, and the reverse (section 4)?"""
 
+from collections.abc import Sequence
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import ORIENTATION, POSITION
+from recalib.randomness import generator
+from recalib.study import jobs
 from recalib.study.mapping.true_mapping import mapping_jacobians
+from recalib.study.plants import Resolved
 
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 
 
 def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
-    """For position and orientation commands, the off-diagonal block of the true mapping's Jacobian against the diagonal one.
+    """The off-diagonal blocks of the true mapping's Jacobian against the diagonal ones.
 
     Args:
+        controller: of the nominal robot.
+        arm: the damaged one.
         desired: (n, 6) poses where to look.
 
-    Returns a row for each of them with columns position and orientation: the ratio of the blocks' Frobenius norms, in
-    coordinates of the workspace.
+    Returns a row for each pose, with columns position and orientation for these commands: the ratio
+    of the blocks' Frobenius norms, in coordinates of the workspace.
     """
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
@@ -26,3 +34,20 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd
         for name, (own, other) in BLOCKS.items()
     }
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})
+
+
+def couplings(job: jobs.TrueMapping, scenarios: Sequence[str | Path]) -> pd.DataFrame:
+    """The coupling at random poses of each scenario.
+
+    Args:
+        job: how many poses.
+        scenarios: files of the scenarios as resolved.
+    """
+    tables = []
+    for scenario in map(Resolved.read, scenarios):
+        controller = scenario.controller()
+        random = generator(job.seed, "study", "coupling")
+        desired = controller.robot.workspace.sample(random, job.plan.poses)
+        table = coupling(controller, scenario.arm(controller.robot), desired)
+        tables.append(table.assign(scenario=scenario.scenario))
+    return pd.concat(tables)

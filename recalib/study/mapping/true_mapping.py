@@ -3,7 +3,8 @@
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
-from recalib.nominal.controller import TOLERANCE, Controller, solve_newton
+from recalib.nominal.controller import Controller
+from recalib.nominal.newton import TOLERANCE, solve_newton
 
 STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
 

@@ -1,29 +1,40 @@
-"""The expected learning of a cell in one iteration (section 6): Monte Carlo beside the formula (10)."""
+"""The expected learning of a cell in one iteration (section 6): Monte Carlo beside formula (10)."""
+
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 
-from recalib.learners.schedules import expected_learning
+from recalib.learners.schedules import DIMENSIONS, expected_learning
+
+WIDTHS = (0.1, 0.15, 0.2, 0.3, 0.5, 1.0)  # of the neighbourhood, in workspace coordinates
+DISTANCES = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0)  # to a face; 1 is the centre
+SAMPLES = 1_000_000
 
 
 def visits(
-    widths, distances, dimensions: int, generator: np.random.Generator, samples: int = 1_000_000
+    random: np.random.Generator,
+    widths: Sequence[float] = WIDTHS,
+    distances: Sequence[float] = DISTANCES,
+    samples: int = SAMPLES,
 ) -> pd.DataFrame:
-    """Simulated L over the one of (10), for cells at these distances from one face of the workspace.
+    """Simulated L over the one of (10), for cells at these distances from a face of the workspace.
 
     Args:
+        random: where winners come from.
         widths: of the neighbourhood, in workspace coordinates.
-        distances: of the cell to the nearest face, 1 being the centre of the workspace [-1, 1]^dimensions.
+        distances: of the cell to the nearest face, 1 being the centre of the workspace [-1, 1]^3.
+        samples: winners drawn.
     """
-    winners = generator.uniform(-1, 1, (samples, dimensions))
+    winners = random.uniform(-1, 1, (samples, DIMENSIONS))
     rows = []
     for distance in distances:
-        cell = np.zeros(dimensions)
+        cell = np.zeros(DIMENSIONS)
         cell[0] = 1 - distance
         squares = ((winners - cell) ** 2).sum(axis=1)
         for width in widths:
             learned = np.exp(-squares / (2 * width**2))
-            formula = expected_learning(width, dimensions, 2.0**dimensions)
+            formula = expected_learning(width, DIMENSIONS, 2.0**DIMENSIONS)
             error = learned.std() / np.sqrt(samples)
             rows.append(
                 {

@@ -14,10 +14,10 @@ from rerun.chunk import Chunk, RrdReader
 from rerun.error_utils import RerunWarning
 
 from recalib.errors import RecalibError
+from recalib.study.measured import ERRORS
 
 SEAL = "/__properties/seal"
 TIMELINES = {"iteration", "time"}
-QUANTITIES = ("position_error_cm", "orientation_error_deg")
 ROW_IDS = "rerun.controls.RowId"  # new ones in every writing
 PLACES = {
     ROW_IDS,
@@ -121,7 +121,7 @@ def _check_meshes(path: Path, chunks: list[Chunk]) -> None:
 def _check_errors(path: Path, chunks: list[Chunk], results: Mapping[str, pd.DataFrame]) -> None:
     batches = {chunk.entity_path: chunk.to_record_batch() for chunk in chunks}
     for learner, frame in results.items():
-        for quantity in QUANTITIES:
+        for quantity in ERRORS:
             entity = f"/errors/{quantity}/{learner}"
             if entity not in batches:
                 raise BrokenRecording(path, f"no {entity}")

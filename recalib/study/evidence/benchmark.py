@@ -1,0 +1,59 @@
+"""The benchmark's tables: errors at each budget of moves, moves to each threshold, seconds."""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+
+from recalib.learners.peers import NEEDS
+from recalib.randomness import generator
+from recalib.study import jobs
+from recalib.study.experiments.benchmark import BLACK_BOX, moves_to_reach
+from recalib.study.measured import ERRORS
+from recalib.study.statistics import bootstrap
+
+
+def _entrants(job: jobs.BenchmarkTable, history: pd.DataFrame):
+    groups = history.groupby(["scenario", "learner"])
+    for entrant in product(job.scenarios, job.learners):
+        yield *entrant, groups.get_group(entrant)
+
+
+def errors(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
+    """Both errors with their intervals, a row for each scenario, learner and budget of moves."""
+    rows = []
+    for scenario, learner, own in _entrants(job, history):
+        for moves, measured in own.groupby("moves"):
+            row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
+            for error in ERRORS:
+                luck = generator(job.seed, scenario, learner, moves, error)
+                row |= bootstrap(measured[error], luck).columns(error)
+            rows.append(row)
+    return pd.DataFrame(rows)
+
+
+def reached(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
+    """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
+    rows = []
+    for scenario, learner, own in _entrants(job, history):
+        for error, threshold in product(ERRORS, job.thresholds):
+            moves = moves_to_reach(own, error, threshold)
+            low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
+            rows.append(
+                {
+                    "scenario": scenario,
+                    "learner": learner,
+                    "error": error,
+                    "threshold": threshold,
+                    "moves": median,
+                    "low": low,
+                    "high": high,
+                    "needs": NEEDS.get(learner, BLACK_BOX),
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def seconds(history: pd.DataFrame) -> pd.DataFrame:
+    """Mean computing time of a move. It differs from run to run, and has a file of its own."""
+    return history.groupby("learner", sort=False)["seconds_per_move"].mean().reset_index()

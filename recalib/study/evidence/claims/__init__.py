@@ -1,0 +1,80 @@
+"""The paper's claims, in its order: a file for each, or for those that are measured alike.
+
+Criteria were written before the first full run; what was changed after it says so.
+"""
+
+from collections.abc import Callable
+
+from recalib.study.configuration.part import Part
+from recalib.study.configuration.study import Study
+from recalib.study.evidence.claims import (
+    controller_kept,
+    expected_learning,
+    figure_1,
+    identity,
+    initial_error,
+    rigid,
+    ritter_slow,
+    rough_search,
+    speed_up,
+    switches,
+    weak_coupling,
+    width_order,
+)
+from recalib.study.evidence.needs import Needs, Request
+from recalib.study.evidence.results import Evidence
+from recalib.study.layout import Layout, root_of
+from recalib.study.trainings import Trainings
+
+CLAIMS = (
+    identity.CLAIM,
+    ritter_slow.CLAIM,
+    weak_coupling.CLAIM,
+    switches.SEPARATE_MAPS,
+    width_order.CLAIM,
+    switches.THETA_INCREMENTS,
+    switches.JACOBIAN_INCREMENTS,
+    expected_learning.CLAIM,
+    switches.SCHEDULE,
+    rigid.CLAIM,
+    initial_error.CLAIM,
+    figure_1.CLAIM,
+    speed_up.CLAIM,
+    rough_search.CLAIM,
+    controller_kept.CLAIM,
+)
+
+
+class Judging(Part):
+    """What the claims may read, by their ids."""
+
+    claims: dict[str, Needs]
+
+    @property
+    def inputs(self) -> list[str]:
+        """All files."""
+        return list(dict.fromkeys(path for needs in self.claims.values() for path in needs.inputs))
+
+
+def judging(request: Callable[[], Request]) -> Judging:
+    """What the claims need, each by itself."""
+    needs = {}
+    for claim in CLAIMS:
+        ask = request()
+        claim.needs(ask)
+        needs[claim.id] = ask.needs
+    return Judging(claims=needs)
+
+
+def judge(job: Judging) -> list[dict]:
+    """Every claim with what was measured and its verdict, as the contract of claims.json asks."""
+    return [claim.judge(Evidence(job.claims[claim.id])) for claim in CLAIMS]
+
+
+def missing(study: Study) -> list[str]:
+    """The keys that would have to say more for all claims to be judged, such as `learners: x`."""
+    layout, trainings = Layout(root_of(study.name)), Trainings(study)
+    ask = Request(study, trainings, layout, layout.searched)
+    for claim in CLAIMS:
+        claim.needs(ask)
+    return ask.lacking

@@ -1,0 +1,118 @@
+"""What a claim is: one home of all that is said of it, and how it is judged."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.results import Evidence
+from recalib.study.statistics import Estimate
+
+SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
+WORDS = {0.1: "tenth", 0.25: "quarter", 2.0: "twice", 3.0: "three"}
+
+
+class Limit(float):
+    """A number that decides; texts say it as `word`, `percent` or `central` share."""
+
+    def __format__(self, how: str) -> str:
+        match how:
+            case "word":
+                return WORDS[self]
+            case "percent":
+                return f"{100 * self:g} %"
+            case "central":
+                return f"{100 * (1 - 2 * self):g} %"
+        return super().__format__(how or "g")
+
+
+@dataclass
+class Finding:
+    """What was measured.
+
+    Attributes:
+        holds: whether the criterion does; None where what was measured cannot tell.
+        measured: numbers by label.
+        interval: of those that have one.
+        note: what else there is to say.
+    """
+
+    holds: bool | None
+    measured: dict[str, float]
+    interval: dict[str, tuple[float, float]] = field(default_factory=dict)
+    note: str = ""
+
+    @classmethod
+    def of(
+        cls, holds: bool | None, estimates: Mapping[str, Estimate], note: str = "", **others: float
+    ) -> "Finding":
+        """A finding of estimates, and of numbers without an interval."""
+        means = {label: estimate.mean for label, estimate in estimates.items()}
+        intervals = {label: (each.low, each.high) for label, each in estimates.items()}
+        return cls(holds, means | others, intervals, note)
+
+    @property
+    def verdict(self) -> str:
+        """Undecided where a number is missing: a comparison with NaN is false, and says nothing."""
+        numbers = [*self.measured.values(), *sum(self.interval.values(), start=())]
+        if self.holds is None or np.isnan(numbers).any():
+            return UNDECIDED
+        return SUPPORTED if self.holds else NOT_SUPPORTED
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim of the paper. Texts may name limits and facts in braces.
+
+    Attributes:
+        id: its name.
+        section: of the paper.
+        statement: what the paper says.
+        published: its number, if any.
+        limits: the numbers that decide; figures draw them, too.
+        criterion: what would support the claim.
+        reason: why just that would; it may name limits alone.
+        needs: asks for what `measure` reads.
+        measure: from evidence and limits to what was found.
+        figures: that show it.
+        interpretation: why the shipped study may not have found it.
+    """
+
+    id: str
+    section: str
+    statement: str
+    published: str
+    limits: Mapping[str, Limit]
+    criterion: str
+    reason: str
+    needs: Callable[[Request], None]
+    measure: Callable[[Evidence, Mapping[str, Limit]], Finding]
+    figures: tuple[str, ...] = ()
+    interpretation: str = ""
+
+    def judge(self, evidence: Evidence) -> dict:
+        """What was measured and the verdict, as the contract of claims.json has them."""
+        finding = self.measure(evidence, self.limits)
+
+        def said(text: str) -> str:
+            return text.format(**self.limits, **evidence.facts)
+
+        return {
+            "id": self.id,
+            "section": self.section,
+            "statement": said(self.statement),
+            "published": said(self.published),
+            "measured": {label: _number(value) for label, value in finding.measured.items()},
+            "interval": {
+                label: [_number(low), _number(high)]
+                for label, (low, high) in finding.interval.items()
+            },
+            "criterion": said(self.criterion),
+            "verdict": finding.verdict,
+            "note": finding.note,
+        }
+
+
+def _number(value: float) -> float | None:
+    return float(f"{value:.4g}") if np.isfinite(value) else None

@@ -1,0 +1,33 @@
+"""Section 7: the paper's Figure 1."""
+
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.claims.shares import both_left
+
+
+def needs(ask):
+    ask.history(ask.fact("improved"))
+    ask.fact("seed")
+
+
+def measure(evidence, limits):
+    improved = evidence.fact("improved")
+    estimates = both_left(evidence, improved)
+    final = evidence.errors(improved).mean(axis=0)
+    holds = all(each.high < limits["left"] for each in estimates.values())
+    return Finding.of(holds, estimates, **{"final cm": final[0], "final degrees": final[1]})
+
+
+CLAIM = Claim(
+    id="figure-1",
+    section="7",
+    statement="200 iterations of the improved system with 3 x 3 x 3 nets, measured every 4"
+    " iterations on 200 random poses, reduce both errors from their initial values to small ones.",
+    published="Figure 1, whose picture is not part of the text",
+    limits={"left": Limit(0.1)},
+    criterion="Both errors end below a {left:word} of the initial ones (upper ends).",
+    reason="The curves cannot be compared number by number; an order of magnitude is the least that"
+    " a figure would show.",
+    needs=needs,
+    measure=measure,
+    figures=("figure1",),
+)

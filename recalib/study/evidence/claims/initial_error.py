@@ -1,0 +1,47 @@
+"""Section 7: the paper's damage and its initial errors."""
+
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.measured import ERRORS
+
+NEAR = 0.05  # of both published errors
+
+
+def needs(ask):
+    ask.assignments()
+    ask.fact("published")
+
+
+def measure(evidence, limits):
+    table, published = evidence.assignments(), evidence.fact("published")
+    below = {
+        f"assignments below {published[error]:g} {error.split('_')[-1]}": float(
+            (table[error] < published[error]).mean()
+        )
+        for error in ERRORS
+    }
+    nearest = table.loc[table["distance"].idxmin()]
+    note = (
+        f"Of {len(table):,} assignments, {int((table['distance'] <= NEAR).sum())} are within"
+        f" {100 * NEAR:g} % of both; the nearest gives {nearest[ERRORS[0]]:.2f} cm and"
+        f" {nearest[ERRORS[1]]:.2f} degrees. The home of the robot was chosen so that such errors"
+        " occur, so this says that they are possible, not that they are likely."
+    )
+    holds = all(limits["tail"] <= each <= 1 - limits["tail"] for each in below.values())
+    return Finding(holds, below, note=note)
+
+
+CLAIM = Claim(
+    id="initial-error",
+    section="7",
+    statement="This damage gives initial errors of {published[position_error_cm]} cm and"
+    " {published[orientation_error_deg]} degrees.",
+    published="{published[position_error_cm]} cm, {published[orientation_error_deg]} degrees",
+    limits={"tail": Limit(0.025)},
+    criterion="Both published errors lie inside the central {tail:central} of those of all assignments of the"
+    " damage on our robot.",
+    reason="The robot, the links, the encoders and the signs are not published, so only"
+    " plausibility can be tested.",
+    needs=needs,
+    measure=measure,
+    figures=("figure10",),
+)

@@ -1,0 +1,18 @@
+"""How much of an initial error is left at the end: what several claims compare."""
+
+from recalib.study.evidence.results import Evidence
+from recalib.study.measured import KINDS
+from recalib.study.statistics import Estimate, paired_ratio
+
+
+def left(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
+    """The share of an initial error that is left: of the position error (0) or orientation's (1)."""
+    first, last = (
+        evidence.errors(learner, scenario, moment)[:, kind] for moment in ("first", "last")
+    )
+    return paired_ratio(last, first, evidence.rng("left", learner, KINDS[kind]))
+
+
+def both_left(evidence: Evidence, learner: str) -> dict[str, Estimate]:
+    """What is left of both errors on the study's own scenario."""
+    return {f"{name} left": left(evidence, learner, kind) for kind, name in enumerate(KINDS)}
