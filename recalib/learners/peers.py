@@ -3,9 +3,14 @@
 Each makes one move an iteration.
 """
 
+from typing import TYPE_CHECKING
+
 from recalib.errors import UnknownName
-from recalib.interfaces import Learner
-from recalib.nominal.controller import Controller
+
+# Whoever only asks for names need not wait for what builds and moves arms.
+if TYPE_CHECKING:
+    from recalib.interfaces import Learner
+    from recalib.nominal.controller import Controller
 
 NEEDS = {
     "uncorrected": "nothing",
@@ -17,7 +22,7 @@ NEEDS = {
 }
 
 
-def build(name: str, runs: int, controller: Controller) -> Learner:
+def build(name: str, runs: int, controller: "Controller") -> "Learner":
     """The peer of this name, which has learned nothing yet. Raises UnknownName."""
     # Imported where they are used: jobs without a peer need not wait for scikit-learn.
     match name:

@@ -54,11 +54,13 @@ def unlike(path: KeyPath, stood: Any, valid: str) -> Mistake:
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
-    """A name that is not among the valid ones."""
+    """A name that is not among the valid ones; the path may end with it."""
     valid = list(valid)
     near = nearest(name, valid)
-    meant = f"; did you mean {near}?" if near else ""
-    return Mistake(path, f" is {shown(name)}; valid: {listed(valid, 'or') or 'none'}{meant}")
+    stood = ": unknown name" if path[-1] == name else f" is {shown(name)}"
+    few = len(valid) <= MOST_SHOWN or not near
+    hint = f"valid: {listed(valid, 'or') or 'none'}" if few else f"one of {len(valid)} is valid"
+    return Mistake(path, f"{stood}; {hint}{f'; did you mean {near}?' if near else ''}")
 
 
 def shown(value: Any) -> str:

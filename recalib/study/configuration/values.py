@@ -6,6 +6,7 @@ Words are those of YAML 1.2: `yes`, dates and 1:30 are text.
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -78,15 +79,20 @@ def from_file(path: str | PathLike) -> Value:
     """Values of a YAML file. Raises InvalidConfiguration."""
     name = fspath(path)
     try:
-        loader = _Loader(Path(path).read_text(encoding="utf-8-sig"))
-        loader.name = name
-        node = loader.get_single_node()
-        value = loader.value(node, (name, 1, 1), ()) if node else Value({}, (name, 1, 1))
+        return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
     except yaml.MarkedYAMLError as error:
         raise InvalidConfiguration([_unreadable(name, error)]) from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
         raise InvalidConfiguration([f"{name}: {reason}"]) from None
+
+
+@cache  # several studies begin with one file
+def _parsed(name: str, text: str) -> Value:
+    loader, start = _Loader(text), (name, 1, 1)
+    loader.name = name
+    node = loader.get_single_node()
+    value = loader.value(node, start, ()) if node else Value({}, start)
     if loader.twice:
         raise InvalidConfiguration(loader.twice)
     return value

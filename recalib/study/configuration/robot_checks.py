@@ -1,0 +1,114 @@
+"""Whether the robots of a study can have its damages and serve its workspaces.
+
+This takes a second, since it loads them: apart from the other checks, so that its outcome may be
+remembered.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+
+from recalib.damaged.damage import Damage, LinkShortening, apply
+from recalib.damaged.words import words
+from recalib.errors import InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.nominal.robots import Robot
+from recalib.quantities import LENGTH
+from recalib.study import jobs
+from recalib.study.assignments import Ways
+from recalib.study.configuration.checks import assigned_robots, used_scenarios
+from recalib.study.configuration.damages import describe
+from recalib.study.configuration.messages import Mistake, unknown, unlike
+from recalib.study.configuration.study import Study
+from recalib.study.plants import nominal_controller
+
+
+def check_robots(study: Study) -> list[Mistake]:
+    """The mistakes that only the robots know of. The study must have passed `check`."""
+    used = used_scenarios(study)
+    robots: dict[str, Robot] = {}
+    found: list[Mistake] = []
+    for name in dict.fromkeys([*(robot for _, robot in used), study.real.robot]):
+        nominal = jobs.Nominal(name=name, robot=study.robots[name], controller=study.controller)
+        try:
+            robots[name] = _served(nominal.model_dump_json())
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+    if not found:
+        for scenario, robot in used:
+            found += _of_scenario(study, scenario, robots[robot])
+        for name in assigned_robots(study):
+            found += _of_assignment(study, robots[name])
+        if study.experiments.evidence and not found:
+            found += _of_series(study, robots[study.robot])
+    return found
+
+
+@cache
+def _served(nominal: str) -> Robot:
+    """The robot, once it is known that its controller serves its workspace."""
+    return nominal_controller(jobs.Nominal.model_validate_json(nominal)).robot
+
+
+def _of_robot(name: str, error: RecalibError) -> Mistake:
+    match error:
+        case UnknownName():
+            keys = ("tool", "home", "limits")
+            key = next((key for key in keys if key in error.kind), "urdf")
+            return unknown(("robots", name, key), error.name, error.valid)
+        case InvalidSetting(key="home"):
+            return Mistake(("robots", name, "home"), f" lacks joints; valid: {error.valid}")
+        case InvalidSetting():
+            return unlike(("robots", name, *error.key.split(".")), error.value, error.valid)
+        case UnfitWorkspace():
+            return Mistake(("robots", name, "workspace"), f" does not fit: {error}")
+    return Mistake(("robots", name, "urdf"), f" does not fit: {error}")
+
+
+def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | None:
+    try:
+        apply(robot, [damage])
+    except (UnknownName, InvalidSetting) as error:
+        return error
+    return None
+
+
+def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
+    """Links and joints that the robot lacks, and amounts that are too much for it."""
+    for index, entry in enumerate(study.scenarios[scenario]):
+        if isinstance(entry, Damage) and (error := _refused(robot, entry)):
+            keys = [word.key for word in words(type(entry)).values()]
+            path = "scenarios", scenario, index
+            if isinstance(error, UnknownName):
+                yield unknown((*path, keys[0]), error.name, error.valid)
+            else:
+                yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
+
+
+def _of_assignment(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """Links of the robot that it lacks, or that are too short for the paper's damage."""
+    lengths, links = study.paper_damage.shorten, study.robots[robot.name].links
+    for place, link in enumerate(links):
+        for index, length in enumerate(lengths):
+            error = _refused(robot, LinkShortening(link, length))
+            if isinstance(error, UnknownName):
+                yield unknown(("robots", robot.name, "links", place), link, error.valid)
+                break
+            if error:
+                path = "paper_damage", "shorten", index
+                valid = f"{error.valid}, on {link} of the {robot.name}"
+                yield unlike(path, LENGTH.write(length), valid)
+
+
+def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """Series of more robots than there are assignments that leave something of every link."""
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    ways = Ways(links, damage.shorten, robot.joints, damage.shift)
+    for learner, series in study.experiments.ensemble.items():
+        for name, its in series.items():
+            scaled = ([each.scaled(max(its.scales)) for each in short] for short in ways.short)
+            fit = sum(not any(_refused(robot, each) for each in short) for short in scaled)
+            most = fit * len(ways.shifted)
+            if its.draws > most:
+                path = "experiments", "ensemble", learner, name, "draws"
+                yield unlike(
+                    path, its.draws, f"at most {most}, for which the links are long enough"
+                )
