@@ -1,4 +1,4 @@
-"""The monomials of a point's coordinates: what a polynomial of several variables is a weighted sum of."""
+"""The monomials of a point's coordinates: a polynomial is a weighted sum of them."""
 
 from functools import cache
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
-    """The products (..., F) of none to `degree` coordinates of points (..., d), in the order of their degrees."""
+    """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
     levels = [np.ones((*points.shape[:-1], 1))]
     for shorter, coordinates in _factors(points.shape[-1], degree):
         levels.append(levels[-1][..., shorter] * points[..., coordinates])
@@ -15,7 +15,7 @@ def monomials(points: np.ndarray, degree: int) -> np.ndarray:
 
 @cache
 def _factors(dimensions: int, degree: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """For each degree, which monomial of the degree below and which coordinate make each of its monomials."""
+    """For each degree: which monomial of the degree below and which coordinate make each of its."""
     factors, last = [], np.zeros(1, int)
     for _ in range(degree):
         shorter = np.repeat(np.arange(len(last)), dimensions - last)

@@ -1,8 +1,8 @@
-"""Regression by a Gaussian process whose outputs share one covariance: scikit-learn's, with hyperparameters of our finding.
+"""Gaussian process regression, by scikit-learn, for several outputs with one covariance.
 
-The covariance is a linear trend, a smooth function with a length along each input, and white noise, for outputs that
-have a deviation of one over the training data. The hyperparameters are the logarithms of the trend's variance, of the
-smooth function's, of its lengths and of the noise's variance.
+The covariance is that of a linear trend, a smooth function with a length along each input, and
+white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
+the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
 """
 
 import numpy as np
@@ -13,26 +13,22 @@ from sklearn.gaussian_process.kernels import Kernel
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
-FIRST_NOISES = (
-    1e-3,
-    1e-1,
-    1e-6,
-)  # where searches start: to take all for noise is a local optimum of few data
+# Where searches start: from one alone, few data may all be taken for noise.
+FIRST_NOISES = 1e-3, 1e-1, 1e-6
 FEWEST = 6  # points to judge hyperparameters by
-MOST = 128  # points to judge hyperparameters by: the time grows with their cube, and more tell little more
+# Points to judge hyperparameters by: the time grows with their cube, and more tell little more.
+MOST = 128
 STEPS = 50  # of a search
-ROUNDING = (
-    10 * np.finfo(float).eps
-)  # deviations of an output that is constant: not to be blown up to one
+ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
 
 
 def is_time_to_search(before: int, points: int) -> bool:
-    """Whether so many points deserve a search of hyperparameters when the last was at `before`: they have doubled."""
+    """Whether to search hyperparameters anew: the points have doubled since there were `before`."""
     return points.bit_length() > before.bit_length() and before < MOST
 
 
 class Covariance(Kernel):
-    """The covariance as one kernel: scikit-learn's composed ones spend more time looking up their parameters than computing.
+    """The covariance as one kernel: faster than a sum of scikit-learn's.
 
     Args:
         theta: (d + 3,) the hyperparameters.
@@ -44,9 +40,10 @@ class Covariance(Kernel):
         self.theta = theta
 
     def __call__(self, X: np.ndarray, Y: np.ndarray | None = None, eval_gradient: bool = False):
-        """Covariances (n, m) of points X (n, d) with Y (m, d), or of X with itself, noise included, and their gradient.
+        """Covariances (n, m) of points X (n, d) with points Y (m, d), or of X with itself.
 
-        The gradient (n, n, d + 3) is with respect to the hyperparameters.
+        The latter include the noise; `eval_gradient` adds their gradient (n, n, d + 3) by the
+        hyperparameters.
         """
         trend, smooth, *lengths, noise = np.exp(self.theta)
         others = X if Y is None else Y
@@ -80,19 +77,16 @@ class Process:
 
     Attributes:
         hyperparameters: (d + 3,) as used.
-        gain: by how much the logarithm of the marginal likelihood exceeds that of white noise, less what so many
-            hyperparameters gain by chance (Schwarz's criterion).
+        gain: by how much the logarithm of the marginal likelihood exceeds that of white noise, less
+            what so many hyperparameters gain by chance (Schwarz's criterion).
     """
 
     def __init__(
         self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray | None = None
     ):
         self._inputs, self._outputs = inputs, outputs
-        self._centre, self._mean, deviations = (
-            inputs.mean(axis=0),
-            outputs.mean(axis=0),
-            outputs.std(axis=0),
-        )
+        self._centre, self._mean = inputs.mean(axis=0), outputs.mean(axis=0)
+        deviations = outputs.std(axis=0)
         self._scale = np.where(deviations > ROUNDING, deviations, 1)
         inputs, outputs = inputs - self._centre, (outputs - self._mean) / self._scale
         if hyperparameters is None:
@@ -109,9 +103,8 @@ class Process:
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        regressor = (
-            self._regressor
-        )  # whose own `predict` checks and copies for longer than it computes
+        # The regressor's own `predict` checks and copies for longer than it computes.
+        regressor = self._regressor
         expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
         return self._mean + expected * self._scale
 

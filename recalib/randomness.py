@@ -6,7 +6,7 @@ import numpy as np
 
 
 def generator(seed: int, *keys: str | int) -> np.random.Generator:
-    """A generator for one purpose, keyed by words and numbers such as (scenario, seed, "desired poses").
+    """A generator for one purpose, such as generator(1996, "links", 0, "desired poses").
 
     Learners are never among the keys: those that are compared see the same poses.
     """

@@ -1,4 +1,4 @@
-"""The trial loop: a learner drives damaged robots, pose after pose, and is measured on poses that it never learned from."""
+"""The trial loop: a learner drives robots, pose after pose, and is measured on other poses."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -20,9 +20,10 @@ class History:
     """What was measured, and when.
 
     Attributes:
-        iterations, moves: (measurement,) iterations and moves done before each measurement, in one run.
+        iterations, moves: (measurement,) done before each measurement, in each run.
         refused: (run, measurement) moves refused until then.
-        position: (run, measurement, summary) mean, 95th percentile and maximum of the position errors in m.
+        position: (run, measurement, summary) mean, 95th percentile and maximum of the position
+            errors in m.
         orientation: the same of the orientation errors in rad.
     """
 
@@ -33,7 +34,7 @@ class History:
     orientation: np.ndarray
 
     def columns(self) -> dict[str, np.ndarray]:
-        """A table by its columns, a row for each run and measurement, errors in centimetres and degrees."""
+        """A table by its columns, a row for each run and measurement; errors in cm and degrees."""
         runs = len(self.position)
         table = {
             "run": np.repeat(np.arange(runs), len(self.iterations)),
@@ -52,7 +53,7 @@ class History:
 def measure(
     plant: Commandable, learner: Learner, tests: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Position [m] and orientation errors [rad], each (run, summary), at the test poses (run, pose, 6), by (1).
+    """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
     Measuring is no learning: its moves are not counted.
     """
@@ -65,7 +66,11 @@ def measure(
 
 
 def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:
-    """After how many iterations to measure: evenly up to `evenly` of them, else about `points` times, logarithmically."""
+    """After how many iterations to measure a training.
+
+    After every so many, in one of up to `evenly` iterations; about `points` times on a logarithmic
+    grid in a longer one.
+    """
     if iterations <= evenly:
         return sorted({*range(0, iterations, every), iterations})
     return sorted({0, *np.geomspace(1, iterations, points).round().astype(int).tolist()})
@@ -79,11 +84,17 @@ def train(
     measure_at: Sequence[int],
     progress: Callable[[int, float, float], None] = lambda *_: None,
 ) -> History:
-    """Train a learner on the desired poses (run, iteration, 6) and measure it on the tests (run, pose, 6).
+    """Train a learner, and measure it now and then.
 
     Args:
-        measure_at: numbers of iterations after which learning is interrupted for a measurement; 0 is before the first.
-        progress: called after each measurement with the iteration and the mean errors over runs in cm and degrees.
+        plant: the robots.
+        learner: that drives them.
+        desired: (run, iteration, 6) poses to learn from.
+        tests: (run, pose, 6) poses to measure on.
+        measure_at: numbers of iterations after which learning is interrupted for a measurement; 0
+            is before the first.
+        progress: called after each measurement with the iteration and the mean errors over runs in
+            cm and degrees.
     """
     iterations = desired.shape[1]
     position, orientation, moves, refused = [], [], [], []

@@ -1,4 +1,4 @@
-"""Several plants side by side: one controller solves all their commands in one call, faster than a few at a time."""
+"""Several plants side by side: solving all their commands in one call is faster than in several."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,9 @@ from recalib.nominal.controller import Controller, Targets
 
 
 class Fleet:
-    """Plants behind one nominal controller, one plant to a learner: the runs of the first, then of the second, and so on.
+    """Plants behind one nominal controller that are one plant to a learner.
+
+    Their runs follow one another: those of the first plant, then those of the second, and so on.
 
     Args:
         controller: of all the plants.

@@ -1,4 +1,4 @@
-"""The damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
+"""Damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
 
 from collections.abc import Sequence
 
@@ -41,11 +41,14 @@ class Plant:
         return self._controller.robot.workspace
 
     def execute(self, commands: np.ndarray) -> Outcome:
-        """Command poses, coordinates (run, move, 6), and measure what the damaged robots achieve."""
+        """Command poses, coordinates (run, move, 6), and measure what the robots achieve."""
         return self.execute_targets(self._controller.targets(commands))
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move), undisturbed and not counted."""
+        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
+
+        Undisturbed and not counted.
+        """
         return self.achieve_targets(self._controller.targets(commands))
 
     def execute_targets(self, targets: Targets) -> Outcome:

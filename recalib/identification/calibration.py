@@ -10,13 +10,12 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
 from recalib.interfaces import State
-from recalib.nominal.controller import solve_each, twists
 from recalib.nominal.kinematics import Arm
+from recalib.nominal.newton import solve_groups
 from recalib.processes import Process, is_time_to_search
 
 STEPS = 10
 TOLERANCE = 1e-9  # m, rad
-LONGEST_STEP = 0.5  # rad
 FEWEST = 16  # measurements to see a pattern in what a model leaves
 # A gain in log evidence, over the root of the number of further parameters, that is no chance.
 CONVINCING = 2.5
@@ -99,24 +98,15 @@ def angles_for(
         poses: (run, n, 4, 4) of the tool in the base frame [m].
         start: (run, n, 6) rad nearby.
     """
-    angles, best, least = start.copy(), start.copy(), np.full(start.shape[:2], np.inf)
-    for _ in range(STEPS):
-        unsolved = np.flatnonzero((least > TOLERANCE).any(axis=1))
-        if not len(unsolved):
-            break
-        each = (calibrations[run].forward_and_jacobian(angles[run]) for run in unsolved)
-        reached, jacobians = map(np.stack, zip(*each, strict=True))
-        misses = twists(reached, poses[unsolved])
-        sizes = np.abs(misses).max(axis=-1)
-        best[unsolved] = np.where(
-            (sizes < least[unsolved])[..., None], angles[unsolved], best[unsolved]
+
+    def look(runs, angles):
+        each = (
+            calibrations[run].forward_and_jacobian(own)
+            for run, own in zip(runs, angles, strict=True)
         )
-        least[unsolved] = np.fmin(sizes, least[unsolved])
-        steps = solve_each(jacobians, misses)
-        angles[unsolved] += steps * (
-            LONGEST_STEP / np.maximum(LONGEST_STEP, np.abs(steps).max(axis=-1, keepdims=True))
-        )
-    return best
+        return tuple(map(np.stack, zip(*each, strict=True)))
+
+    return solve_groups(look, poses, start, TOLERANCE, STEPS)[0]
 
 
 def calibrate(

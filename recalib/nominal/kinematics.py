@@ -33,7 +33,8 @@ class Arm:
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, 6).
 
-        A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity along the base's axes.
+        A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity
+        along the base's axes.
         """
         poses, jacobians = [], []
         for q in angles:
@@ -48,9 +49,10 @@ class Arm:
     def forward_and_all_jacobians(
         self, angles: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Poses and Jacobians as `forward_and_jacobian`, and the Jacobians (n, 6, 7 * 6) with respect to the placements.
+        """Poses and Jacobians as `forward_and_jacobian`, and those by the placements (n, 6, 7 * 6).
 
-        A placement's motion [m, rad] is along the axes of what it places: the six joints, and last the tool.
+        A placement's motion [m, rad] is along the axes of what it places: each of the joints, and
+        last the tool.
         """
         poses, joints, placements = [], [], []
         for q in angles:
@@ -69,7 +71,7 @@ class Arm:
         return poses, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
 
     def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
-        """Torques (n, 6) [N m] with which the motors hold the arm against gravity at joint angles (n, 6) [rad]."""
+        """Torques (n, 6) [N m] that hold the arm against gravity at joint angles (n, 6) [rad]."""
         return np.array(
             [pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]
         ).reshape(-1, 6)

@@ -1,9 +1,10 @@
 """Pose coordinates of a workspace and their conversion to and from SE(3), and the two errors.
 
-A pose is a homogeneous matrix (4, 4) of the tool in the base frame, in metres. Its coordinates are the 6-vector
-u = (x, y, z, roll, pitch, yaw): the position relative to the centre of the workspace along the base's axes, and the
-orientation relative to that of the centre, R = R_centre Rz(yaw) Ry(pitch) Rx(roll). They are divided by the half-ranges
-of the workspace, so that the workspace is the box [-1, 1]^6 and no norm mixes metres with radians.
+A pose is a homogeneous matrix (4, 4) of the tool in the base frame, in metres. Its coordinates are
+the 6-vector u = (x, y, z, roll, pitch, yaw): the position relative to the centre of the workspace
+along the base's axes, and the orientation relative to that of the centre,
+R = R_centre Rz(yaw) Ry(pitch) Rx(roll). They are divided by the half-ranges of the workspace, so
+that the workspace is the box [-1, 1]^6 and no norm mixes metres with radians.
 """
 
 from dataclasses import dataclass
@@ -21,7 +22,8 @@ class Workspace:
 
     Args:
         centre: pose (4, 4) of the box's centre in the base frame, lengths in m.
-        half_ranges: (6,) half of the box's size along each coordinate: three lengths in m, three angles in rad.
+        half_ranges: (6,) half of the box's size along each coordinate: three lengths in m, three
+            angles in rad.
     """
 
     centre: np.ndarray
@@ -38,7 +40,10 @@ class Workspace:
         return poses
 
     def to_coordinates(self, poses: np.ndarray) -> np.ndarray:
-        """Coordinates (..., 6) of the poses (..., 4, 4); pitch must stay below 90 degrees from the centre's."""
+        """Coordinates (..., 6) of the poses (..., 4, 4).
+
+        Their pitch must stay below 90 degrees from the centre's.
+        """
         coordinates = np.empty((*poses.shape[:-2], 6))
         coordinates[..., POSITION] = poses[..., :3, 3] - self.centre[:3, 3]
         relative = (self.centre[:3, :3].T @ poses[..., :3, :3]).reshape(-1, 3, 3)
@@ -57,7 +62,7 @@ def position_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
 
 
 def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
-    """Geodesic angle (...) in rad between the orientations of poses (..., 4, 4): what one rotation needs to the other."""
+    """Angle (...) in rad of the turn from one orientation to the other, of poses (..., 4, 4)."""
     between = np.swapaxes(desired[..., :3, :3], -1, -2) @ achieved[..., :3, :3]
     angles = Rotation.from_matrix(between.reshape(-1, 3, 3), assume_valid=True).magnitude()
     return angles.reshape(between.shape[:-2])
