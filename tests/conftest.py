@@ -1,4 +1,4 @@
-"""What the tests share: the configuration of the project and its default robot."""
+"""What the tests share: the shipped study and its robot, and copies of the project."""
 
 import os
 import shutil
@@ -8,37 +8,50 @@ import sys
 import time
 from pathlib import Path
 
-os.environ["OMP_NUM_THREADS"] = (
-    "1"  # before NumPy is there: small matrices are slower on many threads than on one
-)
+# before NumPy is there: small matrices are slower on many threads than on one
+os.environ["OMP_NUM_THREADS"] = "1"
 
 import numpy as np
 import pytest
-import yaml
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
-from recalib.study.scenarios import load_controller, robot_of_entry
+from recalib.study.configuration.reading import read_study
+from recalib.study.configuration.study import Study
+from recalib.study.jobs import Nominal
+from recalib.study.plan import Plan
+from recalib.study.plants import nominal_controller
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "tests/tiny.yaml"]
+TINY = "results/studies/tiny"  # where they lie, by the name in tests/tiny.yaml
 PARTS = ["Snakefile", "config.yaml", "workflow", "recalib", "profiles", "tests"]
 
 
 @pytest.fixture(scope="session")
-def config() -> dict:
-    return yaml.safe_load((ROOT / "config.yaml").read_text())
+def study() -> Study:
+    return read_study(ROOT / "config.yaml")
 
 
 @pytest.fixture(scope="session")
-def robot(config) -> Robot:
-    return robot_of_entry("ur10", config["robots"]["ur10"])
+def plan(study) -> Plan:
+    return Plan(study)
+
+
+def changed(nominal: Nominal, **entry) -> Nominal:
+    """The robot with keys of its entry changed, in SI units."""
+    return nominal.model_copy(update={"robot": nominal.robot.model_copy(update=entry)})
 
 
 @pytest.fixture(scope="session")
-def controller(config) -> Controller:
-    return load_controller("ur10", config)
+def controller(plan) -> Controller:
+    return nominal_controller(plan.nominal("ur10"))
+
+
+@pytest.fixture(scope="session")
+def robot(controller) -> Robot:
+    return controller.robot
 
 
 @pytest.fixture(scope="session")
@@ -80,18 +93,18 @@ def project(tmp_path_factory) -> Path:
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    whole = "results/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
+    whole = f"{TINY}/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
     deadline = time.monotonic() + 120
     while process.poll() is None and not list(folder.glob(whole)) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert process.poll() is None, "the run ended before it could be interrupted"
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    gathered = [path.relative_to(folder / "results" / "runs") for path in folder.glob(whole)]
+    gathered = [path.relative_to(folder / TINY / "runs") for path in folder.glob(whole)]
     chunks = [
         path
         for run in gathered
-        for path in folder.glob(f"results/chunks/{run.parent}/{run.stem}.*.parquet")
+        for path in folder.glob(f"{TINY}/chunks/{run.parent}/{run.stem}.*.parquet")
     ]
     done = {path: path.stat().st_mtime_ns for path in chunks}
     finished = snakemake(folder)

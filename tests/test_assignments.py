@@ -3,49 +3,65 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.study.assignments import (
-    damages_of,
-    distance_to,
-    enumerate_assignments,
-    shifts,
-    shortenings,
-)
+from recalib.randomness import generator
+from recalib.study.assignments import Ways, assign, distance_to
+from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.jobs import Assignments
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 
 
-def test_the_paper_allows_5760_assignments(robot):
-    assert len(shortenings(LINKS, [0.01, 0.01, 0.04])) == 12
-    assert len(shifts(robot.joints, np.radians([4, 3, 4]))) == 480
-    assert len(set(shifts(robot.joints, np.radians([4, 3, 4])))) == 480
+def test_the_paper_allows_5760_different_assignments(robot):
+    ways = Ways(LINKS, [0.01, 0.01, 0.04], robot.joints, np.radians([4, 3, 4]))
+    assert (len(ways.short), len(ways.shifted), len(ways)) == (12, 480, 5760)
+    assert len({ways[index] for index in range(len(ways))}) == 5760
+
+
+def test_an_assignment_lists_its_damages_from_the_base_to_the_tool(robot):
+    ways = Ways(LINKS, [0.01, 0.04], robot.joints, [0.05, 0.06])
+    for index in range(0, len(ways), 37):
+        links, joints = ways[index][:2], ways[index][2:]
+        assert LINKS.index(links[0].link) < LINKS.index(links[1].link)
+        assert robot.joints.index(joints[0].joint) < robot.joints.index(joints[1].joint)
 
 
 @pytest.fixture(scope="module")
-def table(controller):
-    poses = np.random.default_rng(0).uniform(-1, 1, (10, 6))
-    return enumerate_assignments(controller, LINKS[:2], [0.01, 0.04], [0.05], poses), poses
+def assigned(plan):
+    published = Published(position_error_cm=5.0, orientation_error_deg=3.0)
+    damage = PaperDamage.model_construct(
+        shorten=(0.01, 0.04), shift=(0.05,), published=published, poses=10
+    )
+    job = Assignments(nominal=plan.nominal("ur10"), damage=damage, seed=1)
+    return job, *assign(job)
 
 
-def test_every_row_has_the_errors_of_its_damages(table, controller):
-    frame, poses = table
-    assert len(frame) == 2 * 12
-    desired = controller.robot.workspace.to_poses(poses)
-    for _, row in frame.iloc[::7].iterrows():
-        damages = damages_of(row)
-        assert len(damages) == 3
-        achieved = apply(controller.robot, damages).forward(controller.inverse(desired))
-        assert row["position_error_cm"] == pytest.approx(
-            100 * position_error(achieved, desired).mean()
-        )
-        assert row["orientation_error_deg"] == pytest.approx(
-            np.degrees(orientation_error(achieved, desired).mean())
-        )
+def test_every_row_has_the_errors_of_its_damages(assigned, controller):
+    job, table, _ = assigned
+    robot = controller.robot
+    ways = Ways(LINKS, job.damage.shorten, robot.joints, job.damage.shift)
+    assert len(table) == len(ways) == 12 * 12
+    poses = robot.workspace.sample(generator(1, "assignments"), 10)
+    desired = robot.workspace.to_poses(poses)
+    for index in range(0, len(ways), 29):
+        achieved = apply(robot, ways[index]).forward(controller.inverse(desired))
+        position = 100 * position_error(achieved, desired).mean()
+        orientation = np.degrees(orientation_error(achieved, desired).mean())
+        assert table["position_error_cm"][index] == pytest.approx(position)
+        assert table["orientation_error_deg"][index] == pytest.approx(orientation)
 
 
-def test_the_distance_is_the_larger_relative_deviation(table):
-    frame, _ = table
-    row = frame.iloc[3]
-    assert distance_to(frame, row["position_error_cm"], row["orientation_error_deg"])[3] == 0
-    assert distance_to(frame, row["position_error_cm"] / 1.5, row["orientation_error_deg"])[
-        3
-    ] == pytest.approx(0.5)
+def test_the_nearest_assignment_is_used(assigned):
+    _, table, assignment = assigned
+    assert assignment.distance == pytest.approx(table["distance"].min(), abs=1e-9)
+    assert assignment.assignments == len(table) and len(assignment.damages) == 3
+    again = type(assignment).model_validate_json(assignment.model_dump_json())
+    assert again == assignment
+
+
+def test_the_distance_is_the_larger_relative_deviation(assigned):
+    _, table, _ = assigned
+    position, orientation, _ = table.loc[3]
+    exact = Published(position_error_cm=position, orientation_error_deg=orientation)
+    off = Published(position_error_cm=position / 1.5, orientation_error_deg=orientation)
+    assert distance_to(table, exact)[3] == 0
+    assert distance_to(table, off)[3] == pytest.approx(0.5)

@@ -7,28 +7,19 @@ from recalib.interfaces import Outcome
 from recalib.learners import peers
 from recalib.study.evidence.guidance import moves_text, where_worse
 from recalib.study.evidence.results import ERRORS
-from recalib.study.experiments.benchmark import Timed, entrant, moves_to_reach
-from tests.conftest import ROOT
+from recalib.study.experiments.benchmark import Timed, measured_at, moves_to_reach
 
 
-@pytest.fixture
-def here(config):
-    return config | {"tuned": str(ROOT / config["tuned"])}
+def test_a_map_is_measured_where_its_moves_meet_a_budget():
+    assert measured_at([1, 2, 3, 4, 400, 1000], iterations=200, moves=2) == [1, 2, 200]
+    assert measured_at([1, 2, 3, 500], iterations=400, moves=1) == [1, 2, 3]
 
 
-def test_a_peer_makes_a_move_an_iteration_and_a_map_two(here):
-    assert entrant("geometric", here)[1:] == (400, 1)
-    assert entrant("improved", here)[1:] == (200, 2)
-    assert entrant("improved", here).measure_at([1, 2, 3, 4, 400, 1000]) == [1, 2, 200]
-    with pytest.raises(UnknownName, match=r"hybrid, improved"):
-        entrant("magic", here)
-
-
-def test_every_learner_of_the_benchmark_can_be_made(here, controller):
-    for name in here["benchmark"]["learners"]:
-        learner = entrant(name, here).make(2, controller)
+def test_every_peer_can_be_made_and_knows_nothing_yet(controller):
+    for name in peers.NEEDS:
         desired = np.zeros((2, 3, 6))
-        assert np.allclose(learner.command(desired), desired, atol=1e-9), name
+        commands = peers.build(name, 2, controller).command(desired)
+        assert np.allclose(commands, desired, atol=1e-9), name
     with pytest.raises(UnknownName, match="gaussian_process"):
         peers.build("magic", 1, controller)
 

@@ -1,17 +1,16 @@
-import copy
-
 import numpy as np
 import pytest
 
 from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.study.scenarios import load_controller
+from recalib.study.plants import nominal_controller
+from tests.conftest import changed
 
 
 @pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
-def test_forward_of_inverse_is_the_pose(name, config):
-    controller = load_controller(name, config)
+def test_forward_of_inverse_is_the_pose(name, plan):
+    controller = nominal_controller(plan.nominal(name))
     workspace = controller.robot.workspace
     poses = workspace.to_poses(
         workspace.sample(np.random.default_rng(1), 10_000 if name == "ur10" else 1000)
@@ -46,31 +45,27 @@ def test_a_pose_out_of_reach_is_an_error_that_names_it(controller):
     assert caught.value.residual > 1 and caught.value.position[0] == 3.0
 
 
-def test_a_pose_beyond_the_joint_limits_is_an_error(config):
-    narrow = copy.deepcopy(config)
-    narrow["robots"]["ur10"]["limits"] = {"wrist_3_joint": ["-80 deg", "80 deg"]}
-    controller = load_controller("ur10", narrow)
+def test_a_pose_beyond_the_joint_limits_is_an_error(plan):
+    limits = {"wrist_3_joint": np.radians([-80, 80])}
+    controller = nominal_controller(changed(plan.nominal("ur10"), limits=limits))
     turned = np.array([[0, 0, 0, 0, 0, 5.0]])  # 100 degrees of yaw
     with pytest.raises(Unreachable, match="only beyond the joint limits"):
         controller.inverse(controller.robot.workspace.to_poses(turned))
 
 
-def test_a_workspace_out_of_reach_is_refused(config):
-    far = copy.deepcopy(config)
-    far["robots"]["ur10"]["workspace"]["position"] = ["150 cm"] * 3
-    with pytest.raises(
-        UnfitWorkspace, match=r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
-    ):
-        load_controller("ur10", far)
+def test_a_workspace_out_of_reach_is_refused(plan):
+    nominal = plan.nominal("ur10")
+    far = nominal.robot.workspace.model_copy(update={"position": (1.5, 1.5, 1.5)})
+    message = r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
+    with pytest.raises(UnfitWorkspace, match=message):
+        nominal_controller(changed(nominal, workspace=far))
 
 
-def test_a_workspace_beyond_the_joint_limits_is_refused(config):
-    narrow = copy.deepcopy(config)
-    narrow["robots"]["ur10"]["limits"] = {"elbow_joint": ["110 deg", "130 deg"]}
-    with pytest.raises(
-        UnfitWorkspace, match="turn elbow_joint to .* beyond its limits of 110.0 to 130.0 deg"
-    ):
-        load_controller("ur10", narrow)
+def test_a_workspace_beyond_the_joint_limits_is_refused(plan):
+    limits = {"elbow_joint": np.radians([110, 130])}
+    message = "turn elbow_joint to .* beyond its limits of 110.0 to 130.0 deg"
+    with pytest.raises(UnfitWorkspace, match=message):
+        nominal_controller(changed(plan.nominal("ur10"), limits=limits))
 
 
 def test_a_workspace_near_a_singularity_is_refused(robot):

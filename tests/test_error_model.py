@@ -11,7 +11,7 @@ from recalib.identification.error_model import (
     TWISTS,
     ErrorModel,
 )
-from recalib.study.scenarios import robot_of_entry
+from recalib.study.plants import nominal_robot
 
 
 def drawn(model: ErrorModel, seed: int) -> np.ndarray:
@@ -20,8 +20,8 @@ def drawn(model: ErrorModel, seed: int) -> np.ndarray:
 
 @pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
 @pytest.mark.parametrize("at_nominal", [True, False])
-def test_jacobians_agree_with_finite_differences(name, at_nominal, config):
-    robot = robot_of_entry(name, config["robots"][name])
+def test_jacobians_agree_with_finite_differences(name, at_nominal, plan):
+    robot = nominal_robot(plan.nominal(name))
     model = ErrorModel(robot.arm, JOINT_ERRORS)
     parameters = drawn(model, 1) * (not at_nominal)
     angles = robot.home + np.random.default_rng(2).uniform(-0.5, 0.5, (3, 6))

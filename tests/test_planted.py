@@ -13,14 +13,16 @@ from recalib.learners import hierarchical, schedules
 from recalib.learners.maps import HierarchicalMap
 from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
-from recalib.study.experiments import campaign, tuned
+from recalib.study.experiments import campaign
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.trainings import rules, training
 from recalib.training import train
 from tests.conftest import ROOT
 
 SEEDS = range(20)
 
 
-def final_errors(config, controller, learner="improved"):
+def final_errors(study, controller, learner="improved"):
     """The rows of the check for one learner on the paper's damage, trained here and now."""
     damages = [
         {"link": "forearm_link", "shorten": "1 cm"},
@@ -30,16 +32,17 @@ def final_errors(config, controller, learner="improved"):
         {"encoder": "shoulder_lift_joint", "shift": "-4 deg"},
         {"encoder": "wrist_3_joint", "shift": "3 deg"},
     ]
-    which = tuned.training(learner, config["learners"])
+    settings = rules(study, learner)
+    sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
     history = train(
         Plant(
             controller,
             [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
         ),
-        tuned.build(which, len(SEEDS), config["learners"], ROOT / config["tuned"]),
-        campaign.desired_poses(config["seed"], "links_encoders", SEEDS, which.iterations),
-        campaign.test_poses(config["seed"], "links_encoders", SEEDS, config["training"]["tests"]),
-        [which.iterations],
+        build_tuned(settings, sample, len(SEEDS)),
+        campaign.desired_poses(study.seed, "links_encoders", SEEDS, settings.iterations),
+        campaign.test_poses(study.seed, "links_encoders", SEEDS, study.training.tests),
+        [settings.iterations],
     )
     summary = pd.DataFrame(
         {
@@ -49,7 +52,7 @@ def final_errors(config, controller, learner="improved"):
             "final_orientation_error_deg": np.degrees(history.orientation[:, -1, 0]).mean(),
         }
     )
-    expected = pd.read_csv(ROOT / config["expected"]).query(
+    expected = pd.read_csv(ROOT / study.expected).query(
         "scenario == 'links_encoders' and learner == @learner"
     )
     return check(summary, expected)
@@ -81,20 +84,20 @@ PLANTED = {
 
 
 @pytest.mark.parametrize("learner", ["improved", "ritter_200"])
-def test_without_an_error_the_check_is_green(config, controller, learner):
-    assert final_errors(config, controller, learner)["ok"].all()
+def test_without_an_error_the_check_is_green(study, controller, learner):
+    assert final_errors(study, controller, learner)["ok"].all()
 
 
-def test_an_error_planted_in_ritters_rules_turns_the_check_red(config, controller):
+def test_an_error_planted_in_ritters_rules_turns_the_check_red(study, controller):
     def towards_zero(cells, weights, values):
         for cell, weight in zip(cells, weights, strict=True):
             cell *= 1 - weight
 
     with mock.patch.object(hierarchical, "propagate_values", towards_zero):
-        assert not final_errors(config, controller, "ritter_200")["ok"].any()
+        assert not final_errors(study, controller, "ritter_200")["ok"].any()
 
 
 @pytest.mark.parametrize("error", PLANTED)
-def test_a_planted_error_turns_the_check_red(config, controller, error):
+def test_a_planted_error_turns_the_check_red(study, controller, error):
     with PLANTED[error]():
-        assert not final_errors(config, controller)["ok"].all()
+        assert not final_errors(study, controller)["ok"].all()

@@ -7,14 +7,14 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.study.experiments import recorded
+from recalib.study.experiments import real_arm
 from recalib.study.experiments.real_arm import (
     LEARNERS,
     read_measurements,
     remaining_errors,
     with_tool_point,
 )
-from recalib.study.scenarios import robot_of_entry
+from recalib.study.plants import nominal_robot
 
 # As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
@@ -33,12 +33,12 @@ def manufacturers_position(angles: np.ndarray) -> np.ndarray:
             [0, st, ct, d],
             [0, 0, 0, 1],
         ]
-    return (pose @ [*recorded.TOOL_POINT, 1])[:3]
+    return (pose @ [*real_arm.TOOL_POINT, 1])[:3]
 
 
 @pytest.fixture(scope="module")
-def ur5(config):
-    return with_tool_point(robot_of_entry("ur5", config["robots"]["ur5"]))
+def ur5(plan):
+    return with_tool_point(nominal_robot(plan.nominal("ur5")))
 
 
 @pytest.fixture(scope="module")
@@ -75,11 +75,11 @@ def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
     assert distance.max() < 5e-5
 
 
-def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, config):
-    flange = robot_of_entry("ur5", config["robots"]["ur5"])
+def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
+    flange = nominal_robot(plan.nominal("ur5"))
     assert np.allclose(
         np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
-        [*recorded.TOOL_POINT, 1],
+        [*real_arm.TOOL_POINT, 1],
     )
 
 

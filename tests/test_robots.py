@@ -1,22 +1,16 @@
-import copy
-
 import numpy as np
 import pinocchio as pin
 import pytest
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.robots import load_robot
-from recalib.study.scenarios import load_controller, robot_of_entry
-
-
-@pytest.fixture
-def entries(config):
-    return copy.deepcopy(config["robots"])
+from recalib.study.plants import nominal_robot
+from tests.conftest import changed
 
 
 @pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
-def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, config):
-    robot = robot_of_entry(name, config["robots"][name])
+def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, plan):
+    robot = nominal_robot(plan.nominal(name))
     step = 1e-6
     _, jacobian = robot.arm.forward_and_jacobian(robot.home[None])
     ahead, behind = (robot.arm.forward(robot.home + sign * step * np.eye(6)) for sign in (1, -1))
@@ -33,10 +27,9 @@ def test_the_workspace_is_centred_on_home(robot):
     assert np.allclose(np.degrees(2 * robot.workspace.half_ranges[3:]), 40)
 
 
-def test_a_locked_gripper_leaves_six_joints(config):
-    assert robot_of_entry("z1", config["robots"]["z1"]).joints == tuple(
-        f"joint{index}" for index in range(1, 7)
-    )
+def test_a_locked_gripper_leaves_six_joints(plan):
+    joints = nominal_robot(plan.nominal("z1")).joints
+    assert joints == tuple(f"joint{index}" for index in range(1, 7))
 
 
 def test_every_link_has_a_length(robot):
@@ -59,24 +52,24 @@ def test_every_link_has_a_length(robot):
             UnsuitableRobot,
             "9 coordinates",
         ),
-        ({"home": {"elbow": "0 deg"}}, UnknownName, "elbow_joint"),
-        ({"home": {"elbow_joint": "0 deg"}}, InvalidSetting, "shoulder_pan_joint"),
+        ({"home": {"elbow": 0.0}}, UnknownName, "elbow_joint"),
+        ({"home": {"elbow_joint": 0.0}}, InvalidSetting, "shoulder_pan_joint"),
         (
-            {"limits": {"elbow_joint": ["0 deg", "90 deg"]}},
+            {"limits": {"elbow_joint": (0.0, np.pi / 2)}},
             InvalidSetting,
             "elbow_joint is '120 deg'; valid: 0.0 deg to 90.0",
         ),
-        (
-            {"workspace": {"position": ["0 cm"] * 3, "orientation": ["40 deg"] * 3}},
-            InvalidSetting,
-            "above zero",
-        ),
     ],
 )
-def test_an_impossible_entry_is_refused_with_what_would_be_valid(entries, change, error, message):
-    entries["ur10"] |= change
+def test_an_impossible_robot_is_refused_with_what_would_be_valid(plan, change, error, message):
     with pytest.raises(error, match=message):
-        robot_of_entry("ur10", entries["ur10"])
+        nominal_robot(changed(plan.nominal("ur10"), **change))
+
+
+def test_a_workspace_without_size_is_refused(robot):
+    home = dict(zip(robot.joints, robot.home, strict=True))
+    with pytest.raises(InvalidSetting, match="above zero"):
+        load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], np.radians([40, 40, 40]))
 
 
 def test_a_urdf_from_anywhere_will_do(robot, tmp_path):
@@ -93,8 +86,3 @@ def test_a_file_that_is_no_urdf_is_refused_by_its_path(tmp_path):
     path.write_text("nothing")
     with pytest.raises(UnsuitableRobot, match=r"notes\.urdf is no URDF"):
         load_robot(path, "tool0", {}, [1, 1, 1], [1, 1, 1])
-
-
-def test_an_unknown_robot_is_refused_with_the_known_ones(config):
-    with pytest.raises(UnknownName, match="ur10, ur3, ur5, z1"):
-        load_controller("ur11", config)

@@ -1,10 +1,16 @@
+from pathlib import Path
+
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.errors import InvalidSetting, UnknownName
+from recalib.errors import UnknownName
 from recalib.learners.hierarchical import Rules
-from recalib.study.experiments import search, tuned
+from recalib.study.experiments import samples, search
+from recalib.study.experiments.settings import best, rules_of
+from recalib.study.layout import SEARCHED
+from recalib.study.trainings import SWITCHES, Trainings, rules, training
+from tests.conftest import ROOT
 
 RANGES = {
     "initial_width": [0.2, 5],
@@ -61,24 +67,54 @@ def test_the_score_is_the_worse_of_both_errors():
     assert search.score(frame).tolist() == [4.0, 3.0, 4.0]
 
 
-def test_a_training_is_a_learner_and_its_iterations(config):
-    learners = config["learners"]
-    assert tuned.training("ritter", learners) == ("ritter", 10_000)
-    assert tuned.training("ritter_200", learners) == ("ritter", 200)
-    assert tuned.training("ritter_double", learners) == ("ritter_double", 10_000)
-    assert str(tuned.training("ritter_200", learners)) == "ritter_200"
+def test_a_training_is_a_learner_and_its_iterations(study):
+    assert training(study, "ritter") == ("ritter", 10_000)
+    assert training(study, "ritter_200") == ("ritter", 200)
+    assert training(study, "ritter_double") == ("ritter_double", 10_000)
+    assert str(training(study, "ritter_200")) == "ritter_200"
     for wrong in ("riter", "ritter_0", "ritter_-5", "ritter_2x"):
-        with pytest.raises(UnknownName, match="improved.*ritter_ITERATIONS"):
-            tuned.training(wrong, learners)
+        with pytest.raises(UnknownName, match=r"improved.*ritter_ITERATIONS"):
+            training(study, wrong)
 
 
-def test_a_training_without_settings_is_refused_with_what_to_do(config, tmp_path):
-    (tmp_path / "settings.yaml").write_text("improved_200: {initial_width: 1}\n")
-    with pytest.raises(InvalidSetting, match=r"ritter_77.*improved_200.*snakemake --cores 2 tune"):
-        tuned.settings(tuned.training("ritter_77", config["learners"]), tmp_path)
+def test_rules_are_what_the_configuration_says(study):
+    assert rules_of(rules(study, "improved")) == Rules(True, True, True, True)
+    assert rules_of(rules(study, "ritter")) == Rules(False, False, False, False)
+    assert rules_of(rules(study, "ritter_double")).supernet == (3, 6, 3)
 
 
-def test_rules_are_what_the_configuration_says(config):
-    assert tuned.rules(config["learners"]["improved"]) == Rules(True, True, True, True)
-    assert tuned.rules(config["learners"]["ritter"]) == Rules(False, False, False, False)
-    assert tuned.rules(config["learners"]["ritter_double"]).supernet == (3, 6, 3)
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_a_switch_changes_one_thing_of_each_system(study, switch):
+    improved, ritter = (rules(study, name).model_dump() for name in ("improved", "ritter_200"))
+    without, added = (rules(study, name).model_dump() for name in (switch.without, switch.added))
+    assert without == improved | {switch.key: ritter[switch.key]} != improved
+    assert added == ritter | {switch.key: improved[switch.key]} != ritter
+
+
+def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(plan, tmp_path):
+    path = tmp_path / "improved_200.csv"
+    trials = search.draw(RULES, RANGES, 4, seed=1).assign(position_error_cm=[3.0, 1, 2, 4])
+    trials["orientation_error_deg"] = [1.0, 2, 1.5, 1]
+    samples.write_sample(path, plan.sample("improved_200"), trials)
+    assert samples.searched_for(path) == plan.sample("improved_200")
+    assert samples.read_sample(path).equals(trials)
+    assert best(samples.read_sample(path)).name == 1, (
+        "its worse error is the smallest; the first of two"
+    )
+    path.write_text("round,initial_width\n1,2\n")
+    with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
+        samples.read_sample(path)
+
+
+@pytest.mark.parametrize(
+    "path", sorted(Path(ROOT, SEARCHED).glob("*.csv")), ids=lambda path: path.stem
+)
+def test_a_shipped_sample_was_searched_for_what_the_study_trains(study, plan, path):
+    assert samples.searched_for(path) == plan.sample(path.stem)
+    trials = samples.read_sample(path)
+    assert trials.groupby("round").size().tolist() == [study.search.trials] * study.search.rounds
+
+
+def test_there_is_a_shipped_sample_for_every_training(study):
+    shipped = {path.stem for path in Path(ROOT, SEARCHED).glob("*.csv")}
+    assert shipped == set(Trainings(study).tuned())

@@ -4,7 +4,8 @@ from collections.abc import Iterable
 
 from recalib.errors import UnknownName
 from recalib.study import jobs
-from recalib.study.configuration.study import Learner, Study
+from recalib.study.configuration.part import Part
+from recalib.study.configuration.study import Amounts, Budget, Learner, Study
 from recalib.study.trainings import (
     IMPROVED,
     Trainings,
@@ -14,9 +15,7 @@ from recalib.study.trainings import (
     training,
 )
 
-SIDE_BY_SIDE = (
-    5  # scenarios in a job: a move takes half the time where a hundred are solved at once
-)
+SIDE_BY_SIDE = 5  # scenarios in a job: many robots solved in one call take half the time a move
 
 
 def chunks(total: int, size: int) -> list[int]:
@@ -27,6 +26,11 @@ def chunks(total: int, size: int) -> list[int]:
 def bounds(chunk: int, total: int, size: int) -> dict[str, int]:
     """The first of a chunk, and one past its last."""
     return {"first": chunk * size, "last": min((chunk + 1) * size, total)}
+
+
+def _only(kind: type[Part], part: Part) -> Part:
+    """What a part of the configuration shares with the poorer kind that it is built upon."""
+    return kind.model_construct(**{name: getattr(part, name) for name in kind.model_fields})
 
 
 class Plan:
@@ -120,7 +124,7 @@ class Plan:
         study = self.study
         return jobs.Sample(
             learner=rules(study, learner),
-            budget=study.search,
+            budget=_only(Budget, study.search),
             robot=study.robot,
             scenario=study.scenario,
         )
@@ -136,7 +140,7 @@ class Plan:
         its = plan.ensemble[learner][series]
         return jobs.Draws(
             nominal=self.nominal(self.study.robot),
-            damage=self.study.paper_damage,
+            damage=_only(Amounts, self.study.paper_damage),
             series=series,
             plan=its,
             **bounds(chunk, its.draws, plan.draws_per_job),
