@@ -4,10 +4,9 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.learners.hierarchical import IMPROVED, HierarchicalLearner, Schedule
 from recalib.training import measuring_grid, train
 
-IMPROVED = Rules(True, True, True, True)
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
 
 

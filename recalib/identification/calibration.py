@@ -12,7 +12,7 @@ from recalib.identification.estimation import LEAST_NOISE, Estimate, displacemen
 from recalib.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
-from recalib.processes import Process, is_time_to_search
+from recalib.regression import Process, is_time_to_search
 
 STEPS = 10
 TOLERANCE = 1e-9  # m, rad

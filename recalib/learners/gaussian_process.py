@@ -7,14 +7,14 @@ import numpy as np
 from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
-from recalib.processes import Process, is_time_to_search
+from recalib.regression import Process, is_time_to_search
 
 
 class GaussianProcessLearner(Observer):
     """The correction, command minus achieved pose, as a Gaussian process of the achieved pose.
 
     Hyperparameters are sought anew whenever the number of moves has doubled, up to
-    `processes.MOST` of them.
+    `regression.MOST` of them.
 
     Args:
         runs: how many independent trainings.

@@ -52,9 +52,6 @@ class Rules:
         return SEPARATE if self.separate_maps else SINGLE
 
 
-RITTER = Rules(
-    separate_maps=False, theta_increments=False, jacobian_increments=False, equal_visits=False
-)
 IMPROVED = Rules(
     separate_maps=True, theta_increments=True, jacobian_increments=True, equal_visits=True
 )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.processes import Covariance, Process
+from recalib.regression import Covariance, Process
 
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
