@@ -93,26 +93,18 @@ def identify(
             of a model with the same first terms and fewer or more of them.
     """
     scale, kinds = model.deviations, 1 if measured.ndim == 2 else 2
-    parameters, variances = np.zeros_like(scale), np.ones_like(scale)
-    if start is not None:
-        known = slice(min(len(scale), len(start.parameters)))
-        parameters[known] = start.parameters[known] / scale[known]
-        spread = np.diag(start.covariance)[known] / scale[known] ** 2
-        variances[known] = (SPARSITY + parameters[known] ** 2 + spread) / (SPARSITY + 1)
+    parameters, variances = _initial(scale, start)
     noise, weights = np.full(kinds, FIRST_NOISE), np.ones(len(angles))
     limit = chi2.ppf(DOUBTED, 3 * kinds)
     terms = model.terms(angles)
     origin, reach = np.full_like(scale, np.inf), np.ones_like(scale)  # of the present linearisation
     for step in range(STEPS):
         if np.max(np.abs(parameters - origin) * reach) ** 2 > NEGLIGIBLE * noise.min():
-            poses, jacobians = model.linearise(parameters * scale, angles, terms)
-            jacobians = (jacobians[:, : 3 * kinds] * scale).reshape(
-                len(angles), kinds, 3, len(scale)
-            )
-            residuals = displacements(poses, measured).reshape(len(angles), kinds, 3)
+            residuals, jacobians = _linearise(model, parameters, angles, terms, measured)
             origin, reach = parameters, np.abs(jacobians).max(axis=(0, 1, 2))
         if step > 0:
             weights = limit / np.maximum(_squares(residuals, noise), limit)
+        # The most probable parameters, given noise, weights and variances ...
         information, pull = _normal_equations(jacobians, residuals, weights)
         precision = np.diag(1 / variances) + np.einsum("k,kpq->pq", noise**-2, information)
         factor = scipy.linalg.cho_factor(precision)
@@ -120,16 +112,15 @@ def identify(
         covariance = scipy.linalg.cho_solve(factor, np.eye(len(scale)))
         parameters = parameters + change
         residuals = residuals - jacobians @ change
+        # ... and then noise and variances, given the parameters.
         taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
         last_noise, noise = noise, _noise(residuals, weights, taken, robust=step < ROBUST_STEPS)
         common = (COMMON + len(scale)) / (COMMON + np.sum(1 / variances))
-        variances = (SPARSITY * common + parameters**2 + np.diag(covariance)) / (SPARSITY + 1)
-        moved = np.sqrt(change @ precision @ change)
-        if (
-            step >= ROBUST_STEPS
-            and moved < CONVERGED
-            and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
-        ):
+        variances = _variances(parameters, np.diag(covariance), common)
+        settled = np.sqrt(change @ precision @ change) < CONVERGED and np.allclose(
+            noise, last_noise, rtol=CONVERGED, atol=0
+        )
+        if settled and step >= ROBUST_STEPS:
             break
     log_evidence = (
         _log_likelihood(residuals, noise, limit)
@@ -141,6 +132,39 @@ def identify(
     )
 
 
+def _initial(scale: np.ndarray, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
+    """Parameters (P,) over their deviations `scale` (P,) and their variances, to start from."""
+    parameters, variances = np.zeros_like(scale), np.ones_like(scale)
+    if start is not None:
+        known = slice(min(len(scale), len(start.parameters)))
+        parameters[known] = start.parameters[known] / scale[known]
+        spread = np.diag(start.covariance)[known] / scale[known] ** 2
+        variances[known] = _variances(parameters[known], spread, common=1.0)
+    return parameters, variances
+
+
+def _variances(parameters: np.ndarray, spread: np.ndarray, common: float) -> np.ndarray:
+    """The most probable v_j, given the parameters (P,) and the variances of their errors (P,)."""
+    return (SPARSITY * common + parameters**2 + spread) / (SPARSITY + 1)
+
+
+def _linearise(
+    model: ErrorModel,
+    parameters: np.ndarray,
+    angles: np.ndarray,
+    terms: np.ndarray,
+    measured: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Residuals (n, kind, 3) and Jacobians (n, kind, 3, P) of the predictions.
+
+    Parameters are those over their deviations.
+    """
+    poses, jacobians = model.linearise(parameters * model.deviations, angles, terms)
+    residuals = displacements(poses, measured).reshape(len(angles), -1, 3)
+    rows = jacobians[:, : 3 * residuals.shape[1]] * model.deviations
+    return residuals, rows.reshape(*residuals.shape, -1)
+
+
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """Squared lengths (n,) of the residuals (n, kind, 3) over their noise (kind,)."""
     return np.square(residuals / noise[:, None]).sum(axis=(1, 2))
@@ -148,12 +172,8 @@ def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
 
 def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> float:
     squares = _squares(residuals, noise)
-    losses = (
-        np.where(
-            squares <= limit, squares, limit * (1 + np.log(np.maximum(squares, limit) / limit))
-        )
-        / 2
-    )
+    tails = limit * (1 + np.log(np.maximum(squares, limit) / limit))
+    losses = np.where(squares <= limit, squares, tails) / 2
     return -losses.sum() - 3 * len(residuals) * np.log(noise).sum()
 
 
