@@ -24,9 +24,11 @@ from recalib.study.plan import Plan
 from recalib.study.plants import nominal_controller
 
 ROOT = Path(__file__).parents[1]
-SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2", "--configfile", "tests/tiny.yaml"]
+SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2"]
+SMALL = ["--configfile", "tests/tiny.yaml"]
 TINY = "results/studies/tiny"  # where they lie, by the name in tests/tiny.yaml
-PARTS = ["Snakefile", "config.yaml", "workflow", "recalib", "profiles", "tests"]
+PARTS = """.gitignore Snakefile config.yaml README.md workflow recalib profiles tests docs
+ figures""".split()
 
 
 @pytest.fixture(scope="session")
@@ -64,9 +66,10 @@ def damaged(robot) -> DamagedArm:
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
 
 
-def snakemake(project, *arguments) -> subprocess.CompletedProcess:
+def snakemake(project, *arguments, small=True) -> subprocess.CompletedProcess:
+    """Run the workflow in a copy of the project: on the small study, or as it is shipped."""
     return subprocess.run(
-        [*SNAKEMAKE, *arguments],
+        [*SNAKEMAKE, *(SMALL if small else []), *arguments],
         cwd=project,
         text=True,
         stdout=subprocess.PIPE,
@@ -87,7 +90,7 @@ def project(tmp_path_factory) -> Path:
     """A copy of the project whose run was killed in the middle and started again."""
     folder = copy_project(tmp_path_factory.mktemp("project"))
     process = subprocess.Popen(
-        SNAKEMAKE,
+        [*SNAKEMAKE, *SMALL],
         cwd=folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

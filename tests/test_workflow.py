@@ -1,13 +1,17 @@
-"""The whole workflow on a small configuration, in a copy of the project."""
+"""The whole workflow on a small study, in a copy of the project."""
+
+import subprocess
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.learned import load
+from recalib.learners import peers
 from recalib.study.experiments import campaign
-from recalib.study.experiments.benchmark import entrant
+from recalib.study.plants import Resolved
 from recalib.training import train
-from tests.conftest import copy_project, snakemake
+from tests.conftest import ROOT, TINY, copy_project, snakemake
 
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
 
@@ -20,132 +24,156 @@ def planned(project, *arguments) -> set[str]:
     return {row[0] for row in rows[: rows.index([])] if row[0] != "total"} if [] in rows else set()
 
 
+def digests(project, *folders) -> dict[str, bytes]:
+    """What the committed files hold."""
+    paths = (path for folder in folders for path in sorted((project / folder).rglob("*")))
+    return {str(path.relative_to(project)): path.read_bytes() for path in paths if path.is_file()}
+
+
 @shared
 def test_the_contract_of_the_outputs_holds(project):
-    results = project / "results"
+    results = project / TINY
     for scenario in ("intact", "links_encoders"):
-        assert (results / "scenarios" / f"{scenario}.json").exists()
+        resolved = Resolved.read(results / "scenarios" / f"{scenario}.json")
         assert (results / "recordings" / f"{scenario}.rrd").stat().st_size > 1e6
-        for learner in ("improved", "ritter", "ritter_200"):
+        for learner in ("improved", "ritter", "ritter_60"):
             history = pd.read_parquet(results / "runs" / scenario / f"{learner}.parquet")
-            assert sorted(history["seed"].unique()) == list(
-                range(3 if learner == "improved" else 2)
+            seeds = 2 if learner == "ritter" else 3
+            assert sorted(history["seed"].unique()) == list(range(seeds))
+            learned = load(
+                results / "runs" / scenario / f"{learner}.npz", resolved.controller().robot
             )
-            assert (results / "runs" / scenario / f"{learner}.npz").exists()
+            assert len(learned.state()) == seeds
     summary = pd.read_csv(results / "summary.csv")
     assert len(summary) == 6 and (summary["moves"] == 2 * summary["iterations"]).all()
-    assert "intact" in (results / "check.txt").read_text()
+    assert "intact" in (results / "check.txt").read_text(encoding="utf-8")
     for figure in ("figure1", "figure2", "figure3"):
         for suffix in (".svg", ".png"):
-            assert (project / "figures" / f"{figure}{suffix}").stat().st_size > 5000
+            assert (results / "figures" / f"{figure}{suffix}").stat().st_size > 5000
+
+
+@shared
+def test_a_study_of_another_name_keeps_out_of_what_is_committed(project):
+    committed = "figures", "docs", "workflow/search"
+    assert digests(project, *committed) == digests(ROOT, *committed)
+    assert (project / "README.md").read_bytes() == (ROOT / "README.md").read_bytes()
+    assert not list((project / "results").glob("*.csv"))
 
 
 @shared
 def test_an_edited_module_reruns_what_depends_on_it_and_only_that(project):
-    module = project / "recalib" / "plots" / "learning.py"
-    text = module.read_text()
-    module.write_text(text + "# edited\n")
+    module = project / "recalib" / "study" / "plots" / "learning.py"
+    text = module.read_text(encoding="utf-8")
+    module.write_text(text + "# edited\n", encoding="utf-8")
     assert planned(project) == {"all", "figure", "report_pages"}
-    module.write_text(text)
+    module.write_text(text, encoding="utf-8")
     assert planned(project) == set(), "nothing was left to do before"
 
 
 @shared
 def test_an_edited_setting_reruns_what_depends_on_it_and_only_that(project):
-    settings = project / "tests" / "tiny" / "settings.yaml"
-    text = settings.read_text()
-    settings.write_text(text.replace("initial_width: 0.5", "initial_width: 0.6"))
-    rules = planned(project)
-    assert {"train", "run", "summary", "figure"} <= rules and not {
-        "scenario",
-        "assignments",
-    } & rules
-    settings.write_text(text)
+    fewer = planned(project, "--config", "training={tests: 10}")
+    assert {"search_trials", "train", "summary", "figure", "recording"} <= fewer
+    assert not {"scenario", "assignments"} & fewer
+    assert planned(project) == set()
 
 
 @shared
 def test_the_same_configuration_gives_the_same_bytes(project):
     run = "runs/links_encoders/improved"
-    files = [f"again/{run}.parquet", f"again/{run}.npz", "again/figure1.svg", "again/figure1.png"]
-    again = snakemake(project, "--config", "results=again", "figures=again", "--", *files)
-    assert again.returncode == 0, again.stdout
-    for file in files:
-        first = project / file.replace("again/", "figures/" if "figure" in file else "results/")
-        assert (project / file).read_bytes() == first.read_bytes()
-
-
-def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_path, config):
-    project = copy_project(tmp_path)
-    finished = snakemake(
+    files = [f"{run}.parquet", f"{run}.npz", "figures/figure1.svg", "figures/figure1.png"]
+    again = snakemake(
         project,
         "--config",
-        "benchmark={scenarios: [translation, noise]}",
+        "name=again",
         "--",
-        "results/benchmark.csv",
+        *(f"results/studies/again/{file}" for file in files),
     )
+    assert again.returncode == 0, again.stdout
+    for file in files[:2]:
+        second = project / "results/studies/again" / file
+        assert second.read_bytes() == (project / TINY / file).read_bytes()
+
+
+def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_path):
+    project = copy_project(tmp_path)
+    chosen = "benchmark={scenarios: [translation, noise]}"
+    finished = snakemake(project, "--config", chosen, "--", f"{TINY}/benchmark.csv")
     assert finished.returncode == 0, finished.stdout
-    table = pd.read_csv(project / "results" / "benchmark.csv").set_index(["scenario", "moves"])
+    table = pd.read_csv(project / TINY / "benchmark.csv").set_index(["scenario", "moves"])
     assert table.index.tolist() == [
         ("translation", 1),
         ("translation", 2),
         ("noise", 1),
         ("noise", 2),
     ]
-    runs = range(2)
-    controller, plant = campaign.load_plant(
-        project / "results" / "scenarios" / "noise.json", config, runs
+    resolved, seed = Resolved.read(project / TINY / "scenarios" / "noise.json"), 1996
+    controller, runs = resolved.controller(), range(2)
+    alone = train(
+        resolved.plant(controller, seed, runs),
+        peers.build("affine", 2, controller),
+        campaign.desired_poses(seed, "noise", runs, 2),
+        campaign.test_poses(seed, "noise", runs, 20),
+        [1, 2],
     )
-    desired = campaign.desired_poses(config["seed"], "noise", runs, 2)
-    tests = campaign.test_poses(config["seed"], "noise", runs, 20)
-    alone = train(plant, entrant("affine", config).make(2, controller), desired, tests, [1, 2])
-    # the table has six digits
-    assert np.allclose(
-        table.loc["noise", "position_error_cm"],
-        100 * alone.position[..., 0].mean(axis=0),
-        rtol=1e-5,
-    )
+    means = 100 * alone.position[..., 0].mean(axis=0)
+    assert np.allclose(table.loc["noise", "position_error_cm"], means, rtol=1e-5), "six digits"
 
 
-def test_the_search_gives_the_same_file_with_the_same_trials_for_all(tmp_path):
-    project, files = copy_project(tmp_path), []
-    for folder in ("first", "second"):
-        config = f"tuned={folder}", "experiments={learners: [improved, ritter]}"
-        finished = snakemake(
-            project, "--forcerun", "search_trials", "--config", *config, "--", "tune"
-        )
-        assert finished.returncode == 0, finished.stdout
-        files.append(
-            [(project / folder / name).read_text() for name in ("settings.yaml", "trials.csv")]
-        )
-    assert files[0] == files[1]
-    assert set(pd.read_csv(project / "first" / "trials.csv").groupby("training").size()) == {4}
+@shared
+def test_the_search_gives_the_same_file_with_the_same_trials_for_all(project):
+    again = "results/studies/again/search/improved_60.csv"
+    finished = snakemake(project, "--config", "name=again", "--", again)
+    assert finished.returncode == 0, finished.stdout
+    for training in ("improved_60", "ritter_60", "ritter_120"):
+        sample = project / TINY / "search" / f"{training}.csv"
+        assert len(pd.read_csv(sample, skiprows=1)) == 8
+        assert training != "improved_60" or (project / again).read_bytes() == sample.read_bytes()
 
 
 @shared
 def test_a_wrong_sign_in_a_learning_rule_turns_the_check_red(project):
     module = project / "recalib" / "learners" / "hierarchical.py"
-    text = module.read_text()
+    text = module.read_text(encoding="utf-8")
     right = "miss = desired - first.achieved[:, 0]"
     assert right in text
-    module.write_text(text.replace(right, "miss = first.achieved[:, 0] - desired"))
-    broken = snakemake(
-        project,
-        "--config",
-        "experiments={scenarios: [links_encoders], learners: [improved]}",
-        "--",
-        "check",
-    )
-    module.write_text(text)
+    wrong = text.replace(right, "miss = first.achieved[:, 0] - desired")
+    module.write_text(wrong, encoding="utf-8")
+    # in a folder of its own, so that the shared results stay
+    broken = snakemake(project, "--config", "name=broken", "--", "results/studies/broken/check.txt")
+    module.write_text(text, encoding="utf-8")
     assert broken.returncode != 0
-    assert (
-        "links_encoders improved: position_error_cm is" in broken.stdout
-        and "expected 0.2" in broken.stdout
-    )
+    assert "links_encoders improved: position_error_cm is" in broken.stdout
 
 
 @shared
 def test_bad_input_stops_before_anything_runs(project):
     refused = snakemake(project, "-n", "--config", "experiments={learners: [improve]}")
+    assert refused.returncode != 0
     assert (
-        refused.returncode != 0 and "unknown learner 'improve'; valid: improved," in refused.stdout
+        "experiments.learners[0]" in refused.stdout and "did you mean improved?" in refused.stdout
     )
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A copy of the project in git, so that what changes is seen."""
+    project = copy_project(tmp_path)
+    for command in (["init", "-q"], ["add", "."], ["commit", "-qm", "as it was"]):
+        identity = "-c", "user.name=test", "-c", "user.email=test@localhost"
+        subprocess.run(["git", *identity, *command], cwd=project, check=True)
+    return project
+
+
+def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(checkout):
+    config = checkout / "config.yaml"
+    text = config.read_text(encoding="utf-8")
+    config.write_text(text.replace("\nrobot: ur10", "\nrobot: ur3"), encoding="utf-8")
+    refused = snakemake(checkout, "--", "figures/figure1.svg", small=False)
+    assert refused.returncode != 0
+    assert "not the shipped study: it differs in robot" in refused.stdout
+    config.write_text(text, encoding="utf-8")
+    status = subprocess.run(
+        ["git", "status", "--porcelain"], cwd=checkout, capture_output=True, text=True, check=True
+    )
+    assert status.stdout == ""

@@ -1,12 +1,15 @@
-"""Which studies there are: the shipped one, those that change it, and the one of the present call."""
+"""Which studies there are: the shipped one, those that change it, and that of the present call."""
 
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.checks import check
+from recalib.study.configuration.messages import Mistake
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
 from recalib.study.layout import SHIPPED, root_of
@@ -14,6 +17,7 @@ from recalib.study.layout import SHIPPED, root_of
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
+REMEMBERED = ".snakemake/checked"
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 
@@ -23,9 +27,9 @@ class NotShipped(RecalibError):
     def __init__(self, changed: Sequence[str]):
         self.changed = list(changed)
         super().__init__(
-            f"this is not the shipped study: {', '.join(changed)} changed, and it alone may write"
-            f" README, docs and figures; valid: `name: my_study` beside the changes, for results"
-            f" in {root_of('my_study')}, or `make ship` to ship it instead"
+            f"not the shipped study: it differs in {', '.join(changed)}, and the shipped one alone"
+            f" may write README, docs and figures; valid: `name: my_study` beside the changes, for"
+            f" results in {root_of('my_study')}, or `make ship` to ship this one instead"
         )
 
 
@@ -61,20 +65,40 @@ def read_studies(
 
     Raises InvalidConfiguration, NotShipped, NameTaken.
     """
-    base = project / CONFIGURATION
-    main = read_study(base, *files, *([changes] if changes else []))
-    others = [read_study(base, path) for path in sorted((project / OTHERS).glob("*.yaml"))]
+    base, checks = project / CONFIGURATION, (check, partial(_check_robots_once, project))
+    read = partial(read_study, base, checks=checks)
+    main = read(*files, *([changes] if changes else []))
+    others = [read(path) for path in sorted((project / OTHERS).glob("*.yaml"))]
     studies = {root_of(main.name): main}
     if main.name != SHIPPED and (files or changes):
-        others.insert(0, read_study(base))
+        others.insert(0, read())
     for study in others:
         if study != studies.setdefault(root_of(study.name), study):
             raise NameTaken(f"two studies are called {study.name!r}; valid: a name of its own")
     if shipped := studies.get(root_of(SHIPPED)):
         check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
-    for study in studies.values():
-        check(study)
     return root_of(main.name), studies
+
+
+def _check_robots_once(project: Path, study: Study) -> list[Mistake]:
+    """What the robots say of the study. To ask takes a second, so it is remembered: of the same
+    study and the same code, they said that nothing is wrong.
+    """
+    code = sorted((project / "recalib").glob("[nd]*/*.py"))  # nominal, damaged
+    known = hashlib.sha256(json.dumps(digests(study)).encode())
+    for path in [*code, *sorted((project / "recalib" / "study").rglob("*checks.py"))]:
+        known.update(path.read_bytes())
+    mark = project / REMEMBERED / known.hexdigest()
+    if mark.exists():
+        return []
+    from recalib.study.configuration.robot_checks import check_robots
+
+    mistakes = check_robots(study)
+    if not mistakes:
+        with suppress(OSError):  # where nothing can be written, the robots are asked each time
+            mark.parent.mkdir(parents=True, exist_ok=True)
+            mark.touch()
+    return mistakes
 
 
 def ship(project: Path) -> None:
