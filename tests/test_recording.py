@@ -1,3 +1,4 @@
+import json
 import subprocess
 from contextlib import nullcontext
 from pathlib import Path
@@ -10,58 +11,109 @@ from PIL import Image
 from rerun.chunk import RrdReader
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
+from recalib.damaged.disturbances import Noise, Outliers, Repeatability
+from recalib.damaged.nongeometric import Sag
+from recalib.learners.hierarchical import IMPROVED, HierarchicalLearner, Rules, Schedule
 from recalib.nominal.poses import position_error
-from recalib.study.recording import (
-    AFTER,
-    BEFORE,
-    BrokenRecording,
-    arms,
-    check_recording,
-    scene,
-    story,
-    take_pictures,
-    write_recording,
-)
+from recalib.study import jobs
+from recalib.study.experiments import campaign
+from recalib.study.measured import ERRORS
+from recalib.study.plants import resolve
+from recalib.study.recording import about, arms, scene, story
+from recalib.study.recording.blueprint import arrange
+from recalib.study.recording.picture import take_pictures
+from recalib.study.recording.seal import BrokenRecording, check_recording
+from recalib.study.recording.story import AFTER, BEFORE
+from recalib.study.recording.writing import record, write_recording
 from recalib.training import train
+from tests.conftest import ROOT, changed
 
 RERUN = Path(rerun_cli.__file__).with_name("rerun")
-MEASURE_AT = range(0, 41, 4)
+SEED, ITERATIONS, TESTS = 7, 40, 30
+MEASURE_AT = range(0, ITERATIONS + 1, 4)
 DAMAGES = (
     BaseShift(translation=(0.01, 0.0, -0.02)),
     LinkShortening("forearm_link", 0.04),
     EncoderShift("elbow_joint", np.radians(-4)),
+    Sag("shoulder_lift_joint", 0.0002),
+    Noise(0.0002, 0.0003),
 )
+DISTURBANCES = Outliers(0.3, 0.05), Repeatability(np.radians(0.02))
 DRIVERS = [
     *Path("/usr/share/vulkan/icd.d").glob("*.json"),
     *Path("/etc/vulkan/icd.d").glob("*.json"),
 ]
 
 
-def learners():
-    widths = {"position": (0.6, 1.4), "orientation": (0.7, 1.2)}
-    improved = HierarchicalLearner(
-        1, Rules(True, True, True, True), Schedule(3.8, widths, 0.8, 0.4)
-    )
-    ritter = HierarchicalLearner(
-        1, Rules(False, False, False, False), Schedule(0.5, {"pose": (0.2, 0.3)}, 0.4, 0.1)
-    )
-    return {"improved": improved, "ritter": ritter}
+def learner(name, runs=1):
+    if name == "improved":
+        widths = {"position": (0.6, 1.4), "orientation": (0.7, 1.2)}
+        return HierarchicalLearner(runs, IMPROVED, Schedule(3.8, widths, 0.8, 0.4))
+    rules, widths = Rules(False, False, False, False), {"pose": (0.2, 0.3)}
+    return HierarchicalLearner(runs, rules, Schedule(0.5, widths, 0.4, 0.1))
 
 
-def poses():
-    generator = np.random.default_rng(7)
-    return generator.uniform(-1, 1, (40, 6)), generator.uniform(-1, 1, (30, 6))
+def learners(job):
+    return {name: learner(name) for name in job.learners}
 
 
 @pytest.fixture(scope="module")
-def write(controller):
-    """Write a recording of these damages."""
-    return lambda path, damages: write_recording(
-        path, damages, controller, learners(), *poses(), MEASURE_AT, {"robot": "ur10", "seed": "7"}
+def job(study):
+    """A recording of two learners."""
+    return jobs.Recording(
+        scenario="links_encoders",
+        learners={
+            name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
+            for name in ("improved", "ritter")
+        },
+        measuring=jobs.Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
+        seed=SEED,
+        published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
     )
+
+
+@pytest.fixture(scope="module")
+def resolved(plan):
+    """A scenario of these damages, on the study's robot or one changed."""
+
+    def resolved(damages, **robot):
+        nominal = changed(plan.nominal("ur10"), **robot)
+        fields = {"name": "links_encoders", "nominal": nominal, "poses": 2, "seed": SEED}
+        return resolve(jobs.Scenario(damages=damages, **fields))
+
+    return resolved
+
+
+def poses(runs=1, tests=TESTS):
+    seeds = range(runs)
+    return (
+        campaign.desired_poses(SEED, "links_encoders", seeds, ITERATIONS),
+        campaign.test_poses(SEED, "links_encoders", seeds, tests),
+    )
+
+
+def experiment(job, resolved, runs=2):
+    """What an experiment measures of its learners in its first run."""
+    controller, measured = resolved.controller(), {}
+    for name in job.learners:
+        plant = resolved.plant(controller, SEED, range(runs))
+        desired, tests = poses(runs, job.measuring.tests)
+        history = train(plant, learner(name, runs), desired, tests, MEASURE_AT)
+        frame = pd.DataFrame(history.columns())
+        measured[name] = frame[frame["run"] == 0]
+    return measured
+
+
+@pytest.fixture(scope="module")
+def write(job, resolved):
+    """Write a recording of these damages."""
+
+    def write(path, damages):
+        its = resolved(damages)
+        return write_recording(path, job, its, learners(job), experiment(job, its))
+
+    return write
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +123,17 @@ def recording(tmp_path_factory, write):
 
 
 @pytest.fixture(scope="module")
+def results(job, resolved):
+    """The same trainings, done without a recording."""
+    return experiment(job, resolved(DAMAGES))
+
+
+@pytest.fixture(scope="module")
 def columns(recording):
-    """A function that returns a column of an entity, over one timeline or static: its times, its values."""
+    """A function that returns a column of an entity: its times or None, and its values.
+
+    It is over one timeline, or static.
+    """
     batches = [
         (chunk.entity_path, chunk.to_record_batch())
         for chunk in RrdReader(recording[0]).store().stream().to_chunks()
@@ -94,17 +155,6 @@ def columns(recording):
     return column
 
 
-@pytest.fixture(scope="module")
-def results(controller):
-    """The same trainings, done without a recording."""
-    desired, tests = poses()
-    plant = Plant(controller, [apply(controller.robot, DAMAGES)])
-    return {
-        name: pd.DataFrame(train(plant, learner, desired[None], tests[None], MEASURE_AT).columns())
-        for name, learner in learners().items()
-    }
-
-
 def test_a_recording_is_valid_and_small(recording, results):
     path, _ = recording
     check_recording(path, results)
@@ -114,7 +164,7 @@ def test_a_recording_is_valid_and_small(recording, results):
 
 def test_recorded_errors_are_those_of_the_experiment(columns, results):
     for name, frame in results.items():
-        for quantity in ("position_error_cm", "orientation_error_deg"):
+        for quantity in ERRORS:
             iterations, values = columns(
                 f"/errors/{quantity}/{name}", "Scalars:scalars", "iteration"
             )
@@ -125,15 +175,15 @@ def test_recorded_errors_are_those_of_the_experiment(columns, results):
             assert np.allclose(10 ** np.ravel(logarithms), np.ravel(values))
 
 
-def test_landings_are_where_the_damaged_arm_lands(controller, columns):
+def test_landings_are_where_the_damaged_arm_lands(resolved, controller, columns):
     desired, tests = poses()
-    shown = story.visiting_order(tests[: story.POSES])
-    plant = Plant(controller, [apply(controller.robot, DAMAGES)])
+    shown = story.visiting_order(tests[0, : story.POSES])
+    plant = resolved(DAMAGES).plant(controller, SEED, [0])
     goals = controller.robot.workspace.to_poses(shown)
     untrained, _ = plant.achieve(shown[None])
-    learner = learners()["improved"]
-    train(plant, learner, desired[None], tests[None], MEASURE_AT)
-    trained, _ = plant.achieve(learner.command(shown[None]))
+    improved = learner("improved")
+    train(plant, improved, desired, tests, MEASURE_AT)
+    trained, _ = plant.achieve(improved.command(shown[None]))
 
     iterations, axes = columns("/improved/achieved", "LineStrips3D:strips", "iteration")
     _, misses = columns("/improved/miss", "LineStrips3D:strips", "iteration")
@@ -189,7 +239,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
     assert (
         np.mean(arrows[-1], axis=0) @ misses < -0.5 * misses @ misses
     )  # they make up for the misses
-    last = controller.robot.workspace.to_poses(poses()[0][-1])[:3, 3]
+    last = controller.robot.workspace.to_poses(poses()[0][0, -1])[:3, 3]
     winner = np.linalg.norm(training.centres - last, axis=-1).argmin()
     assert training.weights[-1].argmax() == winner and training.weights[-1, winner] == 1
     assert not training.weights[0].any()
@@ -212,9 +262,113 @@ def test_every_link_has_its_mesh(robot, columns):
     assert tints[0][0] % 256 < 128  # its opacity
 
 
-def test_a_recording_says_what_it_shows(columns):
-    for key, value in {"scenario": "links_encoders", "robot": "ur10", "seed": "7"}.items():
-        assert columns("/__properties/run", key)[1] == [[value]]
+def test_a_recording_says_what_it_shows(job, columns):
+    def said(key):
+        return columns("/__properties/run", key)[1][0][0]
+
+    assert jobs.Recording.model_validate_json(said("job")) == job
+    assert said("robot") == "ur10" and said("numpy") == np.__version__
+    assert json.loads(said("damage"))[1] == "link: forearm_link, shorten: 4 cm"
+
+
+def test_the_panel_names_the_robot_and_what_is_wrong_with_it(resolved, recording, columns):
+    _, texts = columns("/about", "TextDocument:text")
+    for words in (
+        "ur10",
+        "link: forearm_link, shorten: 4 cm",
+        "noise: {position: 0.2 mm, orientation: 0.0003 rad}",
+        f"visits {story.POSES} poses",
+        f"learns for {ITERATIONS} iterations",
+    ):
+        assert words in texts[0][0]
+
+
+@pytest.mark.parametrize("damages", [(), (Noise(0.0002, 0.0003),)], ids=["intact", "noise alone"])
+def test_the_panel_of_an_undamaged_arm_speaks_of_no_damage_and_no_misses(
+    resolved, recording, damages
+):
+    told = about.panel(resolved(damages), recording[1])
+    assert "damage" not in told and "miss" not in told
+    assert ("noise" in told) == bool(damages)
+
+
+def test_what_is_published_is_shown(job, columns):
+    for quantity, value in job.published.items():
+        _, line = columns(f"/log10/{quantity}/paper", "Scalars:scalars", "iteration")
+        assert np.allclose(10 ** np.ravel(line), value)
+
+
+def test_outliers_and_all_are_recorded_as_the_experiment_of_fifty_seeds_measured_them(
+    job, resolved, tmp_path
+):
+    disturbed, undisturbed = resolved((*DAMAGES, *DISTURBANCES)), resolved(DAMAGES[:-1])
+    scenario, other = tmp_path / "disturbed.json", tmp_path / "undisturbed.json"
+    disturbed.write(scenario)
+    undisturbed.write(other)
+    job = job.model_copy(update={"learners": {"improved": job.learners["improved"]}})
+    training = jobs.Training(
+        scenario=job.scenario,
+        learner=job.learners["improved"],
+        first=0,
+        last=50,
+        measuring=job.measuring,
+        throughout=True,
+        seed=SEED,
+    )
+    sample, history = ROOT / "workflow/search/improved_200.csv", tmp_path / "improved.parquet"
+    frame, _, _ = campaign.train_seeds(training, scenario, sample)
+    frame.to_parquet(history)
+    path = tmp_path / "recordings" / "links_encoders.rrd"
+    with pytest.raises(BrokenRecording, match="improved at iteration 4: position_error_cm is "):
+        record(path, job, other, [sample], [history])
+    assert not path.exists()
+    record(path, job, scenario, [sample], [history])
+    check_recording(path, {"improved": frame[frame["seed"] == 0]})
+
+
+def test_a_recording_that_differs_from_the_experiment_is_not_written(
+    job, resolved, results, tmp_path
+):
+    spoilt = {name: frame.reset_index(drop=True) for name, frame in results.items()}
+    measured = spoilt["ritter"].loc[3, "orientation_error_deg"]
+    spoilt["ritter"].loc[3, "orientation_error_deg"] *= 1 + 1e-8
+    with pytest.raises(BrokenRecording, match="ritter at iteration 12") as caught:
+        write_recording(
+            tmp_path / "links_encoders.rrd", job, resolved(DAMAGES), learners(job), spoilt
+        )
+    assert f"orientation_error_deg is {measured}" in str(caught.value)
+    assert str(spoilt["ritter"].loc[3, "orientation_error_deg"]) in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
+    job, robot, resolved, tmp_path
+):
+    folder = robot.urdf.parents[1]
+    urdf = tmp_path / "my_arm" / "urdf" / "arm.urdf"
+    urdf.parent.mkdir(parents=True)
+    package = f"example-robot-data/robots/{folder.name}/"
+    urdf.write_text(robot.urdf.read_text().replace(package, "my_arm/"))
+    (tmp_path / "my_arm" / "meshes").symlink_to(folder / "meshes")
+    its = resolved(DAMAGES, urdf=str(urdf))
+    job = job.model_copy(
+        update={
+            "learners": {"ritter": job.learners["ritter"]},
+            "measuring": job.measuring.model_copy(update={"tests": 3}),
+            "published": {},
+        }
+    )
+    path = tmp_path / "links_encoders.rrd"
+    measured = experiment(job, its)
+    watched = write_recording(path, job, its, learners(job), measured)
+    check_recording(path, measured)
+    entities = {chunk.entity_path for chunk in RrdReader(path).store().stream().to_chunks()}
+    assert "/log10/position_error_cm/ritter" in entities
+    assert "/log10/position_error_cm/paper" not in entities
+    assert len(arrange(watched, robot.workspace, {}).root_container.contents) == 1
+    motion = story.move(watched["ritter"], robot.home)
+    assert motion.arrivals[0, -1] < BEFORE < motion.learning[0]
+    assert motion.arrivals[1, -1] < AFTER < motion.end
 
 
 def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
@@ -278,7 +432,7 @@ def test_a_recording_of_other_results_is_refused(recording, results):
     other = results["improved"].assign(
         position_error_cm=results["improved"]["position_error_cm"] + 1e-6
     )
-    with pytest.raises(BrokenRecording, match="differs from the results"):
+    with pytest.raises(BrokenRecording, match="improved at iteration 0: position_error_cm is "):
         check_recording(recording[0], {"improved": other})
     with pytest.raises(BrokenRecording, match="no /errors/position_error_cm/peer"):
         check_recording(recording[0], {"peer": other})

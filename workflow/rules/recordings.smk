@@ -1,47 +1,59 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
 
-RECORDED = ["improved", "ritter_200"]  # side by side; the arm follows the first
-
-
 rule recording:
     input:
         code=code("record.py"),
-        scenario=rules.scenario.output[0],
+        scenario=LAYOUT.scenario("{scenario}"),
+        samples=lambda w: [sample(w, learner) for learner in plan(w).recorded()],
+        histories=lambda w: [
+            layout(w).history(w.scenario, learner) for learner in plan(w).recorded()
+        ],
     output:
-        f"{RESULTS}/recordings/{{scenario}}.rrd",
+        LAYOUT.recording("{scenario}"),
     params:
-        learners=RECORDED,
-        settings=lambda w: [entry_of(learner) for learner in RECORDED],
-        training=EVALUATION,
-        seed=config["seed"],
+        job=lambda w: as_text(plan(w).recording(w.scenario)),
     message:
         "Record the arm on {wildcards.scenario}"
     script:
         "../scripts/record.py"
 
 
-RECORDINGS = expand(rules.recording.output, scenario=SCENARIOS)
+def recordings_of(root):
+    """The recordings of a study, if it has learners that are recorded."""
+    scenarios = STUDIES[root].experiments.scenarios if PLANS[root].recorded() else []
+    return [Layout(root).recording(scenario) for scenario in scenarios]
 
 
-rule pictures:
+rule before_and_after:
     input:
         code=code("pictures.py"),
-        recording=rules.recording.output[0].format(scenario=PAPER),
+        recording=lambda w: layout(w).recording(study(w).scenario),
     output:
         before=report(
-            f"{FIGURE_FOLDER}/arm_before.png",
+            LAYOUT.figure("arm_before", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "Before: the arm misses"},
+            labels={"picture": "Before recalibration"},
         ),
         after=report(
-            f"{FIGURE_FOLDER}/arm_after.png",
+            LAYOUT.figure("arm_after", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "After: the arm hits"},
+            labels={"picture": "After recalibration"},
         ),
+    params:
+        scenario=lambda w: study(w).scenario,
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
         "../scripts/pictures.py"
+
+
+rule pictures:
+    input:
+        ["figures/arm_before.png", "figures/arm_after.png"]
+        if MAIN == RESULTS
+        else [Layout(MAIN).figure(name, ".png") for name in ("arm_before", "arm_after")],
+    message:
+        "The arm before and after: {input}"

@@ -1,4 +1,4 @@
-"""The two arms: the damaged one where it really is, and the nominal one where the controller believes it to be."""
+"""The two arms: the real one where it is, and the nominal one where the controller believes it."""
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
-from recalib.study.recording.story import Motion, Training
+from recalib.study.recording.story import Motion, Watched
 
 GHOST = (140, 190, 255, 70)
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
@@ -24,23 +24,26 @@ def send_arms(
     rec: rr.RecordingStream,
     robot: Robot,
     damages: Sequence[Damage],
-    training: Training,
+    watched: Watched,
     motion: Motion,
 ) -> None:
-    """The meshes of both arms, and every link's motion: on `time` throughout, on `iteration` while it learns."""
+    """The meshes of both arms, and every link's motion.
+
+    It goes on `time` throughout, on `iteration` while the arm learns.
+    """
     damaged = apply(robot, damages)
     shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
     base = shifts.arm.model.jointPlacements[1] * robot.arm.model.jointPlacements[1].inverse()
     acts = [rr.TimeColumn("time", duration=motion.times)]
-    iterations = rr.TimeColumn("iteration", sequence=training.history.iterations)
+    iterations = rr.TimeColumn("iteration", sequence=watched.history.iterations)
     learning = [iterations, rr.TimeColumn("time", duration=motion.learning)]
-    for name, arm, shift, offsets, tint in (
-        ("damaged", damaged.arm, base, damaged.offsets, None),
-        ("nominal", robot.arm, pin.SE3.Identity(), np.zeros_like(damaged.offsets), GHOST),
+    for name, arm, shift, standing, tint in (
+        ("damaged", damaged.arm, base, damaged.standing, None),
+        ("nominal", robot.arm, pin.SE3.Identity(), np.asarray, GHOST),
     ):
         links = _log_meshes(rec, robot.urdf, name, tint)
-        for clock, angles in ((acts, motion.angles), (learning, training.angles[:, -1])):
-            for link, placements in link_placements(arm, links, angles + offsets, shift).items():
+        for clock, angles in ((acts, motion.angles), (learning, watched.angles[:, -1])):
+            for link, placements in link_placements(arm, links, standing(angles), shift).items():
                 rec.send_columns(
                     f"{name}/{link}",
                     clock,
@@ -59,7 +62,8 @@ def link_placements(
     """Placements (n, 4, 4) [m] of links in the world at joint angles (n, 6) [rad].
 
     Args:
-        base: how the robot's base was shifted. The arm's joints know of it, the links before the first joint do not.
+        base: how the robot's base was shifted. The arm's joints know of it, the links before the
+            first joint do not.
     """
     model, data = arm.model, arm.model.createData()
     frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}
@@ -77,7 +81,10 @@ def link_placements(
 def _log_meshes(
     rec: rr.RecordingStream, urdf: Path, arm: str, tint: tuple[int, ...] | None
 ) -> list[str]:
-    """Log the visual meshes of a robot, each in the frame `<arm>/<link>` of its link, and return these links."""
+    """Log the visual meshes of a robot, each in the frame `<arm>/<link>` of its link.
+
+    Returns these links.
+    """
     tree = UrdfTree.from_file_path(urdf, entity_path_prefix=arm, frame_prefix=f"{arm}/")
     links = [tree.root_link(), *(tree.get_joint_child(joint) for joint in tree.joints())]
     visuals = {
@@ -94,12 +101,14 @@ def _log_meshes(
 
 @contextmanager
 def _packages(urdf: Path) -> Iterator[None]:
-    """Let the meshes' `package://example-robot-data/...` be found: Rerun looks for packages in this variable."""
+    """Let the meshes be found, `package://NAME/...`: NAME is a folder beside or above the URDF.
+
+    Rerun looks for packages in this variable.
+    """
     variable = "ROS_PACKAGE_PATH"
     before = os.environ.get(variable)
-    os.environ[variable] = str(
-        next(folder.parent for folder in urdf.parents if folder.name == "example-robot-data")
-    )
+    folders = [*map(str, urdf.parents), *([before] if before else [])]
+    os.environ[variable] = os.pathsep.join(folders)
     try:
         yield
     finally:

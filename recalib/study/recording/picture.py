@@ -26,7 +26,7 @@ class ViewerUnavailable(RecalibError):
 
 
 def take_pictures(recording: Path, pictures: Mapping[Path, float]) -> None:
-    """Write what the viewer shows of a recording at some seconds of its timeline `time`, one PNG for each.
+    """Write what the viewer shows of a recording, one PNG for each second of its timeline `time`.
 
     Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
     Raises ViewerUnavailable where the viewer does not start or does not load the recording.
@@ -44,13 +44,12 @@ def take_pictures(recording: Path, pictures: Mapping[Path, float]) -> None:
 
 @contextmanager
 def _viewer() -> Iterator[ViewerClient]:
-    """A viewer without a screen. `ViewerClient.spawn` would do the same, but listen to the whole network."""
+    """A viewer without a screen. `ViewerClient.spawn` would listen to the whole network."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    binary = Path(rerun_cli.__file__).with_name(
-        "rerun"
-    )  # not the script that starts it, so that it can be ended
+    # not the script that starts it, so that it can be ended
+    binary = Path(rerun_cli.__file__).with_name("rerun")
     size = f"{WINDOW[0]}x{WINDOW[1]}"
     options = [
         "--headless",
@@ -103,7 +102,7 @@ def _show(viewer: ViewerClient, seconds: float) -> None:
 
 
 def _trim(png: Path) -> None:
-    """Cut the window's bar off, and keep 256 colours: a third of the bytes, and the eye sees no difference."""
+    """Cut the window's bar off, and keep 256 colours: a third of the bytes, the same to the eye."""
     with Image.open(png) as image:
         picture = image.convert("RGB").crop((0, TOP_BAR, *image.size))
     picture.quantize(256, dither=Image.Dither.NONE).save(png, optimize=True)

@@ -1,43 +1,41 @@
-"""The entities of a recording: what stands still is static, everything else is sent as columns over time.
+"""The entities of a recording: what stands still is static, the rest is sent as columns over time.
 
-    /about                            the text panel
-    /workspace, /desired              the box of positions, and the shown test poses in it
-    /damaged, /nominal                the real arm, and as a ghost the arm that the controller believes in
-    /target                           the pose that the arm is sent to, and how far off it ends up
-    /<learner>/achieved, .../miss     where the damaged arm lands, and lines to there from the desired positions
-    /<learner>/map/cells              the supernet's cells, lit by the neighbourhood of the last winner
-    /<learner>/map/corrections        how far each cell has learned to move its position command
-    /errors/<quantity>/<learner>      mean errors over all test poses
-    /log10/<quantity>/<learner>       their logarithms, beside the paper's initial error
+    /about                         the text panel
+    /workspace, /desired           the box of positions, and the shown test poses in it
+    /damaged, /nominal             the real arm, and as a ghost what the controller believes in
+    /target                        the pose that the arm is sent to, and how far off it ends up
+    /<learner>/achieved            where the real arm lands
+    /<learner>/miss                lines to there from the desired positions
+    /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
+    /<learner>/map/corrections     how far each cell has learned to move its position command
+    /errors/<quantity>/<learner>   mean errors over all test poses
+    /log10/<quantity>/<learner>    their logarithms, beside the published initial error
 
-Timeline `iteration` counts learning iterations. Timeline `time` runs through the three acts of `story.Motion`; what is
-measured during learning stands on both.
+Timeline `iteration` counts learning iterations. Timeline `time` runs through the three acts of
+`story.Motion`; what is measured during learning stands on both.
 """
+
+from collections.abc import Mapping
 
 import numpy as np
 import rerun as rr
 
 from recalib.nominal.poses import POSITION, Workspace
-from recalib.study.recording.story import Motion, Training
+from recalib.study.measured import ERRORS, UNITS
+from recalib.study.recording.story import Motion, Watched
 
-PAPER = {
-    "position_error_cm": (8.3, "cm"),
-    "orientation_error_deg": (4.7, "deg"),
-}  # section 7: before recalibration
+PUBLISHED = "paper"  # the entity's name beside those of the learners
 LEAST_ERROR = 1e-3
 LEARNER_COLOURS = ((255, 176, 0), (120, 170, 255), (0, 200, 160), (230, 130, 190))
 WHITE, GREY, VIOLET = (255, 255, 255), (140, 150, 160), (200, 140, 255)
-DIM, LIT = (
-    np.array([95, 105, 125]),
-    np.array([255, 214, 90]),
-)  # cells far from and at the last winner
+DIM, LIT = np.array([95, 105, 125]), np.array([255, 214, 90])  # cells far from the winner, at it
 NEAR, FAR = np.array([0, 200, 160]), np.array([255, 90, 40])  # different in brightness, too
 NEAREST, FARTHEST = 1e-3, 0.1  # m: the misses that are drawn in these colours
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
 
 
 def unit_of(workspace: Workspace) -> float:
-    """m: half a side of the workspace, on average. What is drawn is sized by it, for small robots and large ones."""
+    """m: half a side of the workspace, on average, by which everything drawn is sized."""
     return float(workspace.half_ranges[POSITION].mean())
 
 
@@ -65,13 +63,13 @@ def log_surroundings(
 
 
 def send_errors(
-    rec: rr.RecordingStream, learner: str, colour: tuple, training: Training, motion: Motion
+    rec: rr.RecordingStream, learner: str, colour: tuple, watched: Watched, motion: Motion
 ) -> None:
-    """Mean errors over all test poses, as measured and as logarithms, since the viewer's plots are linear."""
-    clock, rows = _measurements(training, motion)
-    results = training.history.columns()
-    for quantity in PAPER:
-        values = results[quantity].to_numpy()[rows]
+    """Mean errors over all test poses, and their logarithms, as the viewer's plots are linear."""
+    clock, rows = _measurements(watched, motion)
+    results = watched.history.columns()
+    for quantity in ERRORS:
+        values = results[quantity][rows]
         rec.send_columns(f"errors/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=values))
         rec.send_columns(
             f"log10/{quantity}/{learner}", clock, rr.Scalars.columns(scalars=logarithm(values))
@@ -83,36 +81,38 @@ def send_errors(
         )
 
 
-def send_paper(rec: rr.RecordingStream, training: Training, motion: Motion) -> None:
-    """The paper's initial errors, as straight lines in the plots."""
-    clock, rows = _measurements(training, motion)
-    for quantity, (value, unit) in PAPER.items():
-        entity = f"log10/{quantity}/paper"
-        rec.send_columns(
-            entity, clock, rr.Scalars.columns(scalars=np.full(len(rows), np.log10(value)))
-        )
-        rec.log(
-            entity,
-            rr.SeriesLines(names=f"the paper, before: {value} {unit}", colors=GREY, widths=1),
-            static=True,
-        )
+def send_published(
+    rec: rr.RecordingStream, published: Mapping[str, float], watched: Watched, motion: Motion
+) -> None:
+    """The published initial errors, where there are any, as straight lines in the plots."""
+    clock, rows = _measurements(watched, motion)
+    for quantity, unit in zip(ERRORS, UNITS, strict=True):
+        if quantity in published:
+            entity, value = f"log10/{quantity}/{PUBLISHED}", published[quantity]
+            line = np.full(len(rows), np.log10(value))
+            rec.send_columns(entity, clock, rr.Scalars.columns(scalars=line))
+            name = f"the paper, before: {value} {unit}"
+            rec.log(entity, rr.SeriesLines(names=name, colors=GREY, widths=1), static=True)
 
 
 def logarithm(errors: np.ndarray) -> np.ndarray:
-    """Decimal logarithms of errors in cm or degrees, which end at a thousandth: an intact robot has no error at all."""
+    """Decimal logarithms of errors in cm or degrees.
+
+    They end at a thousandth: an intact robot has no error at all.
+    """
     return np.log10(np.maximum(errors, LEAST_ERROR))
 
 
 def send_landings(
-    rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion
+    rec: rr.RecordingStream, learner: str, unit: float, watched: Watched, motion: Motion
 ) -> None:
-    """Achieved frames, and lines from the desired to the achieved positions, in a colour that tells their length."""
-    clock, rows = _measurements(training, motion)
-    achieved = training.achieved[rows]
-    starts = np.broadcast_to(training.desired[:, :3, 3], achieved[..., :3, 3].shape)
+    """Achieved frames, and the misses as lines in a colour that tells their length."""
+    clock, rows = _measurements(watched, motion)
+    achieved = watched.achieved[rows]
+    starts = np.broadcast_to(watched.desired[:, :3, 3], achieved[..., :3, 3].shape)
     lines = np.stack([starts, achieved[..., :3, 3]], axis=-2).reshape(-1, 2, 3)
     axes = _axes(achieved.reshape(-1, 4, 4), AXIS * unit)
-    colours = _colours(training.misses[rows].ravel())
+    colours = _colours(watched.misses[rows].ravel())
     for entity, strips, tints, radius in (
         (f"{learner}/achieved", axes, np.repeat(colours, 3, axis=0), 0.0075 * unit),
         (f"{learner}/miss", lines, colours, 0.019 * unit),
@@ -123,27 +123,30 @@ def send_landings(
 
 
 def send_map(
-    rec: rr.RecordingStream, learner: str, unit: float, training: Training, motion: Motion
+    rec: rr.RecordingStream, learner: str, unit: float, watched: Watched, motion: Motion
 ) -> None:
-    """The supernet's cells, brighter and larger the more they learned last, and their corrections, true to scale."""
-    clock, rows = _measurements(training, motion)
-    each = [len(training.centres)] * len(rows)
-    weights = training.weights[rows].ravel()
+    """The supernet's cells, brighter and larger the more they learned last.
+
+    Their corrections are true to scale.
+    """
+    clock, rows = _measurements(watched, motion)
+    each = [len(watched.centres)] * len(rows)
+    weights = watched.weights[rows].ravel()
     light = (DIM + weights[:, None] * (LIT - DIM)).astype(np.uint8)
     cells = rr.Points3D.columns(radii=(0.022 + 0.038 * weights) * unit, colors=light)
-    arrows = rr.Arrows3D.columns(vectors=training.corrections[rows].reshape(-1, 3))
+    arrows = rr.Arrows3D.columns(vectors=watched.corrections[rows].reshape(-1, 3))
     rec.send_columns(f"{learner}/map/cells", clock, cells.partition(each))
     rec.send_columns(f"{learner}/map/corrections", clock, arrows.partition(each))
-    rec.log(f"{learner}/map/cells", rr.Points3D(training.centres), static=True)
-    still = rr.Arrows3D.from_fields(origins=training.centres, radii=0.011 * unit, colors=VIOLET)
+    rec.log(f"{learner}/map/cells", rr.Points3D(watched.centres), static=True)
+    still = rr.Arrows3D.from_fields(origins=watched.centres, radii=0.011 * unit, colors=VIOLET)
     rec.log(f"{learner}/map/corrections", still, static=True)
 
 
 def send_target(
-    rec: rr.RecordingStream, workspace: Workspace, training: Training, motion: Motion
+    rec: rr.RecordingStream, workspace: Workspace, watched: Watched, motion: Motion
 ) -> None:
     """The pose that the arm is sent to, and above the workspace words for how far off it is."""
-    poses, iterations = len(training.desired), training.history.iterations
+    poses, iterations = len(watched.desired), watched.history.iterations
     above = workspace.centre[:3, 3] + [0, 0, 1.4 * workspace.half_ranges[2]]
     rec.log("target/caption", rr.Points3D([above], radii=0, colors=WHITE), static=True)
     rec.log(
@@ -158,7 +161,7 @@ def send_target(
             visited += [pose, pose]
             captions += [
                 f"{when} recalibration",
-                f"{when} recalibration: {_off(training, measurement, pose)}",
+                f"{when} recalibration: {_off(watched, measurement, pose)}",
             ]
     acts = [rr.TimeColumn("time", duration=seconds)]
     learning = [
@@ -166,7 +169,7 @@ def send_target(
         rr.TimeColumn("time", duration=motion.learning),
     ]
     progress = [
-        f"iteration {done}: {_off(training, row, poses - 1)}" for row, done in enumerate(iterations)
+        f"iteration {done}: {_off(watched, row, poses - 1)}" for row, done in enumerate(iterations)
     ]
     for clock, where, words in (
         (acts, visited, captions),
@@ -174,18 +177,19 @@ def send_target(
     ):
         rec.send_columns("target/caption", clock, rr.Points3D.columns(labels=words))
         rec.send_columns(
-            "target/pose", clock, rr.Points3D.columns(positions=training.desired[where, :3, 3])
+            "target/pose", clock, rr.Points3D.columns(positions=watched.desired[where, :3, 3])
         )
 
 
-def _measurements(training: Training, motion: Motion) -> tuple[list[rr.TimeColumn], np.ndarray]:
+def _measurements(watched: Watched, motion: Motion) -> tuple[list[rr.TimeColumn], np.ndarray]:
     """Time columns of what is measured, and its rows in them.
 
-    The first and the last measurement stand twice, so that on `time` they also fill the acts before and after learning.
+    The first and the last measurement stand twice, so that on `time` they also fill the acts before
+    and after learning.
     """
     rows = np.concatenate([[0], np.arange(len(motion.learning)), [-1]])
     seconds = np.concatenate([[0], motion.learning, [motion.end]])
-    iterations = training.history.iterations[rows]
+    iterations = watched.history.iterations[rows]
     return [
         rr.TimeColumn("iteration", sequence=iterations),
         rr.TimeColumn("time", duration=seconds),
@@ -193,7 +197,7 @@ def _measurements(training: Training, motion: Motion) -> tuple[list[rr.TimeColum
 
 
 def _axes(poses: np.ndarray, length: float) -> np.ndarray:
-    """The axes of poses (pose, 4, 4) as lines (pose x axis, 2, 3) of this length [m] from their origins."""
+    """The axes of poses (pose, 4, 4) as lines (pose x axis, 2, 3) of this length [m]."""
     origins = np.repeat(poses[:, None, :3, 3], 3, axis=1)
     tips = origins + length * np.swapaxes(poses[:, :3, :3], 1, 2)
     return np.stack([origins, tips], axis=2).reshape(-1, 2, 3)
@@ -205,9 +209,9 @@ def _colours(misses: np.ndarray) -> np.ndarray:
     return (NEAR + share[:, None] * (FAR - NEAR)).astype(np.uint8)
 
 
-def _off(training: Training, measurement: int, pose: int) -> str:
+def _off(watched: Watched, measurement: int, pose: int) -> str:
     centimetres, degrees = (
-        100 * training.misses[measurement, pose],
-        np.degrees(training.tilts[measurement, pose]),
+        100 * watched.misses[measurement, pose],
+        np.degrees(watched.tilts[measurement, pose]),
     )
     return f"{centimetres:.1f} cm and {degrees:.1f}° off"

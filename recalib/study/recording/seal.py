@@ -1,12 +1,14 @@
-"""Recordings that know whether they are whole: each carries a digest, since Rerun's own check misses some damage."""
+"""Recordings that know whether they are whole, and show what was measured.
+
+Each carries a digest, since Rerun's own check misses some damage.
+"""
 
 import hashlib
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pyarrow as pa
 import rerun as rr
 from rerun.blueprint import Blueprint
@@ -19,11 +21,8 @@ from recalib.study.measured import ERRORS
 SEAL = "/__properties/seal"
 TIMELINES = {"iteration", "time"}
 ROW_IDS = "rerun.controls.RowId"  # new ones in every writing
-PLACES = {
-    ROW_IDS,
-    "CoordinateFrame",
-    "InstancePoses3D",
-}  # where a shape is drawn; the rest says what
+PLACES = {ROW_IDS, "CoordinateFrame", "InstancePoses3D"}  # where a shape is; the rest says what
+Columns = Mapping[str, Sequence]  # of measurements, as `History.columns` has them for one run
 
 
 class BrokenRecording(RecalibError):
@@ -37,7 +36,7 @@ class BrokenRecording(RecalibError):
 def write_sealed(
     path: Path, name: str, blueprint: Blueprint, fill: Callable[[rr.RecordingStream], None]
 ) -> None:
-    """Write what `fill` logs, twice, since its digest is known only when it has been written once."""
+    """Write what `fill` logs, twice: its digest is known when it has been written once."""
     digest = None
     for _ in range(2):
         # without the properties that Rerun would add by itself: one is the time of writing
@@ -50,12 +49,11 @@ def write_sealed(
         digest = _digest(_chunks(path))
 
 
-def check_recording(path: Path, results: Mapping[str, pd.DataFrame]) -> None:
+def check_recording(path: Path, measured: Mapping[str, Columns]) -> None:
     """Check that a recording is whole and that it shows what was measured.
 
     Args:
-        path: of the recording.
-        results: for each learner that it shows, the rows of its run as `History.to_frame` has them.
+        measured: by learner.
 
     Raises BrokenRecording with the first reason found.
     """
@@ -73,14 +71,41 @@ def check_recording(path: Path, results: Mapping[str, pd.DataFrame]) -> None:
             path, f"its timelines are {sorted(timelines)} in place of {sorted(TIMELINES)}"
         )
     _check_meshes(path, chunks)
-    _check_errors(path, chunks, results)
+    batches = {chunk.entity_path: chunk.to_record_batch() for chunk in chunks}
+    for learner, columns in measured.items():
+        shown = {}
+        for quantity in ERRORS:
+            entity = f"/errors/{quantity}/{learner}"
+            if entity not in batches:
+                raise BrokenRecording(path, f"no {entity}")
+            shown["iteration"] = batches[entity].column("iteration").to_numpy()
+            shown[quantity] = batches[entity].column("Scalars:scalars").flatten().to_numpy()
+        check_errors(path, learner, shown, columns)
+
+
+def check_errors(path: Path, learner: str, shown: Columns, measured: Columns) -> None:
+    """Check that all that was measured of a learner is shown, and as it was.
+
+    Raises BrokenRecording for the first iteration that differs.
+    """
+    rows = {iteration: row for row, iteration in enumerate(shown["iteration"])}
+    for row, iteration in enumerate(measured["iteration"]):
+        where = f"{learner} at iteration {iteration}"
+        if iteration not in rows:
+            raise BrokenRecording(path, f"{where} was measured, but is not shown")
+        for quantity in ERRORS:
+            ours = shown[quantity][rows[iteration]]
+            theirs = np.asarray(measured[quantity])[row]
+            if not np.isclose(ours, theirs, rtol=1e-9, atol=1e-12):
+                raise BrokenRecording(
+                    path, f"{where}: {quantity} is {ours}, but was measured as {theirs}"
+                )
 
 
 def _chunks(path: Path) -> list[Chunk]:
     try:
-        with warnings.catch_warnings(
-            action="error", category=RerunWarning
-        ):  # a file that lacks its end
+        # a file that lacks its end is no more than a warning to Rerun
+        with warnings.catch_warnings(action="error", category=RerunWarning):
             reader = RrdReader(path)
         if not (reader.recordings() and reader.blueprints()):
             raise BrokenRecording(path, "it lacks its data or its blueprint")
@@ -90,7 +115,10 @@ def _chunks(path: Path) -> list[Chunk]:
 
 
 def _digest(chunks: list[Chunk]) -> str:
-    """SHA-256 over every column with its entity and times, whatever the order of chunks and the identities of rows."""
+    """SHA-256 over every column with its entity and times.
+
+    The order of chunks and the identities of rows do not matter.
+    """
     columns = []
     for chunk in chunks:
         if chunk.entity_path == SEAL:
@@ -116,21 +144,3 @@ def _check_meshes(path: Path, chunks: list[Chunk]) -> None:
     bare = [entity for entity, names in shapes.items() if names <= PLACES]
     if bare or not shapes:
         raise BrokenRecording(path, f"no mesh for {', '.join(sorted(bare)) or 'any link'}")
-
-
-def _check_errors(path: Path, chunks: list[Chunk], results: Mapping[str, pd.DataFrame]) -> None:
-    batches = {chunk.entity_path: chunk.to_record_batch() for chunk in chunks}
-    for learner, frame in results.items():
-        for quantity in ERRORS:
-            entity = f"/errors/{quantity}/{learner}"
-            if entity not in batches:
-                raise BrokenRecording(path, f"no {entity}")
-            iterations = batches[entity].column("iteration").to_numpy()
-            recorded = batches[entity].column("Scalars:scalars").flatten().to_numpy()
-            once, first = np.unique(iterations, return_index=True)
-            if not np.array_equal(once, frame["iteration"]):
-                raise BrokenRecording(
-                    path, f"{entity} was not measured at the iterations of the results"
-                )
-            if not np.allclose(recorded[first], frame[quantity], rtol=1e-9, atol=1e-12):
-                raise BrokenRecording(path, f"{entity} differs from the results")

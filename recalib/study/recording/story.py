@@ -1,11 +1,10 @@
-"""What a recording tells: one training watched from outside, and how the arm moves before, during and after it."""
+"""What a recording tells: a training watched from outside, and how the arm moves around it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
@@ -13,29 +12,28 @@ from recalib.nominal.poses import POSITION, orientation_error, position_error
 from recalib.training import History, train
 
 FRAMES_A_SECOND = 25
-MOVE, REST = 0.8, 0.8  # seconds that the arm takes to reach a pose, and that it then stays there
-LEARNING = 10.0  # seconds in which the whole training is shown
 POSES = 12  # that the arm visits
-BEFORE = (
-    POSES * (MOVE + REST) - REST / 2
-)  # seconds: the arm rests at the last pose, not yet recalibrated
-AFTER = BEFORE + LEARNING + POSES * (MOVE + REST)  # the same, recalibrated
+ACT = 19.2  # seconds in which it visits them: half of them it moves, half of them it rests there
+LEARNING = 10.0  # seconds in which the whole training is shown
+BEFORE = ACT - 0.4  # seconds: the arm rests at the last pose, not yet recalibrated
+AFTER = BEFORE + LEARNING + ACT  # the same, recalibrated
 
 
 @dataclass(frozen=True)
-class Training:
+class Watched:
     """One training of one learner, seen at each of its measurements.
 
     Attributes:
         history: the errors on all test poses.
         centres: (cell, 3) m in the base frame, the supernet's cells.
-        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero before the first.
-        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the position commands of
-            a cell, the mean over its subnet.
+        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero
+            before the first.
+        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the
+            position commands of a cell, the mean over its subnet.
         desired: (pose, 4, 4) those of the test poses that are shown.
-        achieved: (measurement, pose, 4, 4) where the damaged arm lands instead.
+        achieved: (measurement, pose, 4, 4) where the real arm lands instead.
         angles: (measurement, pose, 6) rad, what the controller commands the joints for them.
-        misses, tilts: (measurement, pose) the position errors in m and the orientation errors in rad.
+        misses, tilts: (measurement, pose) position errors in m and orientation errors in rad.
     """
 
     history: History
@@ -50,26 +48,29 @@ class Training:
 
 
 def visiting_order(poses: np.ndarray) -> np.ndarray:
-    """The poses (pose, 6) from the rim of the workspace inwards: the last one, where the arm waits, is seen best."""
+    """The poses (pose, 6) from the rim of the workspace inwards.
+
+    The last one, where the arm waits, is seen best.
+    """
     return poses[np.argsort(-np.linalg.norm(poses[:, POSITION], axis=-1))]
 
 
 def watch(
     controller: Controller,
-    damaged: DamagedArm,
+    plant: Plant,
     learner: HierarchicalLearner,
     desired: np.ndarray,
     tests: np.ndarray,
-    shown: np.ndarray,
     measure_at: Sequence[int],
-) -> Training:
+) -> Watched:
     """Train a fresh learner of one run on the desired poses (iteration, 6) and watch it.
 
     Args:
-        tests: (test, 6) poses to measure the errors at.
-        shown: (pose, 6) poses to show.
+        plant: one run of the controller's robot.
+        tests: (test, 6) poses to measure the errors at; the first few are shown.
+        measure_at: numbers of iterations after which to measure.
     """
-    workspace = controller.robot.workspace
+    workspace, shown = controller.robot.workspace, visiting_order(tests[:POSES])
     position_map = next(iter(learner.maps.values()))
     untrained = position_map.theta[0, POSITION].copy()
     commands, weights, corrections = [], [], []
@@ -80,16 +81,12 @@ def watch(
         moved = (position_map.theta[0, POSITION] - untrained).mean(axis=-1).T
         corrections.append(moved * workspace.half_ranges[POSITION])
 
-    history = train(
-        Plant(controller, [damaged]), learner, desired[None], tests[None], measure_at, look
-    )
-    poses = workspace.to_poses(shown)
-    solution = controller.solve(workspace.to_poses(np.concatenate(commands)))
-    angles = np.where(
-        solution.reached[:, None], solution.angles, controller.robot.home
-    )  # where refused
-    achieved = damaged.forward(angles).reshape(len(commands), *poses.shape)
-    return Training(
+    history = train(plant, learner, desired[None], tests[None], measure_at, look)
+    poses, home = workspace.to_poses(shown), controller.robot.home
+    targets = controller.targets(np.concatenate(commands)[None])
+    angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
+    achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *poses.shape)
+    return Watched(
         history=history,
         centres=workspace.centre[:3, 3] + position_map.w_k * workspace.half_ranges[POSITION],
         weights=np.stack(weights),
@@ -115,12 +112,13 @@ def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration:
 
 @dataclass(frozen=True)
 class Motion:
-    """Three acts: the arm visits the shown poses, waits at the last of them while it learns, and visits them again.
+    """Three acts: visit the shown poses, wait at the last of them while learning, visit them again.
 
     Attributes:
         times: (frame,) seconds from the start, in the first and the third act.
         angles: (frame, 6) rad that the controller believes in.
-        departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the acts one and three.
+        departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the
+            acts one and three.
         learning: (measurement,) seconds of the second act at which the measurements are shown.
         end: seconds at which the third act ends.
     """
@@ -133,27 +131,31 @@ class Motion:
     end: float
 
 
-def move(training: Training, home: np.ndarray) -> Motion:
+def move(watched: Watched, home: np.ndarray) -> Motion:
     """The motion that shows a training, from the home angles (6,) [rad]."""
-    before, after = training.angles[0], training.angles[-1]
-    iterations = training.history.iterations
-    act = len(before) * (MOVE + REST)
-    starts = np.array([0, act + LEARNING])
-    departures = starts[:, None] + np.arange(len(before)) * (MOVE + REST)
-    clock = np.arange(round((MOVE + REST) * FRAMES_A_SECOND)) / FRAMES_A_SECOND
+    before, after = watched.angles[0], watched.angles[-1]
+    iterations = watched.history.iterations
+    visit = ACT / len(before)
+    starts = np.array([0, ACT + LEARNING])
+    departures = starts[:, None] + np.arange(len(before)) * visit
+    clock = np.arange(round(visit * FRAMES_A_SECOND)) / FRAMES_A_SECOND
+    done = np.minimum(clock / (visit / 2), 1)
     return Motion(
         times=(departures[:, :, None] + clock).ravel(),
-        angles=np.concatenate([_visit(home, before, clock), _visit(after[-1], after, clock)]),
+        angles=np.concatenate([_visits(home, before, done), _visits(after[-1], after, done)]),
         departures=departures,
-        arrivals=departures + MOVE,
-        learning=act + LEARNING * iterations / max(iterations[-1], 1),
-        end=2 * act + LEARNING,
+        arrivals=departures + visit / 2,
+        learning=ACT + LEARNING * iterations / max(iterations[-1], 1),
+        end=2 * ACT + LEARNING,
     )
 
 
-def _visit(start: np.ndarray, stops: np.ndarray, clock: np.ndarray) -> np.ndarray:
-    """Angles (stop x frame, 6) of smooth moves from `start` (6,) from stop to stop (stop, 6), at `clock` s of each."""
-    done = np.minimum(clock / MOVE, 1)
+def _visits(start: np.ndarray, stops: np.ndarray, done: np.ndarray) -> np.ndarray:
+    """Angles (stop x frame, 6) of smooth moves from `start` (6,) from stop to stop (stop, 6).
+
+    Args:
+        done: (frame,) of each way, in [0, 1], if the arm moved evenly.
+    """
     eased = (done**2 * (3 - 2 * done))[:, None]  # at rest at both ends
     starts = np.concatenate([start[None], stops[:-1]])[:, None]
     return (starts + eased * (stops[:, None] - starts)).reshape(-1, stops.shape[-1])
