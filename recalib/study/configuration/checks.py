@@ -90,20 +90,19 @@ def _amounts(study: Study) -> Iterator[Mistake]:
         kinds = [type(entry) for entry in entries]
         for index, kind in enumerate(kinds):
             if kind in DISTURBANCES and kind in kinds[:index]:
-                yield Mistake(
-                    ("scenarios", name, index), f": {kind.under or 'repeatability'} again"
-                )
-    damage = study.paper_damage
-    for robot in assigned_robots(study):
-        its = study.robots[robot]
-        for key, amounts, places in (
-            ("shorten", damage.shorten, its.links),
-            ("shift", damage.shift, its.home),
-        ):
-            if len(amounts) > len(places):
-                valid = f"at most {len(places)} on the {robot}"
-                stood = f" is a list of {len(amounts)}; valid: {valid}"
-                yield Mistake(("paper_damage", key), stood)
+                what = kind.__name__.lower()
+                yield Mistake(("scenarios", name, index), f": {what} again; valid: once")
+    robots = {name: study.robots[name] for name in assigned_robots(study)}
+    links = {name: len(robot.links) for name, robot in robots.items()}
+    joints = {name: len(robot.home) for name, robot in robots.items()}
+    for key, places in (("shorten", links), ("shift", joints)):
+        amounts, fewest = (
+            getattr(study.paper_damage, key),
+            min(places, key=places.get, default=None),
+        )
+        if fewest and len(amounts) > places[fewest]:
+            fault = f" is a list of {len(amounts)}; valid: at most {places[fewest]} on the {fewest}"
+            yield Mistake(("paper_damage", key), fault)
 
 
 def used_scenarios(study: Study) -> list[tuple[str, str]]:

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 from recalib.errors import RecalibError
 
-MOST_SHOWN = 10
+MOST_SHOWN = 10  # mistakes, or names beside the one that was meant
+MOST_LISTED = 20  # names where none was meant
 LONGEST = 60  # characters of a value that are shown
 
 
@@ -58,9 +59,13 @@ def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
     valid = list(valid)
     near = nearest(name, valid)
     stood = ": unknown name" if path[-1] == name else f" is {shown(name)}"
-    few = len(valid) <= MOST_SHOWN or not near
-    hint = f"valid: {listed(valid, 'or') or 'none'}" if few else f"one of {len(valid)} is valid"
-    return Mistake(path, f"{stood}; {hint}{f'; did you mean {near}?' if near else ''}")
+    if near and len(valid) > MOST_SHOWN:
+        return Mistake(path, f"{stood}; did you mean {near}?")
+    first = (
+        [*valid[:MOST_LISTED], f"another of {len(valid)}"] if len(valid) > MOST_LISTED else valid
+    )
+    hint = f"; did you mean {near}?" if near else ""
+    return Mistake(path, f"{stood}; valid: {listed(first, 'or') or 'none'}{hint}")
 
 
 def shown(value: Any) -> str:

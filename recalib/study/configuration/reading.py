@@ -22,7 +22,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
     Args:
         overlays: files, or mappings from the command line, that are laid over it in this order:
             mappings key by key, anything else as a whole.
-        checks: what to ask of the study beyond its types.
+        checks: what to ask of the study beyond its types, each where those before found nothing.
 
     Raises InvalidConfiguration, with file, line and column of every mistake.
     """
@@ -35,8 +35,9 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
         raise _placed(refusals(error), whole) from None
-    if mistakes := [mistake for each in checks for mistake in each(study)]:
-        raise _placed(mistakes, whole)
+    for each in checks:
+        if mistakes := list(each(study)):
+            raise _placed(mistakes, whole)
     return study
 
 

@@ -4,13 +4,15 @@ This takes a second, since it loads them: apart from the other checks, so that i
 remembered.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 
-from recalib.damaged.damage import Damage, LinkShortening, apply
+import numpy as np
+
+from recalib.damaged.damage import Damage, apply
 from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
-from recalib.nominal.robots import Robot
+from recalib.nominal.robots import Robot, link_end
 from recalib.quantities import LENGTH
 from recalib.study import jobs
 from recalib.study.assignments import Ways
@@ -35,8 +37,7 @@ def check_robots(study: Study) -> list[Mistake]:
     if not found:
         for scenario, robot in used:
             found += _of_scenario(study, scenario, robots[robot])
-        for name in assigned_robots(study):
-            found += _of_assignment(study, robots[name])
+        found += _of_assignment(study, [robots[name] for name in assigned_robots(study)])
         if study.experiments.evidence and not found:
             found += _of_series(study, robots[study.robot])
     return found
@@ -53,7 +54,8 @@ def _of_robot(name: str, error: RecalibError) -> Mistake:
         case UnknownName():
             keys = ("tool", "home", "limits")
             key = next((key for key in keys if key in error.kind), "urdf")
-            return unknown(("robots", name, key), error.name, error.valid)
+            path = (key, error.name) if key in ("home", "limits") else (key,)
+            return unknown(("robots", name, *path), error.name, error.valid)
         case InvalidSetting(key="home"):
             return Mistake(("robots", name, "home"), f" lacks joints; valid: {error.valid}")
         case InvalidSetting():
@@ -83,19 +85,21 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
                 yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
 
 
-def _of_assignment(study: Study, robot: Robot) -> Iterator[Mistake]:
-    """Links of the robot that it lacks, or that are too short for the paper's damage."""
-    lengths, links = study.paper_damage.shorten, study.robots[robot.name].links
-    for place, link in enumerate(links):
-        for index, length in enumerate(lengths):
-            error = _refused(robot, LinkShortening(link, length))
-            if isinstance(error, UnknownName):
-                yield unknown(("robots", robot.name, "links", place), link, error.valid)
-                break
-            if error:
-                path = "paper_damage", "shorten", index
-                valid = f"{error.valid}, on {link} of the {robot.name}"
-                yield unlike(path, LENGTH.write(length), valid)
+def _of_assignment(study: Study, robots: Iterable[Robot]) -> Iterator[Mistake]:
+    """Links that a robot lacks, or that are too short for the paper's damage."""
+    whole = {}
+    for robot in robots:
+        for index, link in enumerate(study.robots[robot.name].links):
+            if link not in robot.links:
+                yield unknown(("robots", robot.name, "links", index), link, robot.links)
+            else:
+                end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+                whole[robot.name, link] = np.linalg.norm(end)
+    name, link = min(whole, key=whole.get, default=(None, None))
+    for index, length in enumerate(study.paper_damage.shorten):
+        if whole and length >= whole[name, link]:
+            valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
+            yield unlike(("paper_damage", "shorten", index), LENGTH.write(length), valid)
 
 
 def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:

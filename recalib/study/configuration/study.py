@@ -12,6 +12,7 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Part
 from recalib.study.configuration.units import (
     Angle,
+    Checksum,
     Count,
     Distinct,
     Fraction,
@@ -21,11 +22,14 @@ from recalib.study.configuration.units import (
     Positive,
     Range,
     Seed,
+    SeriesName,
     Size,
     SomeDistinct,
+    StudyName,
     Switch,
     Text,
     Turn,
+    Url,
 )
 
 Several = Field(min_length=1)
@@ -140,7 +144,7 @@ class Experiments(Part):
     """Whether to judge the claims of the paper and to draw their figures."""
     robots: Distinct[Name]
     """Other robots for the study's own scenario."""
-    ensemble: dict[Name, dict[Annotated[str, Field(pattern="^[a-z]+$")], Series]]
+    ensemble: dict[Name, dict[SeriesName, Series]]
     """For each learner, robots with other assignments or amounts of the paper's damage."""
     draws_per_job: Count
     """Robots of a series that one job trains."""
@@ -160,7 +164,7 @@ class Benchmark(Part):
     longer: Distinct[Count]
     """More budgets, for trainings that go on."""
     thresholds: SomeDistinct[Positive]
-    """Errors to reach, in cm and degrees; the first of them is the page's."""
+    """Errors to reach, in cm and degrees; the smallest of them is the page's."""
 
 
 class Source(Part):
@@ -168,9 +172,9 @@ class Source(Part):
 
     file: Text | None
     """A copy on this machine."""
-    url: Annotated[str, Field(strict=True, pattern=r"^https://\S+$")]
+    url: Url
     """The public address."""
-    sha256: Annotated[str, Field(strict=True, pattern="^[0-9a-f]{64}$")]
+    sha256: Checksum
     """Checksum of the file."""
 
 
@@ -285,7 +289,7 @@ class Search(Budget):
 class Study(Part):
     """Robot, damage, learners, settings, budgets and seeds: findings follow from it and code."""
 
-    name: Annotated[str, Field(strict=True, pattern=r"^[a-z]\w*$", max_length=40)]
+    name: StudyName
     """`replication` is the shipped study; results of any other lie in results/studies/NAME."""
     seed: Seed
     """Of the whole study."""

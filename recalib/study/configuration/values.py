@@ -77,13 +77,17 @@ def from_mapping(data: Any) -> Value:
 
 def from_file(path: str | PathLike) -> Value:
     """Values of a YAML file. Raises InvalidConfiguration."""
-    name = fspath(path)
+    whole, here = Path(path).absolute(), Path.cwd()
+    name = fspath(whole.relative_to(here) if whole.is_relative_to(here) else path)
     try:
         return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
     except yaml.MarkedYAMLError as error:
         raise InvalidConfiguration([_unreadable(name, error)]) from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
+        raise InvalidConfiguration([f"{name}: {reason}"]) from None
+    except RecursionError:
+        reason = "an anchor within itself, or too many brackets"
         raise InvalidConfiguration([f"{name}: {reason}"]) from None
 
 
@@ -101,8 +105,9 @@ def _parsed(name: str, text: str) -> Value:
 def _unreadable(name: str, error: yaml.MarkedYAMLError) -> str:
     """PyYAML's reason in a sentence."""
     place = shown(_place(name, error.problem_mark))
-    if "\\t" in error.problem:
-        return f"{place}: a tab; valid: spaces"
+    for sign, fault in (("\\t", "a tab; valid: spaces"), ("<block map", "wrong indentation")):
+        if sign in error.problem:
+            return f"{place}: {fault}"
     begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
     return f"{place}: no YAML: {error.problem}{begun}"
 
@@ -131,6 +136,12 @@ class _Loader(yaml.SafeLoader):
 
     def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Value:
         """What a node says."""
+        if node.tag not in (
+            self.DEFAULT_SCALAR_TAG,
+            self.resolve(type(node), node.value, (True, False)),
+        ):
+            problem = f"the tag {node.tag}"
+            raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
         match node:
             case yaml.MappingNode():
                 content = self._mapping(node, path)
