@@ -5,11 +5,12 @@ axis is always the run: an experiment trains many runs side by side.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
-from recalib.nominal.poses import Workspace
+if TYPE_CHECKING:
+    from recalib.nominal.poses import Workspace
 
 
 class Outcome(NamedTuple):
@@ -83,7 +84,7 @@ class Commandable(Protocol):
         refused: (run,) how many of them were not carried out; 0 before the first.
     """
 
-    workspace: Workspace
+    workspace: "Workspace"
     moves: int
     refused: np.ndarray | int
 

@@ -9,15 +9,18 @@ import math
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, UnknownName
 from recalib.interfaces import Savable, State
-from recalib.nominal.controller import Controller
-from recalib.nominal.robots import Robot
 from recalib.storage import whole
+
+# To join files takes no robot: what moves one is imported where it is used.
+if TYPE_CHECKING:
+    from recalib.nominal.controller import Controller
+    from recalib.nominal.robots import Robot
 
 FORMAT, VERSION = "recalib learner", 1
 KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
@@ -27,7 +30,7 @@ PROBES = 8  # joint angles at which the kinematics of two robots are compared
 Path = str | PathLike
 
 
-def save(path: Path, learner: Savable, robot: Robot) -> None:
+def save(path: Path, learner: Savable, robot: "Robot") -> None:
     """Write what a learner has learned on a robot.
 
     Raises UnknownName (a learner of no known kind) and InvalidSetting (runs with schedules of their
@@ -46,7 +49,7 @@ def save(path: Path, learner: Savable, robot: Robot) -> None:
     _write(path, header, learner.state())
 
 
-def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
+def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
     """The learner that `save` wrote, for the same robot.
 
     Args:
@@ -80,7 +83,7 @@ def join(path: Path, parts: Iterable[Path]) -> None:
     _write(path, header, states)
 
 
-def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> Savable:
+def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Savable:
     # Imported where they are used: the maps need not wait for scikit-learn.
     match kind:
         case "hierarchical":
@@ -110,12 +113,14 @@ def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> S
     raise UnknownName("kind of learner", kind, KINDS)
 
 
-def _controller(robot: Robot) -> Controller:
+def _controller(robot: "Robot") -> "Controller":
     """The one behind which the learner learned, whose singularity margin was accepted then."""
+    from recalib.nominal.controller import Controller
+
     return Controller(robot, greatest_condition=math.inf)
 
 
-def _identity(robot: Robot) -> dict[str, Any]:
+def _identity(robot: "Robot") -> dict[str, Any]:
     """What tells a robot from others, in the types of JSON: what it does, not what it is called."""
     joints = np.arange(len(robot.joints)) + 1
     angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
