@@ -1,9 +1,11 @@
 """Draw one figure from the evidence."""
 
-from recalib.study import plots
+from recalib.study.evidence.needs import Needs
 from recalib.study.evidence.results import Evidence
+from recalib.study.plots.drawings import DRAWINGS
+from recalib.study.plots.style import STYLE, plt, save
 from workflow.scripts.job import job
 
-with job(snakemake), plots.plt.rc_context(plots.STYLE):
-    figure = plots.FIGURES[snakemake.wildcards.figure](Evidence(snakemake.config))
-    plots.save(figure, snakemake.output.svg, snakemake.output.png)
+with job(snakemake), plt.rc_context(STYLE):
+    evidence = Evidence(Needs.model_validate_json(snakemake.params.job))
+    save(DRAWINGS[snakemake.wildcards.figure](evidence), *snakemake.output)

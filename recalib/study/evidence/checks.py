@@ -7,10 +7,10 @@ from recalib.study.measured import ERRORS
 
 KEYS = ["scenario", "learner"]
 
-# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds would
-# stay inside, and a change of a rule that matters does not.
+# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds
+# would stay inside, and a change of a rule that matters does not.
 STANDARD_ERRORS = 4
-# Below these, an error is rounding and the nominal controller's tolerance: it is only to stay small.
+# Below these, an error is rounding and the nominal controller's tolerance.
 NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 
 

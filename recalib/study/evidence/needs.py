@@ -50,6 +50,7 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "radius": lambda study, _: study.mapping.radius,
     "assignment_poses": lambda study, _: study.paper_damage.poses,
     "tests": lambda study, _: study.training.tests,
+    "real_robot": lambda study, _: study.real.robot,
     "threshold": lambda study, _: study.benchmark.thresholds[0],
 }
 

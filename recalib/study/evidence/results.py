@@ -1,4 +1,4 @@
-"""Everything that figures are drawn from and claims are judged by: what was declared, and no more."""
+"""What figures are drawn from and claims are judged by: what was declared, and no more."""
 
 import json
 from collections.abc import Mapping
@@ -10,7 +10,7 @@ from pydantic import JsonValue
 from recalib.errors import RecalibError
 from recalib.randomness import generator
 from recalib.study.evidence.needs import Needs
-from recalib.study.layout import Layout
+from recalib.study.layout import SHIPPED, Layout
 from recalib.study.measured import ERRORS
 
 if TYPE_CHECKING:
@@ -34,6 +34,16 @@ class Evidence:
 
     def __init__(self, needs: Needs):
         self._needs, self._layout = needs, Layout(needs.root)
+
+    @property
+    def study(self) -> str:
+        """The study's name."""
+        return self._layout.name
+
+    @property
+    def shipped(self) -> bool:
+        """Whether the study is the one of the README."""
+        return self.study == SHIPPED
 
     @property
     def facts(self) -> Mapping[str, JsonValue]:
@@ -74,7 +84,7 @@ class Evidence:
         return then[list(ERRORS)].to_numpy()
 
     def ladder(self, learner: str) -> dict[int, np.ndarray]:
-        """Final errors (seed, 2) for each number of iterations that it was tuned and trained for."""
+        """Final errors (seed, 2) for each number of iterations that it was trained for."""
         return {rung: self.errors(name) for rung, name in self.fact("ladder")[learner]}
 
     def ensemble(self, learner: str, series: str) -> "pd.DataFrame":

@@ -1,4 +1,4 @@
-"""How many iterations does a learner need for a pair of errors, and how many times as many does another one?"""
+"""How many iterations a learner needs for a pair of errors, and how many times another's."""
 
 import numpy as np
 

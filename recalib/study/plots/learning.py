@@ -1,5 +1,7 @@
 """Figures of errors: how they fall, and what is left of them."""
 
+from collections.abc import Sequence
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
@@ -7,13 +9,33 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.style import BAND, LABELS, LEARNERS, ORIENTATION, POSITION, plain, title
+from recalib.study.measured import ERRORS, KINDS, UNITS
+from recalib.study.plots.looks import looks
+from recalib.study.plots.steady import LOG
+from recalib.study.plots.style import (
+    BAND,
+    BORDER,
+    LABELS,
+    ORIENTATION,
+    POSITION,
+    legend_below,
+    plain,
+    title,
+    words,
+)
 from recalib.study.statistics import first_within
+
+FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
 
 def curves(history: pd.DataFrame, error: str) -> pd.DataFrame:
     """Errors by iteration (row) and seed (column)."""
     return history.pivot(index="iteration", columns="seed", values=error)
+
+
+def label(look, history: pd.DataFrame) -> str:
+    """A learner's name, with its iterations."""
+    return f"{look.label}, {history['iteration'].max():,} iterations"
 
 
 def draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
@@ -22,16 +44,20 @@ def draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
     axes.fill_between(table.index, low, high, color=color, alpha=0.2, linewidth=0)
 
 
-def draw_learning(axes: Axes, history: pd.DataFrame, seed: int = 0) -> Axes:
-    """Both errors over the iterations on one scale, as in the paper's Figure 1: one run bold before the spread of all."""
-    for error, style, name in (
-        ("position_error_cm", POSITION, "position"),
-        ("orientation_error_deg", ORIENTATION, "orientation"),
-    ):
+def draw_learning(axes: Axes, history: pd.DataFrame, tests: int, seed: int = 0) -> Axes:
+    """Both errors over the iterations on one scale, as in the paper's Figure 1.
+
+    Args:
+        axes: where to draw.
+        history: of a training.
+        tests: poses of each measurement.
+        seed: the one drawn bold before the spread of all.
+    """
+    seeds = history["seed"].nunique()
+    for error, style, name, unit in zip(ERRORS, (POSITION, ORIENTATION), KINDS, UNITS, strict=True):
         table = curves(history, error)
         draw_band(axes, table, style["color"])
         axes.plot(table.index, table[seed], linewidth=2.4, label=name, **style)
-        unit = "cm" if error.endswith("cm") else "degrees"
         axes.annotate(
             f"{name}: {table[seed].iloc[0]:.1f} {unit}",
             (table.index[0], table[seed].iloc[0]),
@@ -39,9 +65,9 @@ def draw_learning(axes: Axes, history: pd.DataFrame, seed: int = 0) -> Axes:
             textcoords="offset points",
             color=style["color"],
         )
-    last = [curves(history, error).iloc[-1].mean() for error in LABELS]
+    last = [curves(history, error).iloc[-1].mean() for error in ERRORS]
     axes.annotate(
-        f"after {history['iteration'].max()} iterations, mean of {history['seed'].nunique()} seeds:\n"
+        f"after {history['iteration'].max()} iterations, mean of {seeds} seeds:\n"
         f"{last[0]:.2f} cm and {last[1]:.2f} degrees",
         (table.index[-1], max(last)),
         (0, 28),
@@ -50,67 +76,80 @@ def draw_learning(axes: Axes, history: pd.DataFrame, seed: int = 0) -> Axes:
     )
     axes.set(
         xlabel="iterations (two moves each)",
-        ylabel="mean error on 200 test poses [cm, degrees]",
+        ylabel=f"mean error on {tests} test poses [cm, degrees]",
         xlim=(0, history["iteration"].max()),
     )
     axes.set_ylim(bottom=0)
-    axes.legend(
-        title=f"bold: one run; band: {BAND[0]}-{BAND[1]} % of {history['seed'].nunique()} seeds"
-    )
+    axes.legend(title=f"bold: one seed; band: {BAND[0]}-{BAND[1]} % of {seeds} seeds")
     return axes
 
 
 def figure1(evidence: Evidence) -> Figure:
     """Figure 1 of the paper: the improved system on the paper's damage."""
     figure, axes = plt.subplots()
-    draw_learning(axes, evidence.history("improved"))
-    axes.set_title("Figure 1: within 200 iterations, the damaged arm finds its poses again")
+    history = evidence.history(evidence.fact("improved"))
+    draw_learning(axes, history, evidence.fact("tests"))
+    ends = history.groupby("iteration")[list(ERRORS)].mean()
+    left = 100 * ends.iloc[-1] / ends.iloc[0]
+    text = (
+        f"Figure 1: both errors over {ends.index[-1]} iterations;"
+        f" {left.iloc[0]:.0f} % and {left.iloc[1]:.0f} % of them are left"
+    )
+    if not evidence.shipped:
+        where = f"{evidence.fact('robot').upper()}, {words(evidence.fact('scenario'))}"
+        text += f"\n({evidence.study}: {where})"
+    axes.set_title(text)
     return figure
 
 
 def figure2(evidence: Evidence) -> Figure:
-    """Improved against Ritter on logarithmic axes, with the iterations that each needs for the other's final errors."""
+    """The learners on logarithmic axes, and the iterations that each needs for another's errors."""
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(10, 4.8))
-    histories = {learner: evidence.history(learner) for learner in LEARNERS}
-    for axes, (error, label) in zip(panels, LABELS.items(), strict=True):
+    histories = {learner: evidence.history(learner) for learner in evidence.fact("learners")}
+    shown, compared = looks(histories), _compared(evidence, histories)
+    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
         for learner, history in histories.items():
             table = curves(history, error)
             table = table[table.index > 0]
-            style = LEARNERS[learner]
-            draw_band(axes, table, style["color"])
-            axes.plot(table.index, table.mean(axis=1), **{**style, "marker": None})
-        for one, other in (("ritter", "improved"), ("improved", "ritter")):
+            look = shown[learner]
+            draw_band(axes, table, look.color)
+            axes.plot(table.index, table.mean(axis=1), label=label(look, history), **look.line())
+        for one, other in (compared, compared[::-1]) if compared else ():
             level = histories[other].groupby("iteration")[error].mean().iloc[-1]
             reached = _reached(histories[one], [error], np.array([level]))
-            axes.axhline(level, color="0.4", linewidth=0.8)
-            note = f"{one.capitalize()} is at {level:.2f} {reached}"
+            axes.axhline(level, **BORDER)
             axes.annotate(
-                note,
+                f"{shown[one].label.capitalize()} is at {level:.2f} {reached}",
                 (0.02, level),
                 (0, 3),
                 xycoords=("axes fraction", "data"),
                 textcoords="offset points",
                 fontsize=9,
             )
-        axes.set(xscale="log", yscale="log", xlabel="iterations (two moves each)", ylabel=label)
+        axes.set(xscale=LOG, yscale=LOG, xlabel="iterations (two moves each)", ylabel=text)
         plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
         plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-    final = histories["improved"].groupby("iteration")[list(LABELS)].mean().iloc[-1].to_numpy()
-    both = _reached(histories["ritter"], list(LABELS), final)
-    title(
-        figure,
-        f"Figure 2: what the improved map reaches in 200 iterations, Ritter's reaches {both}",
-    )
+    title(figure, f"Figure 2: {_in_one_sentence(histories, compared)}")
     seeds = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
-    figure.legend(
-        *panels[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=3,
-        fontsize=9,
-        title=f"lines: means of {seeds} seeds; bands: {BAND[0]}-{BAND[1]} % of them",
-        title_fontsize=9,
-    )
+    spread = f"lines: means of {seeds} seeds; bands: {BAND[0]}-{BAND[1]} % of them"
+    legend_below(figure, panels[0], len(histories), spread)
     return figure
+
+
+def _compared(evidence: Evidence, histories) -> Sequence[str]:
+    """The paper's two learners, where both are there: Ritter's, then the improved one."""
+    both = [evidence.facts.get(role) for role in ("ritter", "improved")]
+    return both if all(each in histories for each in both) else []
+
+
+def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:
+    if not compared:
+        return "errors over the iterations"
+    ritter, improved = (histories[learner] for learner in compared)
+    final = improved.groupby("iteration")[list(ERRORS)].mean().iloc[-1].to_numpy()
+    reached = _reached(ritter, list(ERRORS), final)
+    most = improved["iteration"].max()
+    return f"what the improved map reaches in {most:,} iterations, Ritter's reaches {reached}"
 
 
 def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str:
@@ -119,22 +158,20 @@ def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str
     return f"after {first:,.0f}" if np.isfinite(first) else f"in none of its {means.index[-1]:,}"
 
 
-FLOOR = 1e-3  # cm and degrees: below it an error is rounding
-
-
 def figure3(evidence: Evidence) -> Figure:
     """What is left of the initial errors in every scenario."""
-    scenarios = evidence.scenarios
+    scenarios, learners = evidence.fact("scenarios"), evidence.fact("learners")
     histories = {
         (scenario, learner): evidence.history(learner, scenario)
         for scenario in scenarios
-        for learner in LEARNERS
+        for learner in learners
     }
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
-    for axes, (error, label) in zip(panels, LABELS.items(), strict=True):
+    offsets = 0.22 * (np.arange(len(learners))[::-1] - (len(learners) - 1) / 2)
+    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
         initial = [
-            curves(histories[scenario, "improved"], error).iloc[0].mean() for scenario in scenarios
+            curves(histories[scenario, learners[0]], error).iloc[0].mean() for scenario in scenarios
         ]
         axes.scatter(
             np.maximum(initial, FLOOR),
@@ -145,34 +182,20 @@ def figure3(evidence: Evidence) -> Figure:
             label="before recalibration",
             zorder=3,
         )
-        for offset, (learner, style) in zip((0.22, 0, -0.22), LEARNERS.items(), strict=True):
+        for offset, (learner, look) in zip(offsets, looks(learners).items(), strict=True):
             final = [curves(histories[scenario, learner], error).iloc[-1] for scenario in scenarios]
             means = np.maximum([values.mean() for values in final], FLOOR)
-            low, high = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
-            axes.hlines(rows + offset, low, high, color=style["color"], linewidth=1.5)
-            axes.scatter(
-                means,
-                rows + offset,
-                s=36,
-                color=style["color"],
-                marker=style["marker"],
-                label=style["label"],
-                zorder=3,
+            low, high = np.maximum(
+                np.transpose([np.percentile(values, BAND) for values in final]), FLOOR
             )
-        axes.set(xscale="log", xlabel=f"{label}; {FLOOR:g} stands for less", xlim=(FLOOR / 1.5, 30))
+            axes.hlines(rows + offset, low, high, color=look.color, linewidth=1.5)
+            name = label(look, histories[scenarios[0], learner])
+            axes.scatter(means, rows + offset, s=36, label=name, zorder=3, **look.signs())
+        axes.set(xscale=LOG, xlabel=f"{text}; {FLOOR:g} stands for less", xlim=(FLOOR / 1.5, 30))
         plain(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
-        axes.set_yticks(rows, [scenario.replace("_", " and ") for scenario in scenarios])
+        axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
         axes.grid(axis="y", visible=False)
-    title(
-        figure,
-        "Figure 3: every kind of damage is learned, and an intact robot is left alone by the improved map",
-    )
-    figure.legend(
-        *panels[0].get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=4,
-        fontsize=9,
-        title=f"signs: means over seeds; lines: {BAND[0]}-{BAND[1]} % of the seeds",
-        title_fontsize=9,
-    )
+    title(figure, "Figure 3: errors before and after learning, in every scenario")
+    spread = f"signs: means over seeds; lines: {BAND[0]}-{BAND[1]} % of the seeds"
+    legend_below(figure, panels[0], 1 + len(learners), spread)
     return figure

@@ -4,53 +4,53 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from recalib.study.evidence.results import ERRORS, Evidence
+from recalib.study.evidence.claims import expected_learning, weak_coupling
+from recalib.study.evidence.results import Evidence
 from recalib.study.mapping.propagation import integral_ratios
-from recalib.study.plots.style import ORIENTATION, POSITION, plain, title
+from recalib.study.measured import ERRORS, KINDS
+from recalib.study.plots.steady import LOG
+from recalib.study.plots.style import BORDER, ORIENTATION, POSITION, plain, title, words
 
 
 def figure5(evidence: Evidence) -> Figure:
     """The off-diagonal blocks of the true mapping's Jacobian."""
     figure, axes = plt.subplots(figsize=(8, 4))
-    table = evidence.study("coupling")
-    rows = np.arange(len(evidence.scenarios))[::-1]
-    for offset, (column, style, marker) in zip(
-        (0.15, -0.15), (("position", POSITION, "o"), ("orientation", ORIENTATION, "s")), strict=True
-    ):
-        quantiles = (
-            table.groupby("scenario")[column]
-            .quantile([0.05, 0.5, 0.95])
-            .unstack()
-            .loc[evidence.scenarios]
-        )
+    table, scenarios = evidence.mapping("coupling"), evidence.fact("scenarios")
+    limit = weak_coupling.CLAIM.limits["ratio"]
+    rows = np.arange(len(scenarios))[::-1]
+    styles = zip((0.15, -0.15), KINDS, (POSITION, ORIENTATION), "os", strict=True)
+    for offset, kind, style, marker in styles:
+        quantiles = table.groupby("scenario")[kind].quantile([0.05, 0.5, 0.95]).unstack()
+        quantiles = quantiles.loc[scenarios]
         axes.hlines(rows + offset, quantiles[0.05], quantiles[0.95], color=style["color"])
         axes.scatter(
             quantiles[0.5],
             rows + offset,
             color=style["color"],
             marker=marker,
-            label=f"{column} commands",
+            label=f"{kind} commands",
             zorder=3,
         )
-    axes.axvline(0.1, color="0.4", linewidth=0.8)
+    axes.axvline(limit, **BORDER)
     axes.annotate(
         "criterion",
-        (0.1, rows[0] + 0.4),
+        (limit, rows[0] + 0.4),
         (-4, 0),
         textcoords="offset points",
         ha="right",
         fontsize=9,
     )
-    axes.set(
-        xlabel="norm of the off-diagonal block over that of the diagonal block", xlim=(-0.003, 0.12)
-    )
-    axes.set_yticks(rows, [scenario.replace("_", " and ") for scenario in evidence.scenarios])
+    axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block")
+    widest = max(table.groupby("scenario")[kind].quantile(0.95).max() for kind in KINDS)
+    axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
+    axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
     axes.grid(axis="y", visible=False)
     axes.legend(fontsize=9, loc="center right")
+    poses = len(table) // table["scenario"].nunique()
     title(
         figure,
-        "Figure 5: positions hardly influence orientation commands, and the reverse",
-        f"signs: medians over {len(table) // table['scenario'].nunique()} poses; lines: 5-95 % of them",
+        "Figure 5: how much positions influence orientation commands, and the reverse",
+        f"signs: medians over {poses} poses; lines: 5-95 % of them",
     )
     return figure
 
@@ -58,7 +58,7 @@ def figure5(evidence: Evidence) -> Figure:
 def figure7(evidence: Evidence) -> Figure:
     """E_upd over E_clas on the true mappings, from slight to drastic damage."""
     figure, axes = plt.subplots(figsize=(8, 4.2))
-    ratio = integral_ratios(evidence.study("propagation"))
+    ratio = integral_ratios(evidence.mapping("propagation"))
     for (kind, start), values in ratio.groupby(level=["kind", "start"]):
         style = POSITION if kind == "theta" else ORIENTATION
         axes.plot(
@@ -70,7 +70,7 @@ def figure7(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
-    axes.axhline(1, color="0.4", linewidth=0.8)
+    axes.axhline(1, **BORDER)
     axes.annotate(
         "above: a constant would be the better guess",
         (0.11, 1),
@@ -79,20 +79,19 @@ def figure7(evidence: Evidence) -> Figure:
         fontsize=9,
     )
     axes.set(
-        xscale="log",
-        yscale="log",
+        xscale=LOG,
+        yscale=LOG,
         xlabel="encoder shifts, times the paper's (links at most once)",
         ylabel="$E_{upd} / E_{clas}$",
         ylim=(None, 3),
     )
     plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     axes.legend(fontsize=9, loc="lower right")
-    plan = evidence.config["studies"]
     title(
         figure,
-        "Figure 7: the old mapping is the better guess unless the damage is drastic",
-        f"medians over {plan['balls']} balls of radius {plan['radius']:g} in workspace coordinates; "
-        "Jacobians from the intact robot: both integrals are the same",
+        "Figure 7: which is the better guess, the old mapping or a constant?",
+        f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
+        " workspace coordinates; Jacobians from the intact robot: both integrals are the same",
     )
     return figure
 
@@ -100,7 +99,7 @@ def figure7(evidence: Evidence) -> Figure:
 def figure8(evidence: Evidence) -> Figure:
     """Monte Carlo of the expected learning beside (10)."""
     figure, axes = plt.subplots(figsize=(8, 4.2))
-    table = evidence.study("visits")
+    table = evidence.mapping("visits")
     shades = plt.get_cmap("viridis")(np.linspace(0, 0.85, table["width"].nunique()))
     for shade, (width, rows), marker in zip(shades, table.groupby("width"), "os^Dv*", strict=False):
         axes.errorbar(
@@ -112,8 +111,8 @@ def figure8(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"width {width:g}",
         )
-    axes.axhline(1, color="0.4", linewidth=0.8)
-    axes.axvline(3, color="0.4", linewidth=0.8)
+    axes.axhline(1, **BORDER)
+    axes.axvline(expected_learning.CLAIM.limits["away"], **BORDER)
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",
@@ -123,8 +122,9 @@ def figure8(evidence: Evidence) -> Figure:
     axes.legend(fontsize=9)
     title(
         figure,
-        "Figure 8: equation (10) holds three widths away from the border",
-        "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is three large widths away",
+        "Figure 8: equation (10), from the border of the workspace inwards",
+        "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
+        " three large widths away",
     )
     return figure
 
@@ -132,10 +132,9 @@ def figure8(evidence: Evidence) -> Figure:
 def figure10(evidence: Evidence) -> Figure:
     """The initial errors of every assignment of the paper's damage."""
     figure, axes = plt.subplots(figsize=(8, 5))
-    table = evidence.assignments()
+    table, published = evidence.assignments(), evidence.fact("published")
     axes.scatter(
-        table[ERRORS[0]],
-        table[ERRORS[1]],
+        *(table[error] for error in ERRORS),
         s=5,
         alpha=0.35,
         color="0.5",
@@ -143,21 +142,20 @@ def figure10(evidence: Evidence) -> Figure:
         label=f"{len(table):,} assignments",
         rasterized=True,
     )
-    nearest = table.loc[table["distance"].idxmin()]
+    nearest = table.loc[table["distance"].round(9).idxmin()]
     axes.scatter(
-        nearest[ERRORS[0]],
-        nearest[ERRORS[1]],
+        *(nearest[error] for error in ERRORS),
         s=70,
-        color="#0072B2",
+        color=POSITION["color"],
         label="the one used",
         zorder=3,
     )
     axes.scatter(
-        *evidence.published.values(),
+        *(published[error] for error in ERRORS),
         s=120,
         marker="+",
         linewidths=2,
-        color="#D55E00",
+        color=ORIENTATION["color"],
         label="published",
         zorder=4,
     )
@@ -170,7 +168,7 @@ def figure10(evidence: Evidence) -> Figure:
     axes.legend(fontsize=9)
     title(
         figure,
-        "Figure 10: the published initial errors are ordinary ones for this damage",
-        f"means over {evidence.config['paper_damage']['poses']} random poses",
+        "Figure 10: the initial errors of every assignment of the paper's damage",
+        f"means over {evidence.fact('assignment_poses')} random poses",
     )
     return figure

@@ -1,4 +1,4 @@
-"""What all figures share: one style, legible in black and white and to the colour-blind, and files that do not change."""
+"""What all figures share: one style, legible in black and white and to the colour-blind."""
 
 from pathlib import Path
 
@@ -7,11 +7,15 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 
 from recalib.storage import whole
+from recalib.study.measured import ERRORS
+from recalib.study.plots.looks import DASHED, SOLID
+from recalib.study.plots.steady import steady
 
 STYLE = {
     "figure.figsize": (8, 4.5),
@@ -29,38 +33,17 @@ STYLE = {
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
-LABELS = {
-    "position_error_cm": "position error [cm]",
-    "orientation_error_deg": "orientation error [degrees]",
-}
-# Okabe and Ito's palette, and a second sign each for black and white: a dash pattern and a marker.
-POSITION = {"color": "#0072B2", "linestyle": "-"}
-ORIENTATION = {"color": "#D55E00", "linestyle": (0, (5, 2))}
-LEARNERS = {
-    "improved": {
-        "color": "#0072B2",
-        "linestyle": "-",
-        "marker": "o",
-        "label": "improved, 200 iterations",
-    },
-    "ritter_200": {
-        "color": "#E69F00",
-        "linestyle": (0, (1, 1)),
-        "marker": "^",
-        "label": "Ritter, 200 iterations",
-    },
-    "ritter": {
-        "color": "#D55E00",
-        "linestyle": (0, (5, 2)),
-        "marker": "s",
-        "label": "Ritter, 10,000 iterations",
-    },
-}
+LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
+POSITION = {"color": "#0072B2", "linestyle": SOLID}
+ORIENTATION = {"color": "#D55E00", "linestyle": DASHED}
 BAND = (5, 95)  # percent of the seeds
+INTERVALS = "lines: 95 % bootstrap intervals"
+BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
-    """Write the figure whole, without a date, so that an unchanged result leaves the file unchanged."""
+    """Write the figure whole, without a date: an unchanged result leaves the file unchanged."""
+    steady(figure)
     for path in map(Path, paths):
         with whole(path) as temporary:
             figure.savefig(
@@ -77,7 +60,24 @@ def plain(axis: Axis, *ticks: float) -> None:
 
 
 def title(figure: Figure, text: str, below: str = "") -> None:
-    """The figure's one message above it, and what its signs mean below it."""
+    """What the figure shows above it, and what its signs mean below it."""
     figure.suptitle(text, fontweight="bold", fontsize=12, x=0.01, ha="left")
     if below:
         figure.supxlabel(below, fontsize=9)
+
+
+def legend_below(figure: Figure, axes: Axes, columns: int, text: str) -> None:
+    """The legend of one of the panels for all of them, below the figure."""
+    figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=columns,
+        fontsize=9,
+        title=text,
+        title_fontsize=9,
+    )
+
+
+def words(scenario: str) -> str:
+    """A scenario's name for people."""
+    return scenario.replace("_", " and ").replace("-", " on the ")

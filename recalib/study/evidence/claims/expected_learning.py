@@ -29,9 +29,10 @@ CLAIM = Claim(
     " not too close to the border.",
     published="equation (10)",
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
-    criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard errors for"
-    " all cells at least {away} sigma from the border.",
-    reason="Three widths hold 99.7 % of a Gaussian; {deviation:percent} is below what any schedule could show.",
+    criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"
+    " errors for all cells at least {away} sigma from the border.",
+    reason="Three widths hold 99.7 % of a Gaussian; {deviation:percent} is below what any schedule"
+    " could show.",
     needs=needs,
     measure=measure,
     figures=("figure8",),

@@ -37,8 +37,8 @@ CLAIM = Claim(
     " {published[orientation_error_deg]} degrees.",
     published="{published[position_error_cm]} cm, {published[orientation_error_deg]} degrees",
     limits={"tail": Limit(0.025)},
-    criterion="Both published errors lie inside the central {tail:central} of those of all assignments of the"
-    " damage on our robot.",
+    criterion="Both published errors lie inside the central {tail:central} of those of all"
+    " assignments of the damage on our robot.",
     reason="The robot, the links, the encoders and the signs are not published, so only"
     " plausibility can be tested.",
     needs=needs,

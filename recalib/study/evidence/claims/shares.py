@@ -6,7 +6,7 @@ from recalib.study.statistics import Estimate, paired_ratio
 
 
 def left(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
-    """The share of an initial error that is left: of the position error (0) or orientation's (1)."""
+    """The share that is left of the position error (kind 0) or of the orientation error (1)."""
     first, last = (
         evidence.errors(learner, scenario, moment)[:, kind] for moment in ("first", "last")
     )

@@ -1,0 +1,85 @@
+"""The figure of the four changes, and of learners beside them."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from recalib.study.evidence.claims.switches import compare, with_and_without
+from recalib.study.evidence.results import Evidence
+from recalib.study.plots.looks import looks
+from recalib.study.plots.steady import LOG
+from recalib.study.plots.style import BORDER, INTERVALS, plain, title
+from recalib.study.statistics import Estimate
+from recalib.study.trainings import IMPROVED, RITTER, SWITCHES
+
+
+def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
+    """For each row its label, and what it does to the improved system and to Ritter's."""
+    rows = {}
+    for switch in SWITCHES if evidence.fact("switches") else ():
+        pairs = with_and_without(evidence, switch).values()
+        rows[switch.label] = [compare(evidence, *pair) for pair in pairs]
+    for learner, look in looks(evidence.fact("beside")).items():
+        others = evidence.fact("improved"), evidence.fact("short")
+        rows[f"{look.label}, a learner"] = [compare(evidence, learner, each) for each in others]
+    return rows
+
+
+def _draw(axes: Axes, heights: np.ndarray, ratios: list[Estimate], look, label: str) -> None:
+    means, low, high = np.transpose(ratios)
+    axes.hlines(heights, low, high, color=look.color)
+    axes.scatter(means, heights, label=label, zorder=3, **look.signs())
+    for height, mean in zip(heights, means, strict=True):
+        axes.annotate(
+            f"{mean:.2f}",
+            (mean, height),
+            (0, 6),
+            textcoords="offset points",
+            ha="center",
+            fontsize=9,
+            color=look.color,
+        )
+
+
+def _heading(evidence: Evidence, rows: dict[str, list[Estimate]]) -> str:
+    changes = [switch.label for switch in SWITCHES if switch.label in rows]
+    if not changes:
+        return "Figure 4: learners beside the paper's two"
+    most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
+    return f"Figure 4: of the four changes, {most} make the greatest difference"
+
+
+def figure4(evidence: Evidence) -> Figure:
+    """The four changes, each taken from the improved system and added to Ritter's.
+
+    Learners beside them have a row of their own: their error over that of either.
+    """
+    rows = _rows(evidence)
+    figure, axes = plt.subplots(figsize=(8, 1.2 + 0.6 * len(rows)))
+    heights = np.arange(len(rows))[::-1]
+    shown = looks([IMPROVED, RITTER])
+    cases = (
+        (IMPROVED, 0.12, "improved with it / without it"),
+        (RITTER, -0.12, "Ritter with it / without it"),
+    )
+    for case, (learner, offset, label) in enumerate(cases):
+        ratios = [estimates[case] for estimates in rows.values()]
+        _draw(axes, heights + offset, ratios, shown[learner], label)
+    axes.axvline(1, **BORDER)
+    axes.set(xscale=LOG, xlabel="error with the change over error without it")
+    if evidence.fact("beside"):
+        axes.set_xlabel("error with the change over error without it; a learner's: over theirs")
+    plain(axes.xaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)
+    axes.set_yticks(heights, rows)
+    axes.set_ylim(-0.5, len(rows) - 0.3)
+    axes.grid(axis="y", visible=False)
+    axes.legend(fontsize=9)
+    seeds = len(evidence.errors(evidence.fact("improved")))
+    title(
+        figure,
+        _heading(evidence, rows),
+        f"mean of both errors after {evidence.fact('iterations')} iterations, {seeds} paired seeds,"
+        f" same budget for each; {INTERVALS}",
+    )
+    return figure

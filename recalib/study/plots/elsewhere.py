@@ -1,0 +1,96 @@
+"""The figure of other damages and other robots."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from recalib.study.evidence.results import Evidence
+from recalib.study.measured import ERRORS, UNITS
+from recalib.study.plots.looks import looks
+from recalib.study.plots.steady import LOG
+from recalib.study.plots.style import ORIENTATION, POSITION, plain, title
+from recalib.study.trainings import IMPROVED, RITTER
+
+
+def figure11(evidence: Evidence) -> Figure:
+    """Other assignments, other amounts and other robots."""
+    figure, panels = plt.subplots(1, 3, figsize=(12, 4.4))
+    tables = {learner: evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)}
+    _draw_assignments(panels[0], tables)
+    _draw_amounts(panels[1], evidence)
+    _draw_robots(panels[2], evidence)
+    for axes, place in zip(panels, ("upper left", "lower right", "center left"), strict=True):
+        axes.legend(fontsize=8, loc=place)
+    title(
+        figure,
+        "Figure 11: other damages and other robots",
+        "widths and rates as tuned for the paper's damage on the"
+        f" {next(iter(evidence.fact('elsewhere'))).upper()}; bands: 5-95 % of the assignments;"
+        f" {len(tables[IMPROVED])} for the improved map, {len(tables[RITTER])} for Ritter's",
+    )
+    return figure
+
+
+def _draw_assignments(axes: Axes, tables: dict) -> None:
+    for error, unit, linestyle in zip(ERRORS, UNITS, ("-", (0, (3, 2))), strict=True):
+        for learner, look in looks(tables).items():
+            values = np.sort(tables[learner][f"final_{error}"])
+            axes.step(
+                values,
+                np.arange(1, len(values) + 1) / len(values),
+                color=look.color,
+                linestyle=linestyle,
+                label=f"{look.label.capitalize()}, {unit}",
+            )
+    axes.set(xscale=LOG, xlabel="final error [cm, degrees]", ylabel="share of the assignments")
+    axes.set_xlim(left=axes.get_xlim()[0] / 2)  # room for the legend
+    plain(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
+    axes.set_title("Other links, encoders and signs", fontsize=11)
+
+
+def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
+    scaled = evidence.ensemble(IMPROVED, "scaled").groupby("scale")
+    styles = zip(ERRORS, UNITS, (POSITION, ORIENTATION), "os", strict=True)
+    for error, unit, style, marker in styles:
+        for moment, alpha in (("initial", 0.35), ("final", 1.0)):
+            low, middle, high = (scaled[f"{moment}_{error}"].quantile(q) for q in (0.05, 0.5, 0.95))
+            band = {"color": style["color"], "alpha": 0.15 * alpha + 0.05, "linewidth": 0}
+            axes.fill_between(middle.index, low, high, **band)
+            label = f"{moment} {unit}"
+            axes.plot(middle.index, middle, marker=marker, alpha=alpha, label=label, **style)
+    axes.set(
+        xscale=LOG,
+        yscale=LOG,
+        xlabel="size of the damage, times the paper's",
+        ylabel="error [cm, degrees]",
+    )
+    plain(axes.xaxis, 0.1, 0.3, 1, 3)
+    plain(axes.yaxis, 0.01, 0.1, 1, 10)
+    axes.set_title("Other amounts (improved)", fontsize=11)
+
+
+def _draw_robots(axes: Axes, evidence: Evidence) -> None:
+    robots, learners = evidence.fact("elsewhere"), looks(evidence.fact("learners"))
+    places = np.arange(len(robots))
+    offsets = 0.2 * (np.arange(len(learners)) - (len(learners) - 1) / 2)
+    for offset, (learner, look) in zip(offsets, learners.items(), strict=True):
+        left = [
+            np.max(
+                evidence.errors(learner, each).mean(axis=0)
+                / evidence.errors(learner, each, "first").mean(axis=0)
+            )
+            for each in robots.values()
+        ]
+        iterations = evidence.history(learner, next(iter(robots.values())))["iteration"].max()
+        axes.scatter(
+            places + offset,
+            100 * np.array(left),
+            label=f"{look.label}, {iterations:,} iterations",
+            zorder=3,
+            **look.signs(),
+        )
+    axes.set(yscale=LOG, ylabel="larger error left [% of the initial one]")
+    plain(axes.yaxis, 2, 5, 10, 20, 50, 100)
+    axes.set_xticks(places, [robot.upper() for robot in robots])
+    axes.set_title("Other robots", fontsize=11)

@@ -1,0 +1,64 @@
+"""How each learner is shown, in every figure: a colour, and a sign for black and white."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a learner is shown.
+
+    Attributes:
+        color: of Okabe and Ito's palette, which the colour-blind can tell apart.
+        marker: empty for none.
+        linestyle: as Matplotlib has them.
+        label: what it is called.
+    """
+
+    color: str
+    marker: str
+    linestyle: Any
+    label: str
+
+    def line(self) -> dict[str, Any]:
+        """How Matplotlib is told to draw a curve."""
+        return {"color": self.color, "linestyle": self.linestyle}
+
+    def signs(self) -> dict[str, Any]:
+        """How Matplotlib is told to draw points."""
+        return {"color": self.color, "marker": self.marker or "."}
+
+
+LOOKS = {
+    "improved": Look("#0072B2", "o", SOLID, "improved"),
+    "ritter": Look("#D55E00", "P", DASHED, "Ritter"),
+    "uncorrected": Look("0.5", "", SOLID, "uncorrected"),
+    "affine": Look("#CC79A7", "v", SOLID, "affine"),
+    "quadratic": Look("#E69F00", "^", SOLID, "quadratic"),
+    "gaussian_process": Look("#009E73", "D", SOLID, "Gaussian process"),
+    "geometric": Look("#56B4E9", "s", SOLID, "geometric"),
+    "hybrid": Look("#000000", "*", SOLID, "hybrid"),
+}
+# For the learner trained for another number of iterations, and for those that nobody foresaw.
+OTHER = {"improved": ("#56B4E9", "d"), "ritter": ("#E69F00", "^")}
+UNKNOWN = ("#CC79A7", "X"), ("#009E73", "p"), ("#000000", "h"), ("0.4", "<"), ("#56B4E9", ">")
+
+
+def looks(learners: Iterable[str]) -> dict[str, Look]:
+    """How the learners of one figure are shown, by name."""
+    found: dict[str, Look] = {}
+    for learner in learners:
+        name = re.sub(r"_\d+$", "", learner)
+        if learner in LOOKS:
+            found[learner] = LOOKS[learner]
+        elif name in OTHER:
+            color, marker = OTHER[name]
+            found[learner] = replace(LOOKS[name], color=color, marker=marker, linestyle=DOTTED)
+        else:
+            color, marker = UNKNOWN[len(found.keys() - LOOKS.keys()) % len(UNKNOWN)]
+            found[learner] = Look(color, marker, DASHED, learner.replace("_", " "))
+    return found

@@ -1,0 +1,90 @@
+"""The same drawing from the same data on every machine, down to the last byte.
+
+Machines differ in the last digits of a sum or a logarithm. So everything that is drawn is rounded
+to what the eye can see, and so are the logarithms of axes; after that only sums and products
+remain, which are alike everywhere. A value may still lie on the border between two roundings: the
+borders are moved to where no rounded number, half or quarter lies, so that only chance can put it
+there. Noise of 1e-9 of a value then moves one in some 100,000 of them.
+"""
+
+import numpy as np
+from matplotlib.axis import Axis
+from matplotlib.collections import Collection
+from matplotlib.figure import Figure
+from matplotlib.scale import LogScale, LogTransform, register_scale
+from matplotlib.text import Annotation
+
+LOG = "rounded log"  # the scale of logarithmic axes
+DIGITS = 4  # that are seen
+BORDER = 0.4567  # where values begin to be rounded up, less than one half
+
+
+class _RoundedLogTransform(LogTransform):
+    """Logarithms to nine decimals: their last digits depend on the processor."""
+
+    def transform_non_affine(self, values):
+        return np.round(super().transform_non_affine(values), 9)
+
+
+class RoundedLogScale(LogScale):
+    """A logarithmic scale whose logarithms are the same on every machine."""
+
+    name = LOG
+
+    def get_transform(self):
+        return _RoundedLogTransform(10)
+
+
+register_scale(RoundedLogScale)
+
+
+def _power_of_ten(value: float) -> int:
+    """The exponent of a number: exact, where a logarithm may fall short of it."""
+    return int(f"{value:e}".split("e")[1]) if np.isfinite(value) else 0
+
+
+def rounded(values, scale: float | None = None) -> np.ndarray:
+    """The values to `DIGITS` digits of each by itself, or to so many below `scale` for all."""
+    values = np.array(values, dtype=float)
+    if scale is None:
+        powers = [_power_of_ten(value) + 1 for value in values.ravel()]
+    else:
+        powers = [_power_of_ten(scale)] * values.size
+    steps = np.reshape([float(f"1e{power - DIGITS}") for power in powers], values.shape)
+    return np.floor(values / steps + BORDER) * steps
+
+
+def _round_on(axis: Axis, values) -> np.ndarray:
+    if axis.get_scale() == LOG:
+        return rounded(values)
+    low, high = axis.get_view_interval()
+    return rounded(values, abs(high - low))
+
+
+def steady(figure: Figure) -> None:
+    """Round all that is drawn in the axes of a figure, and their limits."""
+    for axes in figure.axes:
+        scales = axes.xaxis, axes.yaxis
+
+        def both(points, scales=scales) -> np.ndarray:
+            return np.stack([_round_on(axis, points[:, i]) for i, axis in enumerate(scales)], 1)
+
+        limits = axes.get_xlim(), axes.get_ylim()
+        for line in axes.lines:
+            line.set_data(both(np.array(line.get_data(orig=False)).T).T)
+        for collection in axes.collections:
+            _round_collection(collection, axes.transData, both)
+        for text in filter(lambda text: isinstance(text, Annotation), axes.texts):
+            text.xy = tuple(both(np.array([text.xy], dtype=float))[0])
+        for axis, limit, limit_to in zip(
+            scales, limits, (axes.set_xlim, axes.set_ylim), strict=True
+        ):
+            limit_to(*_round_on(axis, limit))
+
+
+def _round_collection(collection: Collection, data, both) -> None:
+    if collection.get_offset_transform() is data:
+        collection.set_offsets(both(np.asarray(collection.get_offsets())))
+        return
+    for path in collection.get_paths():
+        path.vertices = both(path.vertices)
