@@ -15,7 +15,7 @@ from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.words import Described, words
 from recalib.quantities import ANGLE, COMPLIANCE, LENGTH
 from recalib.study.configuration.messages import nearest
-from recalib.study.configuration.part import Part
+from recalib.study.configuration.part import Frozen, Part
 from recalib.study.configuration.units import (
     Amount,
     Angle,
@@ -48,7 +48,7 @@ _TYPES = {
 }
 
 
-def _model(kind: type[Described]) -> type[Part]:
+def _model(kind: type[Described]) -> type[Frozen]:
     """The words of a damage or a disturbance as a part of the configuration."""
     said = {}
     for field in dataclasses.fields(kind):
@@ -58,17 +58,17 @@ def _model(kind: type[Described]) -> type[Part]:
         its_type = tuple[each, each, each] if get_origin(field.type) is tuple else each
         default = ... if field.default is dataclasses.MISSING else field.default
         said[word.key] = its_type, Field(default, description=word.meaning)
-    inner = create_model(kind.__name__, __base__=Part, __doc__=kind.__doc__, **said)
+    inner = create_model(kind.__name__, __base__=Frozen, __doc__=kind.__doc__, **said)
     if kind.under is None:
         return inner
     outer = {kind.under: (inner, Field(description=kind.__doc__))}
-    return create_model(f"{kind.__name__}Entry", __base__=Part, __doc__=kind.__doc__, **outer)
+    return create_model(f"{kind.__name__}Entry", __base__=Frozen, __doc__=kind.__doc__, **outer)
 
 
-def _choice(kind: type[Described], model: type[Part]) -> Any:
+def _choice(kind: type[Described], model: type[Frozen]) -> Any:
     """The type of an entry that is such a damage: reads its words, takes it as it is."""
 
-    def read(value: Any, validate: Callable[[Any], Part]) -> Described:
+    def read(value: Any, validate: Callable[[Any], Frozen]) -> Described:
         if isinstance(value, kind):
             return value
         read = validate(value)
@@ -87,7 +87,7 @@ def _name_of(value: Any) -> str | None:
     if not isinstance(value, Mapping):
         return _MODELS.get(type(value), type(value)).__name__
     said = next((key for key in value if key in _BY_KEY), None)
-    near = (nearest(key, _BY_KEY) for key in value)
+    near = (nearest(str(key), _BY_KEY) for key in value)
     meant = said or next(filter(None, near), None)
     return _BY_KEY[meant].__name__ if meant else None
 

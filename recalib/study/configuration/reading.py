@@ -10,7 +10,7 @@ from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import InvalidConfiguration, Mistake
 from recalib.study.configuration.refusals import refusals
 from recalib.study.configuration.study import Study
-from recalib.study.configuration.values import Value, from_file, from_mapping, shown
+from recalib.study.configuration.values import Placed, from_file, from_mapping, shown
 
 Source = str | PathLike | Mapping
 Check = Callable[[Study], Iterable[Mistake]]
@@ -30,7 +30,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
         from_mapping(each) if isinstance(each, Mapping) else from_file(each)
         for each in (path, *overlays)
     ]
-    whole = reduce(Value.under, sources)
+    whole = reduce(Placed.under, sources)
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
@@ -41,7 +41,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
     return study
 
 
-def _placed(mistakes: Iterable[Mistake], whole: Value) -> InvalidConfiguration:
+def _placed(mistakes: Iterable[Mistake], whole: Placed) -> InvalidConfiguration:
     """The mistakes where they stand, in that order; what many uses of an anchor share, once."""
     lines = {}
     for mistake in mistakes:

@@ -20,7 +20,7 @@ Place = tuple[str | int, ...]  # file, line, column
 
 
 @dataclass(frozen=True)
-class Value:
+class Placed:
     """A value and where it stands.
 
     Attributes:
@@ -42,7 +42,7 @@ class Value:
                 return [value.plain() for value in self.content]
         return self.content
 
-    def at(self, path: KeyPath) -> "Value":
+    def at(self, path: KeyPath) -> "Placed":
         """The value at a path, or the last one on the way to it."""
         value = self
         for part in path:
@@ -52,7 +52,7 @@ class Value:
                 break
         return value
 
-    def under(self, other: "Value") -> "Value":
+    def under(self, other: "Placed") -> "Placed":
         """This value with another laid over it: mappings key by key, anything else as a whole."""
         if not (isinstance(self.content, dict) and isinstance(other.content, dict)):
             return other
@@ -60,10 +60,10 @@ class Value:
             key: self.content[key].under(value) if key in self.content else value
             for key, value in other.content.items()
         }
-        return Value(self.content | laid, self.place, self.origin)
+        return Placed(self.content | laid, self.place, self.origin)
 
 
-def from_mapping(data: Any) -> Value:
+def from_mapping(data: Any) -> Placed:
     """Values from the command line."""
     match data:
         case Mapping():
@@ -72,10 +72,10 @@ def from_mapping(data: Any) -> Value:
             content = [from_mapping(each) for each in data]
         case _:
             content = data
-    return Value(content, (COMMAND_LINE,))
+    return Placed(content, (COMMAND_LINE,))
 
 
-def from_file(path: str | PathLike) -> Value:
+def from_file(path: str | PathLike) -> Placed:
     """Values of a YAML file. Raises InvalidConfiguration."""
     whole, here = Path(path).absolute(), Path.cwd()
     name = fspath(whole.relative_to(here) if whole.is_relative_to(here) else path)
@@ -92,11 +92,14 @@ def from_file(path: str | PathLike) -> Value:
 
 
 @cache  # several studies begin with one file
-def _parsed(name: str, text: str) -> Value:
+def _parsed(name: str, text: str) -> Placed:
     loader, start = _Loader(text), (name, 1, 1)
     loader.name = name
     node = loader.get_single_node()
-    value = loader.value(node, start, ()) if node else Value({}, start)
+    value = loader.value(node, start, ()) if node else Placed({}, start)
+    if not isinstance(value.content, dict):
+        problem = f"{shown(start)}: no configuration; valid: keys with their values"
+        raise InvalidConfiguration([problem])
     if loader.twice:
         raise InvalidConfiguration(loader.twice)
     return value
@@ -134,7 +137,7 @@ class _Loader(yaml.SafeLoader):
         super().__init__(text)
         self.twice: list[str] = []
 
-    def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Value:
+    def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Placed:
         """What a node says."""
         if node.tag not in (
             self.DEFAULT_SCALAR_TAG,
@@ -152,9 +155,9 @@ class _Loader(yaml.SafeLoader):
                 ]
             case _:
                 content = self.construct_object(node)
-        return Value(content, place, node)
+        return Placed(content, place, node)
 
-    def _mapping(self, node: yaml.MappingNode, path: KeyPath) -> dict[str, Value]:
+    def _mapping(self, node: yaml.MappingNode, path: KeyPath) -> dict[str, Placed]:
         first: dict[str, yaml.Node] = {}
         for key, _ in node.value:
             if not isinstance(key, yaml.ScalarNode):
