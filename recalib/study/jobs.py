@@ -5,6 +5,7 @@ tracks only the built-in ones: a change of any other would not run a job again.
 """
 
 from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import (
     Amounts,
     Budget,
@@ -12,7 +13,6 @@ from recalib.study.configuration.study import (
     Learner,
     Mapping,
     PaperDamage,
-    Part,
     Ranges,
     Robot,
     Series,
@@ -20,7 +20,7 @@ from recalib.study.configuration.study import (
 )
 
 
-class Nominal(Part):
+class Nominal(Frozen):
     """The robot as its controller believes in it."""
 
     name: str
@@ -28,7 +28,7 @@ class Nominal(Part):
     controller: Controller
 
 
-class Assignments(Part):
+class Assignments(Frozen):
     """Every assignment of the paper's damage to a robot."""
 
     nominal: Nominal
@@ -36,7 +36,7 @@ class Assignments(Part):
     seed: int
 
 
-class Scenario(Part):
+class Scenario(Frozen):
     """A damage to be resolved, and its initial errors."""
 
     name: str
@@ -46,7 +46,7 @@ class Scenario(Part):
     seed: int
 
 
-class Measuring(Part):
+class Measuring(Frozen):
     """On how many poses a training is measured, and when."""
 
     tests: int
@@ -55,7 +55,7 @@ class Measuring(Part):
     measurements: int
 
 
-class Training(Part):
+class Training(Frozen):
     """Some seeds of a training: from `first` to before `last`."""
 
     scenario: str
@@ -67,7 +67,7 @@ class Training(Part):
     seed: int
 
 
-class Trials(Part):
+class Trials(Frozen):
     """Some trials of one round of the search for a training: from `first` to before `last`."""
 
     training: str
@@ -82,7 +82,7 @@ class Trials(Part):
     tests: int
 
 
-class Sample(Part):
+class Sample(Frozen):
     """The whole sample of the search for a training, and what was searched for, on what."""
 
     learner: Learner
@@ -91,7 +91,7 @@ class Sample(Part):
     scenario: str
 
 
-class Draws(Part):
+class Draws(Frozen):
     """Some robots of a series of other damages: from `first` to before `last`."""
 
     nominal: Nominal
@@ -105,27 +105,27 @@ class Draws(Part):
     seed: int
 
 
-class TrueMapping(Part):
+class TrueMapping(Frozen):
     """Measurements of the true mapping."""
 
     plan: Mapping
     seed: int
 
 
-class Visits(Part):
+class Visits(Frozen):
     """The Monte Carlo of the expected learning."""
 
     seed: int
 
 
-class Replay(Part):
+class Replay(Frozen):
     """A training by a robot, and by the table of what the robot did."""
 
     learner: Learner
     seed: int
 
 
-class Benchmark(Part):
+class Benchmark(Frozen):
     """A learner on scenarios that share a job: a learner of the paper, or today's of this name."""
 
     name: str
@@ -138,13 +138,13 @@ class Benchmark(Part):
     seed: int
 
 
-class RealData(Part):
+class RealData(Frozen):
     """A recording of the real arm to be fetched."""
 
     source: Source
 
 
-class RealRun(Part):
+class RealRun(Frozen):
     """A learner on random subsets of the recorded poses."""
 
     nominal: Nominal
@@ -154,7 +154,7 @@ class RealRun(Part):
     seed: int
 
 
-class RealTwin(Part):
+class RealTwin(Frozen):
     """A learner of the paper on the twin of the real arm."""
 
     nominal: Nominal
@@ -166,14 +166,14 @@ class RealTwin(Part):
     seed: int
 
 
-class Summary(Part):
+class Summary(Frozen):
     """The final errors of trainings, each a scenario and a learner, in this order."""
 
     trainings: tuple[tuple[str, str], ...]
     seed: int
 
 
-class BenchmarkTable(Part):
+class BenchmarkTable(Frozen):
     """The errors of the benchmark, and the moves to each threshold."""
 
     scenarios: tuple[str, ...]
@@ -182,13 +182,13 @@ class BenchmarkTable(Part):
     seed: int
 
 
-class RealTable(Part):
+class RealTable(Frozen):
     """The errors on the real arm."""
 
     seed: int
 
 
-class Recording(Part):
+class Recording(Frozen):
     """Learners that are recorded side by side, by name; the arm follows the first."""
 
     scenario: str
@@ -198,7 +198,7 @@ class Recording(Part):
     published: dict[str, float]
 
 
-class Speed(Part):
+class Speed(Frozen):
     """The learners whose speed is measured, by name."""
 
     learners: dict[str, Learner]

@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 from typing import Self
 
-from recalib.study.configuration.part import Part
+from recalib.study.configuration.part import Frozen
 
 
-class Kept(Part):
+class Kept(Frozen):
     """A typed value that a file keeps."""
 
     @classmethod
