@@ -20,7 +20,7 @@ _HOMES = {
     "Schedule": "recalib.learners.hierarchical",
     "Workspace": "recalib.nominal.poses",
     "calibrate": "recalib.identification.calibration",
-    "load": "recalib.learned",
+    "load": "recalib.loading",
     "load_robot": "recalib.nominal.robots",
     "save": "recalib.learned",
     "train": "recalib.training",

@@ -12,13 +12,14 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, UnknownName
 from recalib.interfaces import Outcome
-from recalib.learned import KINDS, join, load, save
+from recalib.learned import KINDS, join, save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.loading import load
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.poses import Workspace
 

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.learned import load
 from recalib.learners import peers
+from recalib.loading import load
 from recalib.study.experiments import campaign
 from recalib.study.plants import Resolved
 from recalib.training import train

@@ -9,5 +9,4 @@ from workflow.scripts.job import job
 with job(snakemake):
     with whole(snakemake.output.history) as path:
         pd.concat(map(pd.read_parquet, snakemake.input.histories)).to_parquet(path, index=False)
-    with whole(snakemake.output.learned) as path:
-        join(path, snakemake.input.learned)
+    join(snakemake.output.learned, snakemake.input.learned)

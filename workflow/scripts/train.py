@@ -11,5 +11,4 @@ with job(snakemake):
     history, learner, robot = train_seeds(job_, snakemake.input.scenario, snakemake.input.sample)
     with whole(snakemake.output.history) as path:
         history.to_parquet(path, index=False)
-    with whole(snakemake.output.learned) as path:
-        save(path, learner, robot)
+    save(snakemake.output.learned, learner, robot)

@@ -1,0 +1,66 @@
+"""Learners from the files of what they learned (`recalib.learned`)."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from recalib.errors import InvalidSetting, OtherRobot, UnknownName
+from recalib.interfaces import Savable
+from recalib.learned import KINDS, Path, differences, identity, read
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot
+
+
+def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
+    """The learner that `save` wrote, for the same robot.
+
+    Args:
+        run: the one to load; all of them unless given.
+
+    Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run).
+    """
+    header, states = read(path)
+    if found := differences(header["robot"], identity(robot)):
+        raise OtherRobot(path, found)
+    if run is not None:
+        if not 0 <= run < len(states):
+            raise InvalidSetting("run", run, f"0 to {len(states) - 1}")
+        states = [states[run]]
+    learner = _build(header["kind"], header["settings"], len(states), robot)
+    learner.restore(states)
+    return learner
+
+
+def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> Savable:
+    # Imported where they are used: the maps need not wait for scikit-learn.
+    match kind:
+        case "hierarchical":
+            from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+
+            rules = settings["rules"]
+            nets = {name: tuple(rules[name]) for name in ("supernet", "subnet")}
+            return HierarchicalLearner(
+                runs, Rules(**rules | nets), Schedule(**settings["schedule"])
+            )
+        case "polynomial":
+            from recalib.learners.polynomial import PolynomialLearner
+
+            return PolynomialLearner(runs, **settings)
+        case "gaussian_process":
+            from recalib.learners.gaussian_process import GaussianProcessLearner
+
+            return GaussianProcessLearner(runs)
+        case "geometric":
+            from recalib.learners.geometric import GeometricLearner
+
+            return GeometricLearner(runs, _controller(robot))
+        case "hybrid":
+            from recalib.learners.hybrid import HybridLearner
+
+            return HybridLearner(runs, _controller(robot))
+    raise UnknownName("kind of learner", kind, KINDS)
+
+
+def _controller(robot: Robot) -> Controller:
+    """The one behind which the learner learned, whose singularity margin was accepted then."""
+    return Controller(robot, greatest_condition=math.inf)
