@@ -1,20 +1,26 @@
-# make: set up and replicate everything. make test: linters and tests. The other targets say what they do below.
+# make: set up and replicate everything. make test: linters and tests. make help: what else there is.
 PYTHON ?= python3
 CORES ?= 2
 SCENARIO ?= links_encoders
+STUDY ?= replication
+RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
+PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all setup test check bench report pictures view tune lock clean
+.PHONY: all help setup test check bench report pictures view tune ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | column -t -s '|'
 
 setup: .venv/installed ## the environment, from the lock file
 
 .venv/installed: requirements.lock pyproject.toml
 	$(PYTHON) -m venv .venv
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
-	.venv/bin/python -m pip install --quiet --disable-pip-version-check --no-index --no-build-isolation --no-deps --editable .
+	$(PIP) --require-hashes -r requirements.lock
+	$(PIP) --no-index --no-build-isolation --no-deps --editable .
 	touch $@
 
 test: setup ## the linters and all tests
@@ -23,27 +29,32 @@ test: setup ## the linters and all tests
 	.venv/bin/python -m pytest
 
 check: setup ## the final errors against their bands, by themselves
-	$(SNAKEMAKE) --forcerun check -- check
+	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
 bench: setup ## moves a second, and the ratio to a bare loop
-	$(SNAKEMAKE) --forcerun bench -- bench
+	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
 
 report: all ## everything in one file to look at, results/report.html
-	$(SNAKEMAKE) --report results/report.html -- all $(wildcard figures/arm_*.png)
+	$(SNAKEMAKE) --report results/report.html -- all $(wildcard results/figures/arm_*.png)
 
-pictures: setup ## the arm before and after in the viewer; needs a Vulkan driver, such as Debian's mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun pictures -- pictures
+pictures: setup ## the arm before and after; needs a Vulkan driver, such as mesa-vulkan-drivers
+	$(SNAKEMAKE) --forcerun pictures -- figures/arm_before.png figures/arm_after.png
 
-view: setup ## open a recording in the viewer; make view SCENARIO=rotation shows another one
-	$(SNAKEMAKE) results/recordings/$(SCENARIO).rrd
-	.venv/bin/rerun --bind 127.0.0.1 results/recordings/$(SCENARIO).rrd
+view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
+	$(SNAKEMAKE) $(RESULTS)/recordings/$(SCENARIO).rrd
+	.venv/bin/rerun --bind 127.0.0.1 $(RESULTS)/recordings/$(SCENARIO).rrd
 
-tune: setup ## repeat the search for widths and rates from scratch
+tune: setup ## search anew for widths and rates, and ship what is found
 	$(SNAKEMAKE) tune
+	cp results/search/*.csv workflow/search/
+
+ship: setup ## make config.yaml, as it now is, the shipped study
+	.venv/bin/python -m recalib.study.ship
 
 lock: ## pin the dependencies of pyproject.toml anew (needs uv)
-	uv pip compile pyproject.toml --extra study --extra dev --universal --generate-hashes --no-emit-index-url --python-version 3.11 \
-	  --custom-compile-command "make lock" --output-file requirements.lock
+	uv pip compile pyproject.toml --extra study --extra dev --universal --generate-hashes \
+	  --no-emit-index-url --python-version 3.11 --custom-compile-command "make lock" \
+	  --output-file requirements.lock
 
 clean: ## remove results, keep the environment
 	rm -rf results .snakemake
