@@ -13,7 +13,7 @@ all: setup ## the full replication
 	$(SNAKEMAKE)
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | column -t -s '|'
+	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
 
 setup: .venv/installed ## the environment, from the lock file
 
