@@ -22,7 +22,7 @@ from recalib.study.measured import ERRORS
 from recalib.study.plants import resolve
 from recalib.study.recording import about, arms, scene, story
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.picture import take_pictures
+from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import BrokenRecording, check_recording
 from recalib.study.recording.story import AFTER, BEFORE
 from recalib.study.recording.writing import record, write_recording
@@ -268,15 +268,16 @@ def test_a_recording_says_what_it_shows(job, columns):
 
     assert jobs.Recording.model_validate_json(said("job")) == job
     assert said("robot") == "ur10" and said("numpy") == np.__version__
-    assert json.loads(said("damage"))[1] == "link: forearm_link, shorten: 4 cm"
+    assert json.loads(said("damage"))[1] == "link forearm_link, shorten 4 cm"
 
 
 def test_the_panel_names_the_robot_and_what_is_wrong_with_it(resolved, recording, columns):
     _, texts = columns("/about", "TextDocument:text")
     for words in (
         "ur10",
-        "link: forearm_link, shorten: 4 cm",
-        "noise: {position: 0.2 mm, orientation: 0.0003 rad}",
+        "link forearm_link, shorten 4 cm",
+        "translate 1 cm, 0 m, -2 cm",
+        "noise position 0.2 mm, orientation 0.0003 rad",
         f"visits {story.POSES} poses",
         f"learns for {ITERATIONS} iterations",
     ):
@@ -463,3 +464,10 @@ def test_the_viewer_shows_the_arm_miss_and_hit(recording, tmp_path):
         assert pixels.shape[1] == 1400
         assert png.stat().st_size < 300_000
     assert orange[0] > 2000 > 20 * orange[1]
+
+
+@pytest.mark.skipif(bool(DRIVERS), reason="shows what one without a Vulkan driver is told")
+def test_without_a_driver_one_is_told_of_it(recording, tmp_path):
+    with pytest.raises(ViewerUnavailable, match="needs a Vulkan driver"):
+        take_pictures(recording[0], {tmp_path / "before.png": BEFORE})
+    assert not list(tmp_path.iterdir())

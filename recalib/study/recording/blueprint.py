@@ -31,7 +31,7 @@ def arrange(
         rrb.Vertical(
             rrb.TextDocumentView(origin="about", name="what one sees"),
             *_plots(learners[:1], watched, published),
-            row_shares=[5, 4, 4],
+            row_shares=[6, 4, 4],
         ),
         # on the arm's side of the workspace, to have all of the arm in view
         _scene("the arm", [learners[0], "damaged", "nominal", "target"], workspace, 0.75),

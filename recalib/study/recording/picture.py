@@ -67,12 +67,16 @@ def _viewer() -> Iterator[ViewerClient]:
             deadline = time.monotonic() + PATIENCE
             while (client := _connect(port)) is None:
                 if process.poll() is not None or time.monotonic() > deadline:
-                    log.seek(0)
-                    raise ViewerUnavailable(
-                        f"the viewer does not start: {log.read()[-500:].strip()}"
-                    )
+                    raise ConnectionError
                 time.sleep(0.1)
             yield client
+        except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
+            log.seek(0)
+            reason = next((line.strip() for line in log if "panicked" in line), "no answer")
+            raise ViewerUnavailable(
+                f"the viewer does not run here ({reason}); it needs a Vulkan driver,"
+                " such as Debian's mesa-vulkan-drivers"
+            ) from None
         finally:
             process.terminate()
             process.wait()
