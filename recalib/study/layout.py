@@ -132,9 +132,9 @@ class Layout:
         """A page such as README.md, before it is published."""
         return f"{self.root}/pages/{page}"
 
-    def report_page(self, page: str) -> str:
+    def report_page(self, page: str, suffix: str = ".html") -> str:
         """A page of the report."""
-        return f"{self.root}/report/{page}.html"
+        return f"{self.root}/report/{page}{suffix}"
 
     def recording(self, scenario: str) -> str:
         """The recording of a scenario."""

@@ -1,12 +1,13 @@
-"""The check of the final error values, and the benchmark."""
+"""The check of the final error values."""
+
 
 rule check:
     input:
         code=code("check.py"),
-        summary=rules.summary.output[0],
-        expected=config["expected"],
+        summary=LAYOUT.summary,
+        expected=lambda w: study(w).expected,
     output:
-        f"{RESULTS}/check.txt",
+        LAYOUT.check,
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -16,22 +17,10 @@ rule check:
 rule expect:
     input:
         code=code("expect.py"),
-        summary=rules.summary.output[0],
+        summary=LAYOUT.summary,
     output:
-        f"{RESULTS}/expected.csv",
+        LAYOUT.expected,
     message:
         "Propose new bands for the check"
     script:
         "../scripts/expect.py"
-
-
-rule bench:
-    input:
-        code=code("bench.py"),
-        scenario=rules.scenario.output[0].format(scenario=PAPER),
-    output:
-        f"{RESULTS}/bench.txt",
-    message:
-        "Measure the speed of moves and trainings"
-    script:
-        "../scripts/bench.py"

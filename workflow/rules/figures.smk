@@ -1,46 +1,30 @@
-"""Figures: committed, so that the README shows them, and written so that an unchanged result leaves them unchanged."""
+"""Figures: each is drawn from what it declares, and an unchanged result leaves it unchanged."""
 
-DEFAULT = EXPERIMENTS["learners"]
-LADDERS = [run for run in RUNS if tuned.training(run[1], config["learners"]).name in EXPERIMENTS["ladder"] and run[0] == PAPER]
-ELSEWHERE = [f"{PAPER}-{robot}" for robot in EXPERIMENTS["robots"]]
-
-FIGURE_INPUTS = {
-    "figure1": histories([(PAPER, "improved")]),
-    "figure2": histories(product([PAPER], DEFAULT)),
-    "figure3": histories(product(SCENARIOS, DEFAULT)),
-}
-if EXPERIMENTS["evidence"]:
-    FIGURE_INPUTS |= {
-        "figure4": histories(product([PAPER], [*DEFAULT, *EXPERIMENTS["paper"]])),
-        "figure5": rules.study_mapping.output.coupling,
-        "figure6": [],  # drawn from the sample of the search
-        "figure7": rules.study_mapping.output.propagation,
-        "figure8": rules.study_visits.output,
-        "figure9": histories(LADDERS),
-        "figure10": rules.claims.input.assignments,
-        "figure11": [*ENSEMBLES.values(), *histories(product([PAPER, *ELSEWHERE], DEFAULT))],
-    }
+from recalib.study.plots.registry import FIGURES, drawn
 
 
-# Drawn by the targets `benchmark` and `real` alone.
-OF_TARGETS = {"figure12": f"{RESULTS}/benchmark.csv", "figure13": f"{RESULTS}/real.csv"}
+def figure_needs(wildcards):
+    return asked(wildcards.root, FIGURES[wildcards.figure].needs)
 
 
 rule figure:
     input:
         code=code("figure.py"),
-        evidence=lambda w: (FIGURE_INPUTS | OF_TARGETS)[w.figure],
+        evidence=lambda w: figure_needs(w).inputs,
     output:
-        svg=f"{FIGURE_FOLDER}/{{figure}}.svg",
-        png=f"{FIGURE_FOLDER}/{{figure}}.png",
+        LAYOUT.figure("{figure}"),
+        LAYOUT.figure("{figure}", ".png"),
     params:
-        trials=lambda w: digest(TRIALS) if w.figure == "figure6" else None,
+        job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
-        figure="|".join(FIGURE_INPUTS | OF_TARGETS),
+        figure="|".join(FIGURES),
     message:
         "Draw {wildcards.figure}"
     script:
         "../scripts/figure.py"
 
 
-FIGURES = expand(rules.figure.output, figure=FIGURE_INPUTS)
+def figures_of(root):
+    """The figures of a study, for which it has what they need."""
+    its, names = Layout(root), drawn(STUDIES[root], request(root))
+    return [its.figure(name, suffix) for name in names for suffix in (".svg", ".png")]

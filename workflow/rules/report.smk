@@ -1,48 +1,62 @@
-"""The report: pages with figures and tables, whose numbers come from the results. `make report` puts them into one file."""
+"""The report: pages of figures and tables. `make report` puts them into one file."""
 
 import re
 
+from recalib.study.evidence import report as report_
 
-report: "../report/workflow.rst"
-
-
-PAGES = {
-    "Claims of the paper": ["claims"] if EXPERIMENTS["evidence"] else [],
-    "Figures": [Path(figure).stem for figure in FIGURES if figure.endswith(".svg")],
-    "Tables": ["damages", "errors", "settings", "versions"],
-}
+TEXTS = Path(report_.TEXTS)
 
 
-def text(page):
-    return f"workflow/report/{page}.html"
+report: str(Path(Layout(MAIN).report_page(report_.FRONT, ".rst")).resolve())
+
+
+def pages_of(root):
+    """The pages of a study's report, by category."""
+    return {
+        "Claims of the paper": ["claims"] if STUDIES[root].experiments.evidence else [],
+        "Figures": drawn(STUDIES[root], request(root)),
+        "Tables": list(report_.TABLES),
+    }
 
 
 def title(page):
-    """A page's first line. The report sorts by letters: two places for a number bring Figure 2 before Figure 10."""
-    heading = (ROOT / text(page)).read_text().splitlines()[0]
-    return re.sub(r"(\d+):", lambda number: f"{number[1]:>2}:", heading.removeprefix("<h1>").removesuffix("</h1>"))
+    """A page's heading. The report sorts by letters: Figure 2 comes before Figure 10 so padded."""
+    return re.sub(r"(\d+):", lambda number: f"{number[1]:>2}:", report_.heading(page, ROOT))
 
 
-rule report_pages:
-    input:
-        code=code("report_pages.py"),
-        texts=[text(page) for page in ["layout", "parts", *sum(PAGES.values(), [])]],
-        figures=[figure for figure in FIGURES if figure.endswith(".svg")],
-        summary=rules.summary.output[0],
-        scenarios=rules.summary.input.scenarios,
-        claims=list(rules.claims.output) if EXPERIMENTS["evidence"] else [],
-    output:
-        [
-            report(
-                f"{RESULTS}/report/{page}.html",
-                caption="../report/page.rst",
-                category=category,
-                labels={"page": title(page)},
-            )
-            for category, pages in PAGES.items()
-            for page in pages
-        ],
-    message:
-        "Write the pages of the report"
-    script:
-        "../scripts/report_pages.py"
+def page_in_report(root, page, category):
+    """A page as an output."""
+    path = Layout(root).report_page(page)
+    return report(path, caption="../report/page.rst", category=category, labels={"page": title(page)})
+
+
+def report_of(root):
+    """The pages of a study's report."""
+    return [Layout(root).report_page(page) for pages in pages_of(root).values() for page in pages]
+
+
+# How many pages there are is known of each study by itself, hence a rule for each.
+for root_ in STUDIES:
+    texts_ = ["layout", "parts", *sum(pages_of(root_).values(), [])]
+
+    rule:
+        name:
+            f"report_pages_{STUDIES[root_].name}"
+        input:
+            code=code("report_pages.py"),
+            texts=[*(TEXTS / f"{name}.html" for name in texts_), TEXTS / f"{report_.FRONT}.rst"],
+            figures=[path for path in figures_of(root_) if path.endswith(".svg")],
+            evidence=asked(root_, report_.needs).inputs,
+        output:
+            pages=[
+                page_in_report(root_, page, category)
+                for category, pages in pages_of(root_).items()
+                for page in pages
+            ],
+            front=Layout(root_).report_page(report_.FRONT, ".rst"),
+        params:
+            job=as_text(asked(root_, report_.needs)),
+        message:
+            "Write the pages of the report"
+        script:
+            "../scripts/report_pages.py"

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from pydantic import JsonValue
 
 from recalib.errors import UnknownName
-from recalib.study.configuration.part import Part
+from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.layout import Layout
 from recalib.study.trainings import (
@@ -42,20 +42,26 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
         for each in study.experiments.beside
         if training(study, each).iterations == study.learners[IMPROVED].iterations
     ],
+    "evidence": lambda study, _: study.experiments.evidence,
     "switches": lambda study, _: study.experiments.switches,
     "ladder": lambda study, trainings: {
         each: list(map(list, trainings.ladder(each).items())) for each in study.experiments.ladder
     },
+    "coupling_poses": lambda study, _: study.mapping.poses,
     "balls": lambda study, _: study.mapping.balls,
+    "points": lambda study, _: study.mapping.points,
     "radius": lambda study, _: study.mapping.radius,
     "assignment_poses": lambda study, _: study.paper_damage.poses,
     "tests": lambda study, _: study.training.tests,
+    "measure_every": lambda study, _: study.training.measure_every,
     "real_robot": lambda study, _: study.real.robot,
-    "threshold": lambda study, _: study.benchmark.thresholds[0],
+    "real_poses": lambda study, _: list(study.real.poses),
+    "budgets": lambda study, _: list(study.benchmark.moves),
+    "threshold": lambda study, _: min(study.benchmark.thresholds),
 }
 
 
-class Needs(Part):
+class Needs(Frozen):
     """What one reader may read.
 
     Attributes:
@@ -167,11 +173,10 @@ class Request:
         """The initial errors of every assignment of the paper's damage."""
         self._result(self._layout.assignments(self.fact("robot")))
 
-    def sample(self, role: str) -> None:
-        """The sample of the search for the training in this role."""
-        if learner := self.fact(role):
-            name = str(training(self.study, learner))
-            self._samples[learner] = self._sample_at(name)
+    def sample(self, learner: str | None) -> None:
+        """The sample of the search for a training."""
+        if learner is not None:
+            self._samples[learner] = self._sample_at(str(training(self.study, learner)))
 
     def scenario(self, scenario: str | None = None) -> None:
         """A damage as resolved; the study's own unless another is given."""

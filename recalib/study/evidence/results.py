@@ -99,6 +99,13 @@ class Evidence:
         """The initial errors of every assignment of the paper's damage."""
         return self._table(self._layout.assignments(self.fact("robot")))
 
+    def nearest_assignment(self) -> "pd.Series":
+        """The assignment that is used: the first of those that are nearest, up to rounding."""
+        from recalib.study.assignments import TIE
+
+        table = self.assignments()
+        return table.loc[table["distance"].round(TIE).idxmin()]
+
     def sample(self, learner: str) -> "pd.DataFrame":
         """The sample of the search for a training, a trial a row."""
         from recalib.study.experiments.samples import read_sample

@@ -142,7 +142,7 @@ def figure10(evidence: Evidence) -> Figure:
         label=f"{len(table):,} assignments",
         rasterized=True,
     )
-    nearest = table.loc[table["distance"].round(9).idxmin()]
+    nearest = evidence.nearest_assignment()
     axes.scatter(
         *(nearest[error] for error in ERRORS),
         s=70,

@@ -61,7 +61,7 @@ def _figure5(ask: Request) -> None:
 
 def _figure6(ask: Request) -> None:
     for role in ("improved", "ritter"):
-        ask.sample(role)
+        ask.sample(ask.fact(role))
     ask.fact("iterations")
 
 

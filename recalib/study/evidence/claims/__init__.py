@@ -5,7 +5,7 @@ Criteria were written before the first full run; what was changed after it says 
 
 from collections.abc import Callable
 
-from recalib.study.configuration.part import Part
+from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.evidence.claims import (
     controller_kept,
@@ -45,7 +45,7 @@ CLAIMS = (
 )
 
 
-class Judging(Part):
+class Judging(Frozen):
     """What the claims may read, by their ids."""
 
     claims: dict[str, Needs]

@@ -19,7 +19,7 @@ def measure(evidence, limits):
         )
         for error in ERRORS
     }
-    nearest = table.loc[table["distance"].idxmin()]
+    nearest = evidence.nearest_assignment()
     note = (
         f"Of {len(table):,} assignments, {int((table['distance'] <= NEAR).sum())} are within"
         f" {100 * NEAR:g} % of both; the nearest gives {nearest[ERRORS[0]]:.2f} cm and"

@@ -6,7 +6,7 @@ from recalib.study.statistics import share
 
 def needs(ask):
     for role in ("improved", "ritter"):
-        ask.sample(role)
+        ask.sample(ask.fact(role))
     ask.fact("seed")
 
 

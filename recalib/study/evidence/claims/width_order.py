@@ -8,7 +8,7 @@ from recalib.study.statistics import paired_ratio
 
 
 def needs(ask):
-    ask.sample("improved")
+    ask.sample(ask.fact("improved"))
     for fact in ("iterations", "seed"):
         ask.fact(fact)
 

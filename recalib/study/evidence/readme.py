@@ -1,0 +1,46 @@
+"""What the README says of the results."""
+
+from recalib.study.evidence.claims.speed_up import FACTOR
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.words import amounts, measured, n, pair
+from recalib.study.measured import ERRORS, UNITS
+
+
+def needs(ask: Request) -> None:
+    """What the page reads."""
+    ask.summary()
+    ask.claims()
+    ask.assignments()
+    for scenario in (None, "translation", "rotation"):
+        ask.scenario(scenario)
+    ask.sample(ask.fact("improved"))
+    for fact in ("published", "iterations"):
+        ask.fact(fact)
+
+
+def context(evidence: Evidence) -> dict:
+    """Everything that the page may say."""
+    summary = evidence.summary()
+    rows = {(row["scenario"], row["learner"]): row for row in summary.to_dict("records")}
+    return {
+        "n": n,
+        "pair": pair,
+        "measured": measured,
+        "shipped": evidence.shipped,
+        "study": evidence.study,
+        "figures": "figures" if evidence.shipped else "../figures",
+        "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
+        "summary": list(rows.values()),
+        "claims": evidence.claims(),
+        "published": " and ".join(
+            f"{evidence.fact('published')[error]:g} {unit}"
+            for error, unit in zip(ERRORS, UNITS, strict=True)
+        ),
+        "factor": FACTOR,
+        "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
+        "assignments": len(evidence.assignments()),
+        "translation": amounts(evidence.scenario("translation")["damages"][0]),
+        "rotation": amounts(evidence.scenario("rotation")["damages"][0]),
+        "trials": len(evidence.sample(evidence.fact("improved"))),
+    }

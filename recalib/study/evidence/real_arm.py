@@ -1,0 +1,32 @@
+"""What the page of the real arm says."""
+
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.real import ERROR
+from recalib.study.evidence.results import Evidence
+
+TWIN = "twin"  # is part of the name of a learner that was run on it
+
+
+def needs(ask: Request) -> None:
+    """What the page reads."""
+    ask.real()
+    for fact in ("real_robot", "published_mm", "real_poses"):
+        ask.fact(fact)
+
+
+def context(evidence: Evidence) -> dict:
+    """Everything that the page may say."""
+    table, published = evidence.real(), evidence.fact("published_mm")
+    errors: dict[str, dict[int, str]] = {}
+    for row in table.to_dict("records"):
+        its = errors.setdefault(row["learner"].replace("_", " "), {})
+        its[row["poses"]] = f"{row[ERROR]:.3f}"
+    return {
+        "robot": evidence.fact("real_robot").upper(),
+        "before": published["before_mm"],
+        "after": published["after_mm"],
+        "poses": evidence.fact("real_poses"),
+        "errors": errors,
+        "ends": {name: max(its.items()) for name, its in errors.items() if TWIN in name},
+        "subsets": table["subsets"].max(),
+    }

@@ -1,0 +1,131 @@
+"""What the pages of the report say."""
+
+import platform
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.results import Evidence
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+TEXTS = "workflow/report"
+PACKAGES = (
+    "snakemake",
+    "pin",
+    "example-robot-data",
+    "numpy",
+    "scipy",
+    "pandas",
+    "matplotlib",
+    "rerun-sdk",
+)
+TABLES = "damages", "errors", "settings", "versions"
+FRONT = "front"  # the text before all pages
+
+
+def heading(page: str, project: Path) -> str:
+    """The first line of a page's text."""
+    text = (project / TEXTS / f"{page}.html").read_text(encoding="utf-8")
+    return text.splitlines()[0].removeprefix("<h1>").removesuffix("</h1>")
+
+
+def needs(ask: Request) -> None:
+    """What all pages read together."""
+    ask.summary()
+    for scenario in ask.trainings.scenarios():
+        ask.scenario(scenario)
+    for learner in dict.fromkeys(learner for _, learner in ask.trainings.runs):
+        ask.sample(learner)
+    if ask.study.experiments.evidence:
+        ask.claims()
+    for fact in (
+        "improved",
+        "learners",
+        "scenario",
+        "scenarios",
+        "elsewhere",
+        "published",
+        "iterations",
+        "evidence",
+        "tests",
+        "measure_every",
+        "assignment_poses",
+        "coupling_poses",
+        "balls",
+        "points",
+    ):
+        ask.fact(fact)
+
+
+def context(evidence: Evidence) -> dict:
+    """Everything that the pages may say."""
+    from recalib.study.experiments.settings import best
+
+    summary = evidence.summary().to_dict("records")
+    runs = {(run["scenario"], run["learner"]): run for run in summary}
+    samples = {learner: evidence.sample(learner) for _, learner in runs}
+    one = next(iter(samples.values()))
+    return {
+        **evidence.facts,
+        "own": runs.get((evidence.fact("scenario"), evidence.fact("improved"))),
+        "runs": runs,
+        "settings": {learner: best(sample).to_dict() for learner, sample in samples.items()},
+        "rounds": one["round"].nunique(),
+        "trials": int((one["round"] == 1).sum()),
+        "resolved": [
+            evidence.scenario(scenario) for scenario in dict.fromkeys(each for each, _ in runs)
+        ],
+        "claims": evidence.claims() if evidence.fact("evidence") else [],
+        "versions": {"Python": platform.python_version()}
+        | {name: version(name) for name in PACKAGES},
+    }
+
+
+def drawing(path: str | Path):
+    """A drawing as a part of a page, without what only a file of its own needs."""
+    from markupsafe import Markup
+
+    text = Path(path).read_text(encoding="utf-8")
+    return Markup(text[text.index("<svg") :])
+
+
+def shown_by(figure: str, claims: Sequence[dict]) -> list[dict]:
+    """The judged claims that a figure shows."""
+    ids = {claim.id for claim in CLAIMS if figure in claim.figures}
+    return [claim for claim in claims if claim["id"] in ids]
+
+
+def layout() -> "Environment":
+    """Where the texts of the pages lie."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    return Environment(
+        loader=FileSystemLoader(TEXTS),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def page(name: str, known: dict, figures: dict[str, str]) -> str:
+    """The text of a page.
+
+    Args:
+        name: of the page.
+        known: what it may say, from `context`.
+        figures: paths of drawings by name.
+    """
+    own = {"page": f"{name}.html", "shown": shown_by(name, known["claims"])}
+    own["figure"] = drawing(figures[name]) if name in figures else None
+    return layout().get_template("layout.html").render(known | own)
+
+
+def front(known: dict, figures: dict[str, str]) -> str:
+    """The text before all pages, which Snakemake completes. Arguments as those of `page`."""
+    return layout().get_template(f"{FRONT}.rst").render(known | {"figures": figures})
