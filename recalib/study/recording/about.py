@@ -27,7 +27,7 @@ LEARNING = """\
 **Each command is corrected** by a map whose cells (dots) light up around the one that learned \
 last and whose corrections grow as violet arrows. Mean errors over all test poses: {before} \
 before, {after} after."""
-TIMELINE = "**The timeline `iteration`** at the bottom left shows the learning alone"
+TIMELINE = "**Timeline `iteration`**: the learning alone{others}."
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -41,13 +41,13 @@ def panel(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
     position, orientation = (main.history.columns()[error] for error in ERRORS)
     before, after = (f"{position[row]:.2f} cm and {orientation[row]:.2f}°" for row in (0, -1))
     visits = DAMAGED if damages_among(resolved.damages) else INTACT
-    others = ", the second tab compares learners." if len(watched) > 1 else "."
+    others = "; second tab: all learners" if len(watched) > 1 else ""
     paragraphs = [
         ARMS.format(robot=resolved.robot),
         visits.format(poses=len(main.desired), iterations=main.history.iterations[-1]),
         *([WRONG.format(entries="; ".join(in_words(resolved)))] if resolved.damages else []),
         LEARNING.format(before=before, after=after),
-        TIMELINE + others,
+        TIMELINE.format(others=others),
     ]
     return "\n\n".join(paragraphs)
 
