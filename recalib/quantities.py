@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from recalib.errors import InvalidQuantity
 
 _TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
-_DIGITS = 17  # tell every float from every other
+_DIGITS = 15, 16, 17  # what rounding leaves as it was written; what tells all floats apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,11 +31,11 @@ class Quantity:
         return float(match[1]) * self.units[match[2]]
 
     def write(self, value: float) -> str:
-        """The shortest text that reads as just this number of SI units, which must be finite."""
+        """A short text that reads as just this number of SI units, which must be finite."""
         texts = (
             f"{float(f'{value / size:.{digits}g}')!r}".removesuffix(".0") + f" {unit}"
             for unit, size in self.units.items()
-            for digits in range(1, _DIGITS + 1)
+            for digits in _DIGITS
         )
         return min((text for text in texts if self.read(text) == value), key=len)
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.errors import UnknownName
 from recalib.learners.peers import NEEDS
-from recalib.study.configuration.damages import Assigned
+from recalib.study.configuration.damages import Assigned, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.trainings import (
@@ -88,9 +88,9 @@ def _amounts(study: Study) -> Iterator[Mistake]:
         yield unlike(path, study.robot, "robots beside the study's own")
     for name, entries in study.scenarios.items():
         kinds = [type(entry) for entry in entries]
-        for index, kind in enumerate(kinds):
-            if kind in DISTURBANCES and kind in kinds[:index]:
-                what = kind.__name__.lower()
+        for index, (entry, kind) in enumerate(zip(entries, kinds, strict=True)):
+            if entry in entries[:index] or (kind in DISTURBANCES and kind in kinds[:index]):
+                what = next(iter(describe(entry)))
                 yield Mistake(("scenarios", name, index), f": {what} again; valid: once")
     robots = {name: study.robots[name] for name in assigned_robots(study)}
     links = {name: len(robot.links) for name, robot in robots.items()}
