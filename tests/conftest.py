@@ -27,8 +27,8 @@ ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2"]
 SMALL = ["--configfile", "tests/tiny.yaml"]
 TINY = "results/studies/tiny"  # where they lie, by the name in tests/tiny.yaml
-PARTS = """.gitignore Snakefile config.yaml README.md workflow recalib profiles tests docs
- figures""".split()
+PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
+PARTS += ["tests", "docs", "figures"]
 
 
 @pytest.fixture(scope="session")

@@ -1,30 +1,41 @@
 """What a study consists of, a target for each of them, and what the shipped one publishes."""
 
+from workflow.alone import hold
+
+
+onstart:
+    try:
+        hold({job.wildcards_dict.get("root", RESULTS) for job in workflow.dag.needrun_jobs()})
+    except RecalibError as error:
+        raise WorkflowError(str(error)) from None
+
 
 def everything(root):
     """All results of a study, and what is made of them."""
-    its, study_ = Layout(root), STUDIES[root]
-    wanted = [its.summary, *figures_of(root), *recordings_of(root), *report_of(root)]
-    if study_.expected:
+    its, wanted = Layout(root), [Layout(root).summary]
+    if STUDIES[root].expected:
         wanted.append(its.check)
-    if study_.experiments.evidence:
-        wanted += [its.claims, its.page("README.md"), its.page("findings.md")]
-    return [*wanted, *published(root, wanted)]
+    if STUDIES[root].experiments.evidence:
+        wanted += [its.claims, *with_copies(root, pages=["README.md", "findings.md"])]
+    drawn_ = [Path(path).stem for path in figures_of(root)]
+    return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]
 
 
-PAGES = {"README.md": "README.md", "docs/findings.md": "findings.md", "docs/guidance.md": "guidance.md"}
+COPIES = {page if page == "README.md" else f"docs/{page}": page for page in PAGES_OF_EVIDENCE}
 
 
-def published(root, made):
-    """The committed files that are copies of what was made: of the shipped study's, and of no other."""
-    if root != RESULTS:
-        return []
-    its = Layout(root)
-    pages = [target for target, page in PAGES.items() if its.page(page) in made]
-    return [*pages, *(f"figures/{Path(path).name}" for path in made if Path(path).parts[-2] == "figures")]
+def with_copies(root, figures=(), pages=()):
+    """Figures and pages of a study; of the shipped one, their committed copies, too."""
+    its, names = Layout(root), dict.fromkeys(figures)
+    made = [its.figure(name, suffix) for name in names for suffix in (".svg", ".png")]
+    made += [its.page(page) for page in pages]
+    if root == RESULTS:
+        made += [f"figures/{name}{suffix}" for name in names for suffix in (".svg", ".png")]
+        made += [copy for copy, page in COPIES.items() if page in pages]
+    return made
 
 
-# A copy takes no time: the committed file is there but for a moment, whatever its drawing comes to.
+# A copy takes no time: whatever becomes of a drawing, the committed file is there.
 rule publish_figure:
     input:
         Layout(RESULTS).figure("{figure}", ".{suffix}"),
@@ -40,24 +51,39 @@ rule publish_figure:
 
 rule publish_page:
     input:
-        lambda w: Layout(RESULTS).page(PAGES[w.page]),
+        lambda w: Layout(RESULTS).page(COPIES[w.page]),
     output:
         "{page}",
     wildcard_constraints:
-        page="|".join(PAGES),
+        page="|".join(COPIES),
     message:
         "Publish {output}"
     shell:
         "cp {input} {output}"
 
 
-for root in STUDIES:
-    if root != MAIN:
+rule benchmark:
+    input:
+        with_copies(MAIN, figures=["figure12"], pages=["guidance.md"]),
+    message:
+        "What one should use today: {input}"
+
+
+rule real:
+    input:
+        Layout(MAIN).real,
+        with_copies(MAIN, figures=["figure13"], pages=["real_arm.md"]),
+    message:
+        "The real arm: {input}"
+
+
+for root_ in STUDIES:
+    if root_ != MAIN:
 
         rule:
             name:
-                STUDIES[root].name
+                STUDIES[root_].name
             input:
-                everything(root),
+                everything(root_),
             message:
-                f"All results are in {root}"
+                f"All results are in {root_}"
