@@ -96,10 +96,8 @@ def _amounts(study: Study) -> Iterator[Mistake]:
     links = {name: len(robot.links) for name, robot in robots.items()}
     joints = {name: len(robot.home) for name, robot in robots.items()}
     for key, places in (("shorten", links), ("shift", joints)):
-        amounts, fewest = (
-            getattr(study.paper_damage, key),
-            min(places, key=places.get, default=None),
-        )
+        amounts = getattr(study.paper_damage, key)
+        fewest = min(places, key=places.get, default=None)
         if fewest and len(amounts) > places[fewest]:
             fault = f" is a list of {len(amounts)}; valid: at most {places[fewest]} on the {fewest}"
             yield Mistake(("paper_damage", key), fault)

@@ -47,7 +47,8 @@ class Schema:
         """The schema of a key or an index; {} where there is none."""
         schema = self.resolved(schema)
         if isinstance(part, int):
-            return (schema.get("prefixItems") or [schema.get("items", {})] * (part + 1))[part]
+            fixed = schema.get("prefixItems")
+            return fixed[part] if fixed else schema.get("items", {})
         named = schema.get("patternProperties", {}).values()
         whatever = next(iter(named), schema.get("additionalProperties") or {})
         return schema.get("properties", {}).get(part, whatever)
