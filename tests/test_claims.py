@@ -1,157 +1,75 @@
-"""The verdicts follow from the numbers: every claim is judged on evidence made up to support it, and to contradict it."""
+"""Verdicts follow from the numbers: judged on results that support each claim, or contradict it."""
 
-import copy
 import json
+import math
 
 import numpy as np
-import pandas as pd
 import pytest
-import yaml
 
-from recalib.study.evidence.claims import MEASURES, judge
-from recalib.study.evidence.pages import measured
-from recalib.study.evidence.results import ERRORS, Evidence
-from tests.conftest import ROOT
+from recalib.study.evidence.claims import CLAIMS, initial_error, judging, missing, speed_up
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.needs import Needs
+from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.words import measured
+from recalib.study.measured import ERRORS
+from tests.made_up import MadeUp
 
-CRITERIA = yaml.safe_load((ROOT / "workflow" / "criteria.yaml").read_text())
-SEEDS = 20
-INITIAL = np.array([8.3, 4.7])
-
-
-class MadeUp(Evidence):
-    """Evidence whose final errors are given for each learner and scenario."""
-
-    def __init__(self, config, final, studies, trials):
-        super().__init__(config)
-        self.final, self.studies, self.sample = final, studies, trials
-
-    def history(self, learner, scenario=None):
-        scenario = scenario or self.paper
-        final = np.broadcast_to(
-            self.final.get((learner, scenario), self.final.get(learner, 0.3)), 2
-        )
-        initial = {"intact": np.zeros(2), "translation": INITIAL * [1, 0]}.get(scenario, INITIAL)
-        noise = np.exp(0.02 * np.random.default_rng(len(learner)).normal(size=(SEEDS, 2)))
-        frames = [
-            pd.DataFrame(errors, columns=ERRORS).assign(seed=range(SEEDS), iteration=iteration)
-            for iteration, errors in ((0, np.tile(initial, (SEEDS, 1))), (200, final * noise))
-        ]
-        return pd.concat(frames)
-
-    def study(self, name):
-        return self.studies[name]
-
-    def trials(self, training):
-        return self.sample
-
-    def assignments(self):
-        grid = np.linspace(0.5, 2, 41)
-        table = pd.DataFrame({ERRORS[0]: 8.3 * grid, ERRORS[1]: 4.7 * grid})
-        return table.assign(distance=np.abs(grid - 1))
-
-
-def propagation(ratio):
-    rows = [
-        {"kind": kind, "start": start, "scale": scale, "classic": 1.0, "updated": ratio}
-        for kind in ("theta", "jacobian")
-        for start in ("intact", "damaged")
-        for scale in (1, 10)
-    ]
-    return pd.DataFrame(rows)
-
-
-def supporting(config):
-    final = {
-        "improved": 0.25,
-        "ritter_200": [5.0, 3.0],
-        "ritter": 0.3,
-        ("improved", "intact"): 1e-9,
-        ("improved", "translation"): [0.1, 1e-9],
-        ("improved", "rotation"): 0.1,
-        ("improved", "translation_rotation"): 0.1,
-    }
-    final |= {learner: 0.4 for learner in config["learners"] if learner.startswith("improved_")}
-    final |= {
-        learner: [4.0, 2.0] for learner in config["learners"] if learner.startswith("ritter_")
-    } | {"ritter_double": 0.3}
-    ladder = {"improved": 1 / 3, "ritter": 20.0}
-    final |= {
-        f"{name}_{rung}": 60 / rung * scale * np.ones(2)
-        for name, scale in ladder.items()
-        for rung in config["experiments"]["ladder"][name]
-    }
-    final |= {"improved": 0.1, "ritter": 20 * 60 / 10_000, "ritter_200": [5.0, 3.0]}
-    studies = {
-        "coupling": pd.DataFrame(
-            {"position": [0.02] * 9, "orientation": [0.05] * 9, "scenario": ["links"] * 9}
-        ),
-        "propagation": propagation(0.1),
-        "visits": pd.DataFrame(
-            {
-                "width": [0.1, 0.1],
-                "distance": [0.0, 0.5],
-                "ratio": [0.5, 1.01],
-                "error": [0.01, 0.01],
-            }
-        ),
-        "replay": pd.DataFrame({"array": ["theta"], "difference": [0.0]}),
-    }
-    rng = np.random.default_rng(0)
-    good = np.arange(100) < 30
-    trials = pd.DataFrame(
-        {
-            "round": 1,
-            "position/g_k": np.where(good, 0.3, 1) * rng.lognormal(0, 0.1, 100),
-            "position/g_kl": 1.0,
-            "orientation/g_k": 1.0,
-            "orientation/g_kl": np.where(good, 0.3, 1) * rng.lognormal(0, 0.1, 100),
-            ERRORS[0]: np.where(good, 0.3, 3.0) * rng.uniform(1, 1.5, 100),
-            ERRORS[1]: 0.1,
-        }
-    )
-    return MadeUp(config, final, studies, trials)
+IDS = [claim.id for claim in CLAIMS]
 
 
 @pytest.fixture(scope="module")
-def evidence(config):
-    return supporting(config)
+def supporting(study, tmp_path_factory) -> MadeUp:
+    return MadeUp(tmp_path_factory.mktemp("supporting"), study)
 
 
-def verdicts(evidence):
-    return {claim["id"]: claim["verdict"] for claim in judge(CRITERIA, evidence)}
+def test_every_claim_says_all_of_itself():
+    assert len(set(IDS)) == len(IDS)
+    assert all(claim.criterion and claim.reason and claim.limits for claim in CLAIMS)
+    for claim in CLAIMS:
+        assert claim.reason.format(**claim.limits)
 
 
-def test_every_claim_has_a_criterion_with_a_reason_and_a_measure():
-    assert [claim["id"] for claim in CRITERIA] == list(MEASURES)
-    assert all(claim["criterion"] and claim["reason"] and claim["limits"] for claim in CRITERIA)
+def test_supporting_evidence_supports_every_claim(supporting):
+    assert {claim["id"]: claim["verdict"] for claim in supporting.judge()} == dict.fromkeys(
+        IDS, "supported"
+    )
 
 
-def test_supporting_evidence_supports_every_claim(evidence):
-    assert verdicts(evidence) == dict.fromkeys(MEASURES, "supported")
-
-
-def test_the_contract_of_claims_json_holds(evidence):
-    for claim in json.loads(json.dumps(judge(CRITERIA, evidence), allow_nan=False)):
-        keys = [
-            "id",
-            "section",
-            "statement",
-            "published",
-            "measured",
-            "interval",
-            "criterion",
-            "verdict",
-            "note",
-        ]
-        assert list(claim) == keys and claim["measured"] and measured(claim)
+def test_the_contract_of_claims_json_holds(supporting):
+    keys = ["id", "section", "statement", "published", "measured", "interval", "criterion"]
+    for claim in json.loads(json.dumps(supporting.judge(), allow_nan=False)):
+        assert list(claim) == [*keys, "verdict", "note"] and claim["measured"] and measured(claim)
         assert set(claim["interval"]) <= set(claim["measured"])
+        assert "{" not in "".join(claim[key] for key in ("statement", "published", "criterion"))
 
 
-def against(evidence, **changes):
-    other = copy.copy(evidence)
-    for key, value in changes.items():
-        setattr(other, key, getattr(evidence, key) | value if isinstance(value, dict) else value)
-    return verdicts(other)
+def test_limits_are_said_in_words():
+    said = "{a:word}, {a:percent}, {b:central}, {c}, {d:word}"
+    limits = {"a": Limit(0.1), "b": Limit(0.025), "c": Limit(0.001), "d": Limit(2.0)}
+    assert said.format(**limits) == "tenth, 10 %, 95 %, 0.001, twice"
+
+
+def test_a_claim_sees_what_it_declared_and_nothing_else(supporting):
+    job = judging(supporting.request)
+    for claim in CLAIMS:
+        needs = job.claims[claim.id]
+        for path in needs.files:
+            without = tuple(each for each in needs.files if each != path)
+            with pytest.raises(Undeclared, match=path):
+                claim.judge(Evidence(needs.model_copy(update={"files": without})))
+        for learner in needs.samples:
+            left = {name: path for name, path in needs.samples.items() if name != learner}
+            with pytest.raises(Undeclared, match=learner):
+                claim.judge(Evidence(needs.model_copy(update={"samples": left})))
+        for fact in needs.facts:
+            left = {name: value for name, value in needs.facts.items() if name != fact}
+            with pytest.raises((Undeclared, KeyError), match=fact):
+                claim.judge(Evidence(needs.model_copy(update={"facts": left})))
+
+
+def test_needs_travel_as_text(supporting):
+    needs = judging(supporting.request).claims["speed-up"]
+    assert Needs.model_validate_json(needs.model_dump_json()) == needs
 
 
 @pytest.mark.parametrize(
@@ -160,56 +78,114 @@ def against(evidence, **changes):
         ("identity", {("improved", "intact"): [0.002, 0]}),
         ("ritter-slow", {"ritter_200": [1.0, 3.0]}),
         ("figure-1", {"improved": 1.0}),
-        ("separate-maps", {"improved_single_map": 0.1}),
+        ("separate-maps", {"improved_single_map": 0.05}),
         ("separate-maps", {"ritter_separate_maps": [5.0, 3.0]}),
-        ("theta-increments", {"improved_theta_values": 0.1}),
+        ("theta-increments", {"improved_theta_values": 0.05}),
         ("jacobian-increments", {"ritter_jacobian_increments": [5.0, 3.0]}),
-        ("schedule", {"improved_exponential": 0.1}),
+        ("schedule", {"improved_exponential": 0.05}),
         ("rigid", {("improved", "rotation"): [0.5, 0.1]}),
         ("rigid", {("improved", "translation"): [0.1, 0.02]}),
         ("speed-up", {"ritter_2000": 0.05}),
     ],
 )
-def test_contradicting_errors_change_the_verdict(evidence, claim, final):
-    assert against(evidence, final=final)[claim] == "not supported"
+def test_contradicting_errors_change_the_verdict(study, tmp_path, claim, final):
+    assert MadeUp(tmp_path, study, final).verdict(claim) == "not supported"
 
 
-@pytest.mark.parametrize(
-    ("claim", "studies"),
-    [
-        (
-            "weak-coupling",
-            {
-                "coupling": pd.DataFrame(
-                    {"position": [0.2], "orientation": [0.0], "scenario": ["links"]}
-                )
-            },
+def test_contradicting_measurements_change_the_verdict(study, tmp_path):
+    made_up = MadeUp(tmp_path, study)
+    for claim, name, table in (
+        ("weak-coupling", "coupling", made_up.coupling().assign(position=0.2)),
+        ("theta-increments", "propagation", made_up.propagation(1.2)),
+        ("jacobian-increments", "propagation", made_up.propagation(1.0)),
+        ("expected-learning", "visits", made_up.visits().assign(ratio=1.2, error=0.1)),
+        ("controller-kept", "replay", made_up.replay().assign(difference=1e-9)),
+    ):
+        made_up.write(made_up.layout.mapping(name), table)
+        assert made_up.verdict(claim) == "not supported", claim
+
+
+def test_contradicting_trials_change_the_verdict(study, tmp_path):
+    made_up = MadeUp(tmp_path, study)
+    trials = made_up.trials("improved")
+    swapped = {"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"}
+    made_up.sample("improved", trials.rename(columns=swapped))
+    assert made_up.verdict("width-order") == "not supported"
+    made_up.sample("improved", trials.assign(**{ERRORS[0]: [0.01, *[3.0] * 99], ERRORS[1]: 0.01}))
+    assert made_up.verdict("rough-search") == "not supported"
+
+
+def test_unusual_initial_errors_change_the_verdict(study, tmp_path):
+    published = study.paper_damage.published.model_copy(update={ERRORS[0]: 30.0})
+    damage = study.paper_damage.model_copy(update={"published": published})
+    made_up = MadeUp(tmp_path, study.model_copy(update={"paper_damage": damage}))
+    judged = initial_error.CLAIM.judge(Evidence(made_up.needs(initial_error.CLAIM.needs)))
+    assert judged["verdict"] == "not supported"
+    assert judged["statement"] == "This damage gives initial errors of 30.0 cm and 4.7 degrees."
+
+
+def never(study, rungs):
+    """A study whose ladder for Ritter's has these rungs."""
+    ladder = study.experiments.ladder | {"ritter": rungs}
+    plan = study.experiments.model_copy(update={"ladder": ladder})
+    return study.model_copy(update={"experiments": plan})
+
+
+def test_the_highest_rung_is_a_lower_bound_and_nothing_more(study, tmp_path):
+    """Ritter's never gets there: that supports the factor as far as its ladder reaches."""
+    for rungs, verdict, bound in (((200,), "undecided", "1"), ((20_000,), "supported", "100")):
+        final = {f"ritter_{rung}": [5.0, 3.0] for rung in rungs}
+        made_up = MadeUp(tmp_path / verdict, never(study, rungs), final)
+        ask = made_up.request()
+        speed_up.CLAIM.needs(ask)
+        judged = speed_up.CLAIM.judge(Evidence(ask.needs))
+        assert judged["verdict"] == verdict and judged["measured"] == {"factor": None}
+        assert f"all that is known is a factor above {bound}." in judged["note"]
+        assert "published" not in judged["note"]
+
+
+def test_a_number_that_is_missing_decides_nothing():
+    assert Finding(True, {"factor": math.nan}).verdict == "undecided"
+    assert Finding(False, {"factor": 1.0}, {"factor": (math.nan, 2.0)}).verdict == "undecided"
+    assert Finding(True, {"factor": np.inf}, {"factor": (3.0, np.inf)}).verdict == "supported"
+
+
+def test_what_the_claims_lack_is_told_by_key(study):
+    assert missing(study) == []
+
+    def lacking(**update):
+        plan = study.experiments.model_copy(update=update)
+        return missing(study.model_copy(update={"experiments": plan}))
+
+    assert lacking(scenarios=("intact", "links_encoders")) == [
+        "experiments.scenarios: translation",
+        "experiments.scenarios: rotation",
+        "experiments.scenarios: translation_rotation",
+    ]
+    assert lacking(learners=("improved", "ritter")) == ["experiments.learners: ritter_200"]
+    assert lacking(switches=False) == ["experiments.switches: true"]
+    assert lacking(beside=()) == ["experiments.beside: ritter_double"]
+    assert lacking(ladder={"improved": (50,), "ritter": (200, 10_000)}) == [
+        "experiments.ladder.improved: 200"
+    ]
+    coarse = study.mapping.model_copy(update={"scales": (2.0,)})
+    assert missing(study.model_copy(update={"mapping": coarse})) == ["mapping.scales: 1"]
+
+
+def test_adding_a_claim_touches_its_file_and_the_list_alone(supporting):
+    claim = Claim(
+        id="new",
+        section="1",
+        statement="There are {iterations}.",
+        published="no number",
+        limits={"most": Limit(1000)},
+        criterion="At most {most}.",
+        reason="Why not.",
+        needs=lambda ask: ask.fact("iterations"),
+        measure=lambda evidence, limits: Finding(
+            evidence.fact("iterations") <= limits["most"], {"n": evidence.fact("iterations")}
         ),
-        ("theta-increments", {"propagation": propagation(1.2)}),
-        ("jacobian-increments", {"propagation": propagation(1.0)}),
-        (
-            "expected-learning",
-            {
-                "visits": pd.DataFrame(
-                    {"width": [0.1], "distance": [1.0], "ratio": [1.2], "error": [0.1]}
-                )
-            },
-        ),
-        ("controller-kept", {"replay": pd.DataFrame({"array": ["theta"], "difference": [1e-9]})}),
-    ],
-)
-def test_contradicting_studies_change_the_verdict(evidence, claim, studies):
-    assert against(evidence, studies=studies)[claim] == "not supported"
-
-
-def test_contradicting_trials_change_the_verdict(evidence):
-    swapped = evidence.sample.rename(
-        columns={"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"}
     )
-    assert against(evidence, sample=swapped)["width-order"] == "not supported"
-    lucky = evidence.sample.assign(**{ERRORS[0]: [0.01, *[3.0] * 99], ERRORS[1]: 0.01})
-    assert against(evidence, sample=lucky)["rough-search"] == "not supported"
-
-
-def test_unusual_initial_errors_change_the_verdict(evidence):
-    assert against(evidence, published={ERRORS[0]: 30.0})["initial-error"] == "not supported"
+    judged = claim.judge(Evidence(supporting.needs(claim.needs)))
+    assert judged["statement"] == "There are 200." and judged["criterion"] == "At most 1000."
+    assert judged["verdict"] == "supported"

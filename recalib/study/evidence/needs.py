@@ -34,6 +34,9 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "improved": lambda _, trainings: trainings.name(IMPROVED),
     "ritter": lambda _, trainings: trainings.name(RITTER),
     "short": lambda study, trainings: trainings.name(ritter_short(study)),
+    "compared": lambda study, trainings: [
+        trainings.name(each) for each in (RITTER, IMPROVED) if each in study.learners
+    ],
     "learners": lambda study, trainings: [
         trainings.name(each) for each in study.experiments.learners
     ],

@@ -106,7 +106,10 @@ def figure2(evidence: Evidence) -> Figure:
     """The learners on logarithmic axes, and the iterations that each needs for another's errors."""
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(10, 4.8))
     histories = {learner: evidence.history(learner) for learner in evidence.fact("learners")}
-    shown, compared = looks(histories), _compared(evidence, histories)
+    shown = looks(histories)
+    # Ritter's and the improved one, where both are there
+    there = [learner for learner in evidence.fact("compared") if learner in histories]
+    compared = there if len(there) == 2 else []
     for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
         for learner, history in histories.items():
             table = curves(history, error)
@@ -134,12 +137,6 @@ def figure2(evidence: Evidence) -> Figure:
     spread = f"lines: means of {seeds} seeds; bands: {BAND[0]}-{BAND[1]} % of them"
     legend_below(figure, panels[0], len(histories), spread)
     return figure
-
-
-def _compared(evidence: Evidence, histories) -> Sequence[str]:
-    """The paper's two learners, where both are there: Ritter's, then the improved one."""
-    both = [evidence.facts.get(role) for role in ("ritter", "improved")]
-    return both if all(each in histories for each in both) else []
 
 
 def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:

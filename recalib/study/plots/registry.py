@@ -34,9 +34,7 @@ def _figure1(ask: Request) -> None:
 def _figure2(ask: Request) -> None:
     for learner in ask.fact("learners"):
         ask.history(learner)
-    for learner in (IMPROVED, RITTER):
-        if learner in ask.study.learners:
-            ask.fact(learner)
+    ask.fact("compared")
 
 
 def _figure3(ask: Request) -> None:
@@ -101,7 +99,6 @@ def _figure11(ask: Request) -> None:
 
 def _figure12(ask: Request) -> None:
     ask.benchmark()
-    ask.fact("scenario")
 
 
 def _figure13(ask: Request) -> None:

@@ -31,6 +31,9 @@ class RoundedLogScale(LogScale):
 
     name = LOG
 
+    def __init__(self):
+        super().__init__()
+
     def get_transform(self):
         return _RoundedLogTransform(10)
 

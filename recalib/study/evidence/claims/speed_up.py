@@ -32,7 +32,10 @@ def measure(evidence, limits):
             f" system has after {own}."
         )
     else:
-        note = f"Ritter's does not get there in {most:,}: all that is known is {most / own:g}."
+        note = (
+            f"Ritter's does not get there in {most:,}: all that is known is a factor above"
+            f" {most / own:g}."
+        )
     errors = (evidence.errors(each) for each in (evidence.fact("improved"), DOUBLE))
     final, double = (each.mean(axis=0) for each in errors)
     if (double > final).any():
