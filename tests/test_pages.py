@@ -6,9 +6,12 @@ import re
 import pandas as pd
 import pytest
 
-from recalib.study.evidence.pages import context, measured, n, pair, render
-from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.checks import expect
+from recalib.study.evidence.pages import PAGES, render
+from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.words import amounts, measured, n, pair
 from tests.conftest import ROOT
+from tests.made_up import MadeUp
 
 RESULTS = ROOT / "results"
 README = ROOT / "README.md"
@@ -35,12 +38,74 @@ def test_numbers_are_written_for_people():
     assert pair(row, "final") == "0.28 cm, 0.29 degrees"
     claim = {"measured": {"factor": 30.42, "rest": 0.5}, "interval": {"factor": [29.71, None]}}
     assert measured(claim) == "factor: 30.4 (29.7 to more); rest: 0.5"
+    assert amounts({"link": "forearm_link", "shorten": "4 cm"}) == "forearm_link 4 cm"
+    assert amounts({"translate": ["5 cm", "0 cm", "1 cm"]}) == "5 cm, 0 cm, 1 cm"
+
+
+@pytest.fixture(scope="module")
+def made_up(study, tmp_path_factory) -> MadeUp:
+    its = MadeUp(tmp_path_factory.mktemp("made_up"), study)
+    its.conclude()
+    return its
+
+
+def rendered(page: str, made_up: MadeUp) -> str:
+    context = PAGES[page].context(Evidence(made_up.needs(PAGES[page].needs)))
+    return render(ROOT / "workflow" / "templates" / f"{page}.j2", context)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_noise_in_the_last_digits_changes_no_letter(page, study, made_up, tmp_path_factory):
+    disturbed = MadeUp(tmp_path_factory.mktemp("disturbed"), study, noise=1e-9)
+    disturbed.conclude()
+    assert rendered(page, made_up) == rendered(page, disturbed)
+    bands = [
+        expect(pd.read_csv(each.layout.summary)).to_csv(float_format="%.4g")
+        for each in (made_up, disturbed)
+    ]
+    assert bands[0] == bands[1]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_reads_what_it_declares_and_nothing_else(page, made_up):
+    needs = made_up.needs(PAGES[page].needs)
+    cases = [{"files": tuple(p for p in needs.files if p != path)} for path in needs.files]
+    for kind in ("facts", "samples"):
+        its = getattr(needs, kind)
+        cases += [{kind: {k: v for k, v in its.items() if k != key}} for key in its]
+    for case in cases:
+        with pytest.raises(Undeclared):
+            PAGES[page].context(Evidence(needs.model_copy(update=case)))
+
+
+def test_what_another_study_found_is_not_interpreted_by_the_shipped_one(study, tmp_path):
+    its = MadeUp(tmp_path, study, {"improved_single_map": 0.05})
+    its.conclude()
+    page = rendered("findings.md", its)
+    assert "### separate-maps" in page and "Interpretation" not in page
+    shipped = its.needs(PAGES["findings.md"].needs)
+    context = PAGES["findings.md"].context(Evidence(shipped)) | {"shipped": True}
+    template = ROOT / "workflow" / "templates" / "findings.md.j2"
+    assert "Interpretation: Added to Ritter's algorithm" in render(template, context)
+
+
+def test_no_computing_time_is_printed(made_up):
+    assert not re.search(r"\d m?s\b", rendered("guidance.md", made_up))
+
+
+def test_the_page_of_guidance_is_written_for_any_learners(study, tmp_path):
+    fewer = {"learners": ("affine", "improved"), "scenarios": ("translation",)}
+    less = study.model_copy(update={"benchmark": study.benchmark.model_copy(update=fewer)})
+    its = MadeUp(tmp_path, less)
+    its.conclude()
+    page = rendered("guidance.md", its)
+    assert "| translation |" in page and "hybrid" not in page
 
 
 @needs_results
 def test_the_table_of_trainings_says_what_the_summary_says():
     summary = pd.read_csv(RESULTS / "summary.csv")
-    table = rows(README.read_text(), "All trainings")
+    table = rows(README.read_text(encoding="utf-8"), "All trainings")
     assert len(table) == len(summary)
     for cells, row in zip(table, summary.to_dict("records"), strict=True):
         assert cells[:2] == [row["scenario"], row["learner"]]
@@ -55,8 +120,8 @@ def test_the_table_of_trainings_says_what_the_summary_says():
 
 @needs_results
 def test_the_table_of_claims_says_what_the_verdicts_say():
-    claims = json.loads((RESULTS / "claims.json").read_text())
-    table = rows(README.read_text(), "Does the paper hold?")
+    claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
+    table = rows(README.read_text(encoding="utf-8"), "Does the paper hold?")
     assert [(cells[0], cells[2].strip("*")) for cells in table] == [
         (each["statement"], each["verdict"]) for each in claims
     ]
@@ -66,9 +131,6 @@ def test_the_table_of_claims_says_what_the_verdicts_say():
 
 @needs_results
 @pytest.mark.parametrize("page", ["README.md", "docs/findings.md"])
-def test_the_pages_are_what_the_templates_make_of_the_results(config, page):
-    folders = {key: str(ROOT / config[key]) for key in ("results", "figures", "tuned")}
-    template = ROOT / "workflow" / "templates" / f"{page.split('/')[-1]}.j2"
-    assert (ROOT / page).read_text() == render(
-        template, context(Evidence(config | folders), pictures=True)
-    )
+def test_the_committed_pages_are_those_of_the_results(page):
+    made = RESULTS / "pages" / page.split("/")[-1]
+    assert (ROOT / page).read_bytes() == made.read_bytes()

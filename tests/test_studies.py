@@ -1,10 +1,18 @@
 import numpy as np
+import pandas as pd
 import pytest
 
-from recalib.damaged.damage import BaseShift, EncoderShift, apply
-from recalib.study.mapping.coupling import coupling
-from recalib.study.mapping.propagation import ball, propagation_errors
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.study.mapping.coupling import coupling, couplings
+from recalib.study.mapping.propagation import (
+    ball,
+    grown,
+    integral_ratios,
+    propagation,
+    propagation_errors,
+)
 from recalib.study.mapping.visits import visits
+from recalib.study.plants import resolve
 
 
 def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):
@@ -56,5 +64,36 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
 
 
 def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
-    table = visits([0.2], [0.0, 1.0], 3, np.random.default_rng(2), samples=400_000)
+    table = visits(np.random.default_rng(2), [0.2], [0.0, 1.0], samples=400_000)
     assert table["ratio"].tolist() == pytest.approx([0.5, 1.0], abs=4 * table["error"].max())
+
+
+def test_links_are_shortened_by_what_the_paper_says_at_most():
+    damages = [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.1)]
+    assert grown(damages, 0.5) == [
+        LinkShortening("forearm_link", 0.02),
+        EncoderShift("elbow_joint", 0.05),
+    ]
+    assert grown(damages, 4) == [
+        LinkShortening("forearm_link", 0.04),
+        EncoderShift("elbow_joint", 0.4),
+    ]
+
+
+def test_a_scale_with_a_ball_that_cannot_be_commanded_is_left_out():
+    table = pd.DataFrame({"kind": "theta", "start": "intact", "scale": [1, 1, 2, 2]})
+    table = table.assign(classic=2.0, updated=[1.0, 3.0, 1.0, np.nan])
+    assert integral_ratios(table).to_dict() == {("theta", "intact", 1): 1.0}
+
+
+def test_both_measurements_see_the_scenarios_as_resolved(study, plan, tmp_path):
+    """The whole of the job: files in, tables out, for a damage as slight and as large as it is."""
+    path = tmp_path / "links.json"
+    resolve(plan.scenario("translation"), []).write(path)
+    few = study.mapping.model_copy(update={"poses": 3, "balls": 2, "points": 4, "scales": (1.0,)})
+    job = plan.true_mapping().model_copy(update={"plan": few})
+    table = couplings(job, [path])
+    assert table["scenario"].tolist() == ["translation"] * 3
+    assert table["position"].max() < 1e-6, "a rigid shift does not couple"
+    both = propagation(job, path)
+    assert len(both) == 2 * 2 * 2 and set(both["start"]) == {"intact", "damaged"}

@@ -15,8 +15,7 @@ def needs(ask: Request) -> None:
     for scenario in (None, "translation", "rotation"):
         ask.scenario(scenario)
     ask.sample(ask.fact("improved"))
-    for fact in ("published", "iterations"):
-        ask.fact(fact)
+    ask.fact("published")
 
 
 def context(evidence: Evidence) -> dict:

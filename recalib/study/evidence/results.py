@@ -97,14 +97,15 @@ class Evidence:
 
     def assignments(self) -> "pd.DataFrame":
         """The initial errors of every assignment of the paper's damage."""
-        return self._table(self._layout.assignments(self.fact("robot")))
-
-    def nearest_assignment(self) -> "pd.Series":
-        """The assignment that is used: the first of those that are nearest, up to rounding."""
         from recalib.study.assignments import TIE
 
+        table = self._table(self._layout.assignments(self.fact("robot")))
+        return table.assign(distance=table["distance"].round(TIE))
+
+    def nearest_assignment(self) -> "pd.Series":
+        """The assignment that is used: the first of those that are nearest."""
         table = self.assignments()
-        return table.loc[table["distance"].round(TIE).idxmin()]
+        return table.loc[table["distance"].idxmin()]
 
     def sample(self, learner: str) -> "pd.DataFrame":
         """The sample of the search for a training, a trial a row."""
