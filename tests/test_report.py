@@ -14,17 +14,20 @@ from selenium.common.exceptions import WebDriverException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
-from tests.conftest import snakemake
+from tests.conftest import TINY, snakemake
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-FLAGS = """--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic --no-first-run
- --disable-background-networking --disable-component-update --disable-sync --window-size=1400,900"""
+FLAGS = """--headless --no-sandbox --disable-gpu --disable-dev-shm-usage --disable-quic
+ --no-first-run --disable-background-networking --disable-component-update --disable-sync
+ --window-size=1400,900"""
 PATIENCE = 60  # seconds for what a click brings to appear
 PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
 # The menu slides open and shut, and a click on what moves may meet its neighbour.
-STILL = "document.head.append(Object.assign(document.createElement('style'), {textContent: '* {transition: none !important}'}))"
+STILL = """document.head.append(Object.assign(document.createElement('style'),
+ {textContent: '* {transition: none !important}'}))"""
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
- + [...document.querySelectorAll("svg")].filter(drawing => !drawing.getBoundingClientRect().width).length"""
+ + [...document.querySelectorAll("svg")]
+   .filter(drawing => !drawing.getBoundingClientRect().width).length"""
 
 pytestmark = [
     pytest.mark.xdist_group(name="workflow"),
@@ -50,9 +53,9 @@ class Visit:
 
 @pytest.fixture(scope="module")
 def report(project) -> Path:
-    finished = snakemake(project, "--report", "results/report.html")
+    finished = snakemake(project, "--report", f"{TINY}/report.html")
     assert finished.returncode == 0, finished.stdout
-    return project / "results" / "report.html"
+    return project / TINY / "report.html"
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +79,8 @@ def read(browser, label: str, visit: Visit) -> None:
     """Read the page that a click opened, once it is the one with this label."""
 
     def opened(_) -> bool:
-        browser.switch_to.default_content()  # again at every look: Chromium may put another frame in place of the last
+        # again at every look: Chromium may put another frame in place of the last
+        browser.switch_to.default_content()
         browser.switch_to.frame(browser.find_element(By.TAG_NAME, "iframe"))
         return browser.find_element(By.TAG_NAME, "h1").text == label
 
@@ -150,7 +154,8 @@ def test_nothing_is_asked_of_the_network(visit, report):
 def test_every_figure_is_shown_with_a_caption(visit, project):
     shown = [label for label, drawings in visit.drawings.items() if drawings == 1]
     assert sorted(re.findall(r"^Figure \d+", label)[0] for label in shown) == sorted(
-        path.stem.replace("figure", "Figure ") for path in (project / "figures").glob("figure*.svg")
+        path.stem.replace("figure", "Figure ")
+        for path in (project / TINY / "figures").glob("figure*.svg")
     )
     assert {
         "Errors before and after learning",
