@@ -1,4 +1,6 @@
 import ast
+import subprocess
+import sys
 
 import pytest
 
@@ -64,3 +66,15 @@ def test_rerun_is_imported_by_the_recordings_alone():
     for path in (ROOT / "recalib").rglob("*.py"):
         uses = any(name.split(".")[0] == "rerun" for name in imported(path))
         assert not uses or path.parent.name == "recording", path
+
+
+def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
+    """The workflow does it whenever it starts."""
+    declaring = "recalib.study.evidence.pages, recalib.study.evidence.report"
+    declaring += ", recalib.study.plots.registry"
+    heavy = "{'pandas', 'scipy', 'matplotlib', 'jinja2', 'pinocchio', 'sklearn'}"
+    text = f"import sys, {declaring}; print(*({heavy} & sys.modules.keys()))"
+    ran = subprocess.run(
+        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
+    )
+    assert ran.stdout.split() == []

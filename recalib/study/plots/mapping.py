@@ -112,7 +112,8 @@ def figure8(evidence: Evidence) -> Figure:
             label=f"width {width:g}",
         )
     axes.axhline(1, **BORDER)
-    axes.axvline(expected_learning.CLAIM.limits["away"], **BORDER)
+    away = expected_learning.CLAIM.limits["away"]
+    axes.axvline(away, **BORDER)
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",
@@ -124,7 +125,7 @@ def figure8(evidence: Evidence) -> Figure:
         figure,
         "Figure 8: equation (10), from the border of the workspace inwards",
         "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
-        " three large widths away",
+        f" {away:word} large widths away",
     )
     return figure
 
