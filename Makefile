@@ -38,7 +38,7 @@ report: all ## everything in one file to look at, results/report.html
 	$(SNAKEMAKE) --report results/report.html -- all $(wildcard results/figures/arm_*.png)
 
 pictures: setup ## the arm before and after; needs a Vulkan driver, such as mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun pictures -- figures/arm_before.png figures/arm_after.png
+	$(SNAKEMAKE) --forcerun before_and_after -- pictures
 
 view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
 	$(SNAKEMAKE) $(RESULTS)/recordings/$(SCENARIO).rrd

@@ -22,6 +22,6 @@ include: "workflow/rules/studies.smk"
 rule all:
     default_target: True
     input:
-        everything(MAIN),
+        lambda w: everything(MAIN),
     message:
         "All results are there"

@@ -107,7 +107,7 @@ def project(tmp_path_factory) -> Path:
     chunks = [
         path
         for run in gathered
-        for path in folder.glob(f"{TINY}/chunks/{run.parent}/{run.stem}.*.parquet")
+        for path in folder.glob(f"{TINY}/chunks/runs/{run.parent}/{run.stem}.*.parquet")
     ]
     done = {path: path.stat().st_mtime_ns for path in chunks}
     finished = snakemake(folder)

@@ -12,6 +12,7 @@ import pandas as pd
 
 from recalib.study import jobs
 from recalib.study.configuration.study import Study
+from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
 from recalib.study.evidence.needs import Request
@@ -22,7 +23,7 @@ from recalib.study.experiments.samples import write_sample
 from recalib.study.layout import Layout
 from recalib.study.measured import ERRORS
 from recalib.study.plan import Plan
-from recalib.study.trainings import SWITCHES, Trainings, training
+from recalib.study.trainings import Trainings, training
 
 SEEDS = 8
 INITIAL = np.array([8.3, 4.7])

@@ -1,4 +1,4 @@
-"""The learning cycle of the paper written out cell by cell, slowly and literally: equations (1) to (9)."""
+"""The paper's learning cycle written out cell by cell, slowly and literally: (1) to (9)."""
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class SlowMap:
 
 
 def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments):
-    """One iteration of every map for the desired pose u; `widths` holds those of g_k and g_kl for each map."""
+    """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map."""
     winners = [(m.winner(u), m.theta[m.winner(u)].copy(), m.A[m.winner(u)].copy()) for m in maps]
     command = np.concatenate([m.output(u) for m in maps])
     u1 = execute(command)

@@ -28,7 +28,7 @@ def test_jacobians_agree_with_finite_differences(name, at_nominal, plan):
     poses, jacobians = model.linearise(parameters, angles, model.terms(angles))
     assert np.allclose(poses, model.predict(parameters, angles), atol=1e-12)
     for index, unit in enumerate(np.eye(len(parameters))):
-        # central differences of the fourth order; the torques of the compliance make its column large
+        # central differences of the fourth order; torques make the column of the compliance large
         step = 1e-3 / max(1, np.abs(jacobians[..., index]).max())
         near, far = (
             (

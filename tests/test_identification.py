@@ -97,7 +97,7 @@ def test_the_evidence_tells_sag_from_a_stiff_arm(robot, model, damaged, angles):
 
 
 def test_the_covariance_tells_how_wrong_predictions_are(model, controller):
-    """200 arms with noisy data: errors of predicted poses are as large as their covariance says, within 20 %."""
+    """200 arms with noisy data: predicted poses err as their covariance says, within 20 %."""
     workspace, generator = controller.robot.workspace, np.random.default_rng(6)
     angles = controller.inverse(workspace.to_poses(workspace.sample(generator, 25)))
     known, asked = angles[:20], angles[20:]

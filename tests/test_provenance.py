@@ -5,24 +5,86 @@ again, as Snakemake would: where they differ, the job runs again, and all that f
 """
 
 import copy
-import itertools
+import json
 import re
 from fnmatch import fnmatch
-from pathlib import Path
+from functools import partial
+from unittest import mock
 
 import pytest
 import yaml
 from snakemake.api import SnakemakeApi
 from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
 
-from recalib.study.configuration.study import Study
+from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.configuration.reading import read_study
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT, copy_project
 
-# What has to run again by itself when a leaf changes, by patterns of paths; all that match count.
-# `all` stands for the list of what a study consists of. What follows from these runs again, too.
-DEPENDS = {}
+EVIDENCE = "claims figure page"  # what is said and drawn
+TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
+LONG = "train ensemble_chunk benchmark_run real_twin"  # Ritter's
+NOMINAL = "assignments scenario"  # a robot as its controller believes in it
+TABLES = "summary benchmark_table real_table"
+
+# What runs again by itself when a leaf changes: rules, for the first pattern that fits its path.
+# What follows from these runs again, too. `all` and `ur3` are lists of what a study consists of.
+DEPENDS = {
+    "name": "",  # says where results lie, and changes none
+    "seed": f"{NOMINAL} {TRAINED} {TABLES} claims figure study_mapping study_visits real_run",
+    "robot": f"all {EVIDENCE} scenario train ensemble_chunk summary search",
+    "scenario": f"ur3 {EVIDENCE} recording summary search search_trials study_mapping study_replay",
+    "settings": f"{TRAINED} {EVIDENCE}",
+    "expected": "check",
+    "robots.ur10.*": f"{NOMINAL} ensemble_chunk",
+    "robots.ur5.*": f"{NOMINAL} real_run real_twin",
+    "robots.*": NOMINAL,
+    "controller.*": f"{NOMINAL} ensemble_chunk real_run real_twin",
+    "paper_damage.published.*": f"assignments recording {EVIDENCE}",
+    "paper_damage.poses": f"{NOMINAL} figure",
+    "paper_damage.*": "assignments ensemble_chunk",
+    "scenarios.*": "scenario",
+    "learners.improved.iterations": f"all {TRAINED} {EVIDENCE} summary",
+    "learners.improved.*": f"{TRAINED} {EVIDENCE} search search_trials",
+    "learners.ritter.iterations": f"{LONG} claims figure summary",
+    "learners.ritter.*": f"{LONG} recording claims figure search search_trials",
+    "learners.ritter_double.*": "train",
+    "experiments.scenarios": "all figure study_mapping summary",
+    "experiments.learners": f"{EVIDENCE} recording train summary",
+    "experiments.beside": "summary",
+    "experiments.switches": "all figure summary",
+    "experiments.ladder.*": "claims figure summary",
+    "experiments.evidence": "all",
+    "experiments.robots": "figure summary",
+    "experiments.ensemble.improved.assignments.draws": "ensemble ensemble_chunk",  # one more chunk
+    "experiments.ensemble.*": "ensemble_chunk",
+    "experiments.draws_per_job": "ensemble_chunk",
+    "benchmark.learners": "benchmark_table",
+    "benchmark.scenarios": "benchmark_run benchmark_table",
+    "benchmark.moves": "benchmark_run page",
+    "benchmark.thresholds": "benchmark_table",
+    "benchmark.*": "benchmark_run",
+    "real.robot": "real_run real_twin figure page",
+    "real.data.*": "real_data",
+    "real.published.*": "figure page",
+    "real.learners": "real_table",
+    "real.twin": "real_table",
+    "real.poses": "real_run real_twin page",
+    "real.subsets": "real_run real_twin",
+    "mapping.balls": "study_mapping figure",
+    "mapping.radius": "study_mapping figure",
+    "mapping.*": "study_mapping",
+    "training.short": "train",
+    "training.seeds": "run",
+    "training.seeds_long": "train",
+    "training.seeds_per_job": "run train",
+    "training.tests": "train ensemble_chunk benchmark_run real_twin recording search_trials figure",
+    "training.*": "train recording",
+    "search.rounds": "search",
+    "search.trials_per_job": "search_trials",
+    "search.*": "search search_trials",
+}
 
 
 def leaves(tree, path=()):
@@ -77,45 +139,41 @@ def changes(path, value):
             yield f"{value}_changed"
     elif isinstance(value, list) and value:
         first = next(changes((*path, 0), value[0]))
-        yield value[1:] if isinstance(value[0], str) and not QUANTITY.fullmatch(value[0]) else [
-            first,
-            *value[1:],
-        ]
+        yield (
+            value[1:]
+            if isinstance(value[0], str) and not QUANTITY.fullmatch(value[0])
+            else [
+                first,
+                *value[1:],
+            ]
+        )
         yield value[:-1]
 
 
 class Workflow:
-    """The workflow with these targets, read once.
-
-    Attributes:
-        jobs: (rule, wildcards) of all its jobs.
-    """
+    """The workflow with these targets, read once."""
 
     def __init__(self, folder, targets):
-        output = OutputSettings(quiet={Quietness.ALL})
-        with SnakemakeApi(output) as api:
-            its = api.workflow(ResourceSettings(cores=1), snakefile=folder / "Snakefile", workdir=folder)
+        with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+            resources = ResourceSettings(cores=1)
+            its = api.workflow(resources, snakefile=folder / "Snakefile", workdir=folder)
             its.dag(DAGSettings(targets=set(targets)))
             workflow = its._workflow
             workflow._prepare_dag(forceall=True, ignore_incomplete=True, lock_warn_only=True)
             workflow._build_dag()
-            self.jobs = [(job.rule, job.wildcards_dict) for job in workflow.dag.jobs]
-        self.names = workflow.globals
-        self.studies = dict(self.names["STUDIES"])
+            self._jobs = [(job.rule, job.wildcards_dict) for job in workflow.dag.jobs]
+        self._names = workflow.globals
 
-    def with_studies(self, studies):
-        """Inputs and parameters of every job, by rule and wildcards, were these the studies."""
-        self.names["STUDIES"].update(studies)
+    def asks(self, studies):
+        """Rule, inputs and parameters of every job, were these the studies, by folder."""
+        self._names["STUDIES"].update(studies)
         for root, study in studies.items():
-            self.names["PLANS"][root] = Plan(study)
-            self.names["TRAININGS"][root] = Trainings(study)
-        self.names["sample_at"].cache_clear()
-        return {
-            (rule.name, *wildcards.values()): self._asks(rule, wildcards)
-            for rule, wildcards in self.jobs
-        }
+            self._names["PLANS"][root] = Plan(study)
+            self._names["TRAININGS"][root] = Trainings(study)
+        self._names["sample_at"].cache_clear()
+        return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
 
-    def _asks(self, rule, wildcards):
+    def _job(self, rule, wildcards):
         try:
             inputs, *_ = rule.expand_input(wildcards)
             outputs, *_ = rule.expand_output(wildcards)
@@ -123,3 +181,68 @@ class Workflow:
         except Exception as error:  # a job that no longer makes sense is one that has changed
             return repr(error)
         return sorted(map(str, inputs)), repr(params)
+
+
+def studies_of(tree):
+    """The shipped study and one beside it, were this config.yaml."""
+    other = ROOT / "workflow" / "studies" / "ur3.yaml"
+    read = partial(read_study, tree, checks=())
+    return {"results": read(), "results/studies/ur3": read(other)}
+
+
+def changed_leaves(tree):
+    """Each leaf of the configuration, and trees with other values of it."""
+    for path in leaves(tree):
+        others = []
+        for value in changes(path, at(tree, path)):
+            other = copy.deepcopy(tree)
+            at(other, path[:-1])[path[-1]] = value
+            others.append(other)
+        yield ".".join(map(str, path)), others
+
+
+@pytest.fixture(scope="module")
+def depending(tmp_path_factory):
+    """By leaf, the rules whose jobs ask for something else when it changes."""
+    folder = copy_project(tmp_path_factory.mktemp("provenance"))
+    tree = yaml.safe_load((folder / "config.yaml").read_text(encoding="utf-8"))
+    tree = json.loads(json.dumps(tree))  # what an anchor shares is many leaves
+    searched = [f"results/search/{name}_200.csv" for name in ("improved", "ritter")]
+    targets = ["all", "benchmark", "real", "ur3", *searched]
+    with mock.patch("workflow.dependencies.code", return_value=[]):
+        workflow = Workflow(folder, targets)
+    before = workflow.asks(studies_of(tree))
+    found = {}
+    for leaf, others in changed_leaves(tree):
+        for other in others:
+            try:
+                now = workflow.asks(studies_of(other))
+            except InvalidConfiguration:
+                continue
+            pairs = zip(before, now, strict=True)
+            found[leaf] = {was[0] for was, now_ in pairs if was != now_}
+            if found[leaf]:
+                break
+    return found
+
+
+def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
+    wrong = {}
+    for leaf, rules in depending.items():
+        expected = next(DEPENDS[pattern] for pattern in DEPENDS if fnmatch(leaf, pattern))
+        if rules != {*expected.split()}:
+            wrong[leaf] = sorted(rules ^ {*expected.split()}), sorted(rules)
+    assert wrong == {}
+
+
+def test_every_leaf_makes_a_difference(depending):
+    assert [leaf for leaf, rules in depending.items() if not rules] == ["name"]
+    assert len(depending) > 200
+
+
+def test_a_script_sees_nothing_but_its_inputs_and_its_job():
+    for path in (ROOT / "workflow" / "scripts").glob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"snakemake\.(config|rule\b|workflow)", text) or path.name == "job.py"
+        assert set(re.findall(r"snakemake\.params\.(\w+)", text)) <= {"job"}, path
+        assert not re.search(r"config\.yaml|read_study|open\(", text), path

@@ -1,4 +1,4 @@
-"""Measurementss are made here, of an arm that the tests bend: the real ones are no part of the project."""
+"""What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
 
 import numpy as np
 import pandas as pd
@@ -8,15 +8,11 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.study.experiments import real_arm
-from recalib.study.experiments.real_arm import (
-    LEARNERS,
-    read_measurements,
-    remaining_errors,
-    with_tool_point,
-)
+from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
+from recalib.study.experiments.tracker import read_measurements
 from recalib.study.plants import nominal_robot
 
-# As the manufacturer gives it: a and d [m] of the Denavit-Hartenberg convention with twists of 90, 0, 0, 90, -90, 0 degrees.
+# As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
 DH_D = 0.089159, 0, 0, 0.10915, 0.09465, 0.0823
 DH_TWIST = np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0
@@ -43,7 +39,7 @@ def ur5(plan):
 
 @pytest.fixture(scope="module")
 def table(ur5) -> pd.DataFrame:
-    """150 poses of an arm with small defects, measured with a noise of 0.02 mm, as a recording writes them."""
+    """150 poses of an arm with small defects, with 0.02 mm of noise, as tables have them."""
     generator = np.random.default_rng(1)
     middle = np.radians([20, -65, 100, -40, 95, 0])
     angles = middle + np.radians([22, 18, 20, 28, 23, 8]) * generator.uniform(-1.5, 1.5, (150, 6))

@@ -6,10 +6,11 @@ import pytest
 
 from recalib.errors import UnknownName
 from recalib.learners.hierarchical import Rules
+from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
 from recalib.study.experiments.settings import best, rules_of
 from recalib.study.layout import SEARCHED
-from recalib.study.trainings import SWITCHES, Trainings, rules, training
+from recalib.study.trainings import Trainings, rules, training
 from tests.conftest import ROOT
 
 RANGES = {

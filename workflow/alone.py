@@ -22,7 +22,7 @@ def hold(folders: Iterable[str]) -> None:
     """Keep other runs out of these folders until this process ends. Raises Busy."""
     for folder in folders:
         Path(folder).mkdir(parents=True, exist_ok=True)
-        mark = Path(folder, MARK).open("a", encoding="utf-8")
+        mark = Path(folder, MARK).open("a", encoding="utf-8")  # noqa: SIM115 held to the end
         try:
             fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

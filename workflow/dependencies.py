@@ -1,4 +1,4 @@
-"""Which modules of the project a script needs, directly or not: editing one runs again what depends on it."""
+"""Which modules of the project a script needs: editing one runs again what depends on it."""
 
 import ast
 from functools import cache
@@ -10,7 +10,7 @@ PACKAGES = "recalib", "workflow"
 
 @cache
 def code(script: str) -> list[str]:
-    """The script of workflow/scripts and every module that it imports, as paths below the project."""
+    """The script and every module that it imports, directly or not: paths below the project."""
     needed, waiting = set(), [ROOT / "workflow" / "scripts" / script]
     while waiting:
         path = waiting.pop()

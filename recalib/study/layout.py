@@ -78,7 +78,7 @@ class Layout:
 
     def chunk(self, scenario: str, learner: str, chunk: str, suffix: str = ".parquet") -> str:
         """Some seeds of a training: their history, or (.npz) what they learned."""
-        return f"{self.root}/chunks/{scenario}/{learner}.{chunk}{suffix}"
+        return f"{self.root}/chunks/runs/{scenario}/{learner}.{chunk}{suffix}"
 
     def history(self, scenario: str, learner: str) -> str:
         """Every measurement of a training."""

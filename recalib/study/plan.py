@@ -4,16 +4,11 @@ from collections.abc import Iterable
 
 from recalib.errors import UnknownName
 from recalib.study import jobs
+from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Part
 from recalib.study.configuration.study import Amounts, Budget, Learner, Study
-from recalib.study.trainings import (
-    IMPROVED,
-    Trainings,
-    ritter_short,
-    rules,
-    scenario_of,
-    training,
-)
+from recalib.study.configuration.switches import IMPROVED
+from recalib.study.trainings import Trainings, rules, scenario_of, training
 
 SIDE_BY_SIDE = 5  # scenarios in a job: many robots solved in one call take half the time a move
 
@@ -240,19 +235,21 @@ class Plan:
         return jobs.RealTable(seed=self.study.seed)
 
     def recorded(self) -> list[str]:
-        """The learners that are recorded side by side."""
-        both = [IMPROVED, ritter_short(self.study)]
-        return [name for name in both if name in self.study.experiments.learners]
+        """The learners that are recorded side by side: those of the shortest trainings."""
+        named = self.study.experiments.learners
+        iterations = {name: training(self.study, name).iterations for name in named}
+        return [name for name in named if iterations[name] == min(iterations.values())]
 
     def recording(self, scenario: str) -> jobs.Recording:
-        """The recording of a scenario; what is published belongs to the study's own."""
-        published = self.study.paper_damage.published
+        """The recording of a scenario; what is published belongs to the paper's damage."""
+        own, published = self.study.scenario, self.study.paper_damage.published
+        assigned = any(isinstance(entry, Assigned) for entry in self.study.scenarios[own])
         return jobs.Recording(
             scenario=scenario,
             learners={name: rules(self.study, name) for name in self.recorded()},
             measuring=self.measuring(),
             seed=self.study.seed,
-            published=published.model_dump() if scenario == self.study.scenario else {},
+            published=published.model_dump() if assigned and scenario == own else {},
         )
 
     def speed(self, learners: Iterable[str]) -> jobs.Speed:

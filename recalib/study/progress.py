@@ -8,7 +8,7 @@ from tqdm import tqdm
 
 @contextmanager
 def progress_bar(title: str, iterations: int) -> Iterator[Callable[[int, float, float], None]]:
-    """A bar with the errors so far, for `experiment.run`'s `progress`. Silent where the output is no terminal."""
+    """A bar with the errors so far, for the `progress` of `train`. Silent without a terminal."""
     with tqdm(total=iterations, desc=title, unit="it", leave=False, disable=None) as bar:
 
         def show(iteration: int, position_cm: float, orientation_deg: float) -> None:

@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.study import Learner, Study
-
-IMPROVED, RITTER = "improved", "ritter"  # the learners of the paper, which the claims speak of
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 
 
 class Training(NamedTuple):
@@ -21,51 +20,9 @@ class Training(NamedTuple):
         return f"{self.name}_{self.iterations}"
 
 
-class Switch(NamedTuple):
-    """One of the four changes that lead from Ritter's algorithm to the improved one.
-
-    Attributes:
-        key: of a learner's settings.
-        label: what the change is called in figures.
-        without: the improved system with this change taken away.
-        added: Ritter's algorithm with this change alone.
-    """
-
-    key: str
-    label: str
-    without: str
-    added: str
-
-
-SWITCHES = (
-    Switch("maps", "separate maps", "improved_single_map", "ritter_separate_maps"),
-    Switch("theta", "increments of theta", "improved_theta_values", "ritter_theta_increments"),
-    Switch(
-        "jacobian",
-        "increments of the Jacobians",
-        "improved_jacobian_values",
-        "ritter_jacobian_increments",
-    ),
-    Switch("schedule", "schedule of equal visits", "improved_exponential", "ritter_equal_visits"),
-)
-
-
-def learners(study: Study) -> dict[str, Learner]:
-    """Every learner of a study by name: the configured ones, and those with one switch changed."""
-    named = dict(study.learners)
-    if IMPROVED in named and RITTER in named:
-        improved, ritter = named[IMPROVED], named[RITTER]
-        for switch in SWITCHES:
-            value, other = getattr(improved, switch.key), getattr(ritter, switch.key)
-            named.setdefault(switch.without, improved.model_copy(update={switch.key: other}))
-            short = {switch.key: value, "iterations": improved.iterations}
-            named.setdefault(switch.added, ritter.model_copy(update=short))
-    return named
-
-
 def training(study: Study, learner: str) -> Training:
     """What `NAME` or `NAME_ITERATIONS` means. Raises UnknownName."""
-    known = learners(study)
+    known = study.every_learner
     if learner in known:
         return Training(learner, known[learner].iterations)
     match = re.fullmatch(r"(\w+)_([1-9]\d{0,6})", learner)
@@ -79,7 +36,7 @@ def training(study: Study, learner: str) -> Training:
 def rules(study: Study, learner: str) -> Learner:
     """A learner's settings, with the iterations that its name asks for. Raises UnknownName."""
     which = training(study, learner)
-    return learners(study)[which.name].model_copy(update={"iterations": which.iterations})
+    return study.every_learner[which.name].model_copy(update={"iterations": which.iterations})
 
 
 def ritter_short(study: Study) -> str:

@@ -60,6 +60,6 @@ rule search:
 
 rule tune:
     input:
-        [Layout(MAIN).searched(name) for name in TRAININGS[MAIN].tuned()],
+        lambda w: [Layout(MAIN).searched(name) for name in TRAININGS[MAIN].tuned()],
     message:
         "All widths and rates are searched for: see {input[0]} and its neighbours"

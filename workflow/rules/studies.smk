@@ -64,7 +64,7 @@ rule publish_page:
 
 rule benchmark:
     input:
-        with_copies(MAIN, figures=["figure12"], pages=["guidance.md"]),
+        lambda w: with_copies(MAIN, figures=["figure12"], pages=["guidance.md"]),
     message:
         "What one should use today: {input}"
 
@@ -72,7 +72,7 @@ rule benchmark:
 rule real:
     input:
         Layout(MAIN).real,
-        with_copies(MAIN, figures=["figure13"], pages=["real_arm.md"]),
+        lambda w: with_copies(MAIN, figures=["figure13"], pages=["real_arm.md"]),
     message:
         "The real arm: {input}"
 
@@ -84,6 +84,6 @@ for root_ in STUDIES:
             name:
                 STUDIES[root_].name
             input:
-                everything(root_),
+                lambda w, root=root_: everything(root),
             message:
                 f"All results are in {root_}"

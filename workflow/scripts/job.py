@@ -10,7 +10,7 @@ from recalib.errors import RecalibError
 
 @contextmanager
 def job(snakemake) -> Iterator[None]:
-    """Say at the end what was made and how long it took; show an error of this library as a line."""
+    """Say at the end what was made and how long it took; show an error of recalib as a line."""
     start = time.perf_counter()
     try:
         yield

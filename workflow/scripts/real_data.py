@@ -1,7 +1,7 @@
 """Bring one table of the real arm, from a file or from its public address."""
 
 from recalib.storage import whole
-from recalib.study.experiments.real_arm import fetch
+from recalib.study.experiments.tracker import fetch
 from recalib.study.jobs import RealData
 from workflow.scripts.job import job
 

@@ -1,4 +1,4 @@
-"""Resolve a scenario's damages on its robot, check its workspace, and measure the initial errors."""
+"""Resolve a scenario's damages on its robot, and measure the initial errors."""
 
 from recalib.storage import whole
 from recalib.study.assignments import Assignment

@@ -11,14 +11,8 @@ from recalib.learners.peers import NEEDS
 from recalib.study.configuration.damages import Assigned, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
 from recalib.study.configuration.study import Study
-from recalib.study.trainings import (
-    IMPROVED,
-    RITTER,
-    elsewhere,
-    learners,
-    scenario_of,
-    training,
-)
+from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.trainings import elsewhere, scenario_of, training
 
 
 def check(study: Study) -> list[Mistake]:
@@ -38,7 +32,7 @@ def _places(path: KeyPath, names: Iterable[str]) -> dict[KeyPath, str]:
 def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
-    known = list(learners(study))
+    known = list(study.every_learner)
     on_robots = [f"{name}-{robot}" for name in study.scenarios for robot in study.robots]
     for places, valid in (
         ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),

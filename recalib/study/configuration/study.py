@@ -4,12 +4,15 @@ The shipped replication is one value of `Study`. Which trainings there are, and 
 called, follows from it: see `recalib.study.trainings`.
 """
 
+from collections.abc import Mapping as AnyMapping
+from functools import cached_property
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Part
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.configuration.units import (
     Angle,
     Checksum,
@@ -323,3 +326,16 @@ class Study(Part):
     """How trainings are run and measured."""
     search: Search
     """The search for widths and rates."""
+
+    @cached_property
+    def every_learner(self) -> AnyMapping[str, Learner]:
+        """Every learner by name: the configured ones, and those with one switch changed."""
+        named = dict(self.learners)
+        if IMPROVED in named and RITTER in named:
+            improved, ritter = named[IMPROVED], named[RITTER]
+            for switch in SWITCHES:
+                value, other = getattr(improved, switch.key), getattr(ritter, switch.key)
+                named.setdefault(switch.without, improved.model_copy(update={switch.key: other}))
+                short = {switch.key: value, "iterations": improved.iterations}
+                named.setdefault(switch.added, ritter.model_copy(update=short))
+        return named

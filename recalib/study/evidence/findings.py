@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING
 
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import measured, n
 from recalib.study.measured import ERRORS
-from recalib.study.trainings import IMPROVED, RITTER
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,15 +11,9 @@ from pydantic import JsonValue
 from recalib.errors import UnknownName
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.layout import Layout
-from recalib.study.trainings import (
-    IMPROVED,
-    RITTER,
-    Trainings,
-    elsewhere,
-    ritter_short,
-    training,
-)
+from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
 FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {

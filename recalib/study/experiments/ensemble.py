@@ -1,4 +1,4 @@
-"""Trainings on many assignments of the paper's damage, each a robot of its own, at several scales."""
+"""Trainings on many assignments of the paper's damage: robots of their own, at several scales."""
 
 from collections.abc import Iterator, Sequence
 from itertools import islice
@@ -21,12 +21,12 @@ from recalib.training import train
 
 
 def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
-    """The arm with the damages `scale` times as large. Raises InvalidSetting: links are too short."""
+    """The arm with the damages `scale` times as large. Raises InvalidSetting: too short a link."""
     return apply(robot, [damage.scaled(scale) for damage in damages])
 
 
 def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> Iterator[tuple]:
-    """Of the assignments in this order, the damages of those for which the links are long enough."""
+    """Of the assignments in this order, the damages of those for which links are long enough."""
     for index in order:
         try:
             scaled_arm(robot, ways[index], scale)

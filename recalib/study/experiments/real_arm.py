@@ -1,26 +1,16 @@
-"""A real arm: a UR5 whose tool was followed by a laser tracker, which saw positions only.
+"""Learning from what a tracker saw of a real arm, and on the twin that is identified from it."""
 
-Its table (CSV) has a row for each pose: joint_1 to joint_6 [deg] as commanded, x_t, y_t, z_t [mm]
-where the nominal kinematics put the tool, and x_dif, y_dif, z_dif [mm] by how much it was measured
-to be beside that. The joints' zero is that of the URDF; the manufacturer's base stands turned by
-half a turn about the vertical axis of the URDF's.
-"""
-
-import hashlib
-import shutil
-import urllib.request
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pinocchio as pin
 
 from recalib.damaged.plant import Plant
-from recalib.errors import InvalidSetting, RecalibError, UnknownName
+from recalib.errors import UnknownName
 from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
@@ -35,58 +25,11 @@ from recalib.study import jobs
 from recalib.study.experiments.benchmark import MOVES
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
+from recalib.study.experiments.tracker import Measurements, read_measurements
 from recalib.study.plants import nominal_robot
 from recalib.training import train
 
-ANGLES = [f"joint_{number}" for number in range(1, 7)]
-NOMINAL, MISSED = (["x_t", "y_t", "z_t"], ["x_dif", "y_dif", "z_dif"])
-TO_URDF_BASE = np.array([-1.0, -1.0, 1.0])
-PATIENCE = 60  # seconds for the public address to answer
 TOOL_POINT = 0.0, 0.00007, 0.031  # m, in the flange's frame: where the tracker's target was
-
-
-class WrongData(RecalibError):
-    """Measurements of the real arm that cannot be had, or are not those that are meant."""
-
-
-@dataclass(frozen=True)
-class Measurements:
-    """What the tracker saw, in the conventions of the URDF.
-
-    Attributes:
-        angles: (n, 6) rad that were commanded.
-        nominal: (n, 3) m in the base frame, where the table says that the tool should have been.
-        measured: (n, 3) m in the base frame, where it was.
-    """
-
-    angles: np.ndarray
-    nominal: np.ndarray
-    measured: np.ndarray
-
-    def __len__(self) -> int:
-        return len(self.angles)
-
-    def __getitem__(self, rows) -> "Measurements":
-        return Measurements(self.angles[rows], self.nominal[rows], self.measured[rows])
-
-
-def read_measurements(path: str | PathLike) -> Measurements:
-    """The measurements in the table at `path`.
-
-    Raises InvalidSetting where a column is missing or holds anything but finite numbers.
-    """
-    table = pd.read_csv(path)
-    for column in (*ANGLES, *NOMINAL, *MISSED):
-        if (
-            column not in table
-            or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all()
-        ):
-            raise InvalidSetting(
-                f"column of {path}", column, "there, with a finite number in every row"
-            )
-    nominal = table[NOMINAL].to_numpy() * 1e-3 * TO_URDF_BASE
-    missed = table[MISSED].to_numpy() * 1e-3 * TO_URDF_BASE
-    return Measurements(np.radians(table[ANGLES].to_numpy()), nominal, nominal + missed)
 
 
 def with_tool_point(robot: Robot, point: tuple[float, float, float] = TOOL_POINT) -> Robot:
@@ -184,29 +127,6 @@ def remaining_errors(
     if learner not in LEARNERS:
         raise UnknownName("learner from recorded poses", learner, LEARNERS)
     return np.linalg.norm(LEARNERS[learner](arm, known, unknown), axis=-1)
-
-
-def fetch(job: jobs.RealData, path: Path) -> None:
-    """Bring a table to `path`, from a file or from its public address.
-
-    Raises WrongData where it is out of reach or not the one that is meant.
-    """
-    source = job.source
-    try:
-        if source.file:
-            shutil.copy(source.file, path)
-        else:
-            with urllib.request.urlopen(source.url, timeout=PATIENCE) as reply:
-                path.write_bytes(reply.read())
-    except OSError as error:
-        raise WrongData(
-            f"{source.file or source.url} is out of reach ({error}); a copy on this machine can be"
-            " named in real.data, as `file`"
-        ) from None
-    found = hashlib.sha256(path.read_bytes()).hexdigest()
-    if found != source.sha256:
-        where = source.file or source.url
-        raise WrongData(f"{where} has SHA-256 {found}; expected {source.sha256}")
 
 
 def learn_from_tables(job: jobs.RealRun, fit: str | PathLike, test: str | PathLike) -> pd.DataFrame:

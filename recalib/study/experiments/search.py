@@ -1,8 +1,9 @@
-"""The rough search for widths and rates: quasi-random trials, the same for every learner and number of iterations.
+"""The rough search for widths and rates: quasi-random trials, the same for every training.
 
-A trial is a row of numbers: initial_width, for each map and net a final width (such as `position/g_k`), initial_rate and
-final_rate. The first round of trials covers the ranges, later ones a third of each range around the best so far. Every
-range is logarithmic; final values are drawn as fractions of initial ones.
+A trial is a row of numbers: initial_width, for each map and net a final width (such as
+`position/g_k`), initial_rate and final_rate. The first round of trials covers the ranges, later
+ones a third of each range around the best so far. Every range is logarithmic; final values are
+drawn as fractions of initial ones.
 """
 
 from collections.abc import Mapping
@@ -45,7 +46,7 @@ def draw(
         ranges: for each kind of number, the lowest and the highest value.
         count: how many, best a power of two.
         seed: of the quasi-random sequence.
-        around: a trial; the box searched is then ZOOM as wide, about it, moved to lie inside the ranges.
+        around: a trial; the box searched is then ZOOM as wide, about it, and inside the ranges.
     """
     from scipy.stats import qmc  # half a second, which every job of the workflow would pay
 
@@ -65,7 +66,7 @@ def draw(
 
 
 def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
-    """The schedule of a trial, or that of a frame of trials for runs in the order (trial, repetition)."""
+    """The schedule of a trial, or of a frame of them: for runs in the order (trial, repetition)."""
 
     def column(name: str):
         values = np.asarray(trials[name], dtype=float)
@@ -76,5 +77,8 @@ def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
 
 
 def score(errors: pd.DataFrame) -> pd.Series:
-    """What the search minimises: the larger of the two errors, in the units of Figure 1. A pair is reached by both."""
+    """What the search minimises: the larger of both errors, in cm and degrees as in Figure 1.
+
+    The paper asks for a pair of errors, and a pair is reached by both.
+    """
     return errors[["position_error_cm", "orientation_error_deg"]].max(axis=1)

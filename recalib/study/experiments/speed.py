@@ -1,4 +1,4 @@
-"""How fast are moves and trainings, in one process and beside a bare Pinocchio loop of the moves?"""
+"""How fast are moves and trainings, in one process and beside a bare loop over Pinocchio?"""
 
 import time
 from collections.abc import Mapping

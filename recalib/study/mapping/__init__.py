@@ -1,1 +1,1 @@
-"""Measurements of the paper's arguments that need no training: what it says of the mapping, not of the learner."""
+"""What the paper says of the mapping, not of the learner: measured without a training."""

@@ -1,4 +1,4 @@
-"""The true mapping that a learner is after: from desired poses to the commands that make the damaged robot reach them."""
+"""The true mapping that a learner is after: from desired poses to commands that reach them."""
 
 import numpy as np
 
@@ -10,7 +10,10 @@ STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
 
 
 def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
-    """The commands (n, 6) that take a damaged arm without deflections to the desired poses (n, 6); NaN where none does."""
+    """The commands (n, 6) that take a damaged arm to the desired poses (n, 6); NaN where none does.
+
+    The arm must be without deflections.
+    """
     workspace = controller.robot.workspace
     poses = workspace.to_poses(desired)
     start = controller.solve(poses).angles + arm.offsets
@@ -21,7 +24,7 @@ def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) 
 
 
 def mapping_jacobians(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> np.ndarray:
-    """Jacobians (n, 6, 6) of the true mapping, d command / d desired pose, at the desired poses (n, 6)."""
+    """Jacobians (n, 6, 6), d command / d desired pose, at the desired poses (n, 6)."""
     ahead, behind = (
         true_commands(
             controller, arm, (desired[:, None] + sign * STEP * np.eye(6)).reshape(-1, 6)

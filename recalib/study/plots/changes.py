@@ -5,13 +5,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.switches import compare, with_and_without
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, INTERVALS, plain, title
 from recalib.study.statistics import Estimate
-from recalib.study.trainings import IMPROVED, RITTER, SWITCHES
 
 
 def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:

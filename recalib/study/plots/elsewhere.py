@@ -5,12 +5,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, UNITS
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import ORIENTATION, POSITION, plain, title
-from recalib.study.trainings import IMPROVED, RITTER
 
 
 def figure11(evidence: Evidence) -> Figure:

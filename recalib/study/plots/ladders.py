@@ -5,13 +5,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import speed_up as claim
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.plots.looks import DASHED, LOOKS, looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import INTERVALS, LABELS, plain, title
-from recalib.study.trainings import IMPROVED, RITTER
 
 LEVELS = (0.3, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.04, 0.03)  # of both initial errors
 TOP = 300

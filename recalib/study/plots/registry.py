@@ -6,9 +6,9 @@ from itertools import product
 from typing import Literal
 
 from recalib.study.configuration.study import Study
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.switches import ask_for
 from recalib.study.evidence.needs import Needs, Request
-from recalib.study.trainings import IMPROVED, RITTER, SWITCHES
 
 
 @dataclass(frozen=True)

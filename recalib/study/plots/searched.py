@@ -5,6 +5,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import rough_search, width_order
 from recalib.study.evidence.results import Evidence
 from recalib.study.experiments.search import score
@@ -12,7 +13,6 @@ from recalib.study.measured import KINDS
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, ORIENTATION, POSITION, plain, title
-from recalib.study.trainings import IMPROVED, RITTER
 
 
 def _draw_shares(axes: Axes, evidence: Evidence) -> None:

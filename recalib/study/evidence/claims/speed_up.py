@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.speedup import speed_up
-from recalib.study.trainings import IMPROVED, RITTER
 
 FACTOR = 70  # published
 DOUBLE = "ritter_double"  # the other reading of "the same number of neurons"

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from recalib.study.configuration.switches import SWITCHES, Switch
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.statistics import Estimate, paired_ratio
-from recalib.study.trainings import SWITCHES, Switch
 
 BY_KEY = {switch.key: switch for switch in SWITCHES}
 RATIO = Limit(1.0)

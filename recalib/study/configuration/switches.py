@@ -1,0 +1,34 @@
+"""The paper's two learners, and the four changes that lead from one to the other."""
+
+from typing import NamedTuple
+
+IMPROVED, RITTER = "improved", "ritter"  # the learners of the paper
+
+
+class Switch(NamedTuple):
+    """One of the four changes that lead from Ritter's algorithm to the improved one.
+
+    Attributes:
+        key: of a learner's settings.
+        label: what the change is called in figures.
+        without: the improved system with this change taken away.
+        added: Ritter's algorithm with this change alone.
+    """
+
+    key: str
+    label: str
+    without: str
+    added: str
+
+
+SWITCHES = (
+    Switch("maps", "separate maps", "improved_single_map", "ritter_separate_maps"),
+    Switch("theta", "increments of theta", "improved_theta_values", "ritter_theta_increments"),
+    Switch(
+        "jacobian",
+        "increments of the Jacobians",
+        "improved_jacobian_values",
+        "ritter_jacobian_increments",
+    ),
+    Switch("schedule", "schedule of equal visits", "improved_exponential", "ritter_equal_visits"),
+)
