@@ -37,12 +37,12 @@ CLAIM = Claim(
     " reverse.",
     published="no number",
     limits={"ratio": Limit(1.0), "best": Limit(0.1)},
-    # A first version took the trials of all rounds.
     criterion="Among the best {best:word} of the first round's trials for the improved system at"
     " {iterations} iterations, final g_k over g_kl is below {ratio} for the position map (upper"
     " end) and above {ratio} for the orientation map (lower end).",
     reason="The first round chooses all four widths independently; what its best trials share is"
-    " what the maps want. Later rounds surround one trial and are no independent sample.",
+    " what the maps want. (A first version took the trials of all rounds; later rounds surround one"
+    " trial and are no independent sample.)",
     needs=needs,
     measure=measure,
     figures=("figure6",),
