@@ -209,7 +209,7 @@ def depending(tmp_path_factory):
     tree = json.loads(json.dumps(tree))  # what an anchor shares is many leaves
     searched = [f"results/search/{name}_200.csv" for name in ("improved", "ritter")]
     targets = ["all", "benchmark", "real", "ur3", *searched]
-    with mock.patch("workflow.dependencies.code", return_value=[]):
+    with mock.patch("workflow.dependencies.code", return_value=""):
         workflow = Workflow(folder, targets)
     before = workflow.asks(studies_of(tree))
     found = {}

@@ -3,12 +3,12 @@
 
 rule benchmark_run:
     input:
-        code=code("benchmark.py"),
         scenarios=lambda w: [layout(w).scenario(name) for name in plan(w).batches()[w.batch]],
         sample=lambda w: sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else [],
     output:
         LAYOUT.benchmark_batch("{learner}", "{batch}"),
     params:
+        code=code("benchmark.py"),
         job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
@@ -18,7 +18,6 @@ rule benchmark_run:
 
 rule benchmark_table:
     input:
-        code=code("benchmark_table.py"),
         histories=lambda w: [
             layout(w).benchmark_batch(learner, batch)
             for learner in study(w).benchmark.learners
@@ -29,6 +28,7 @@ rule benchmark_table:
         reached=LAYOUT.benchmark_moves,
         seconds=LAYOUT.benchmark_seconds,
     params:
+        code=code("benchmark_table.py"),
         job=lambda w: as_text(plan(w).benchmark_table()),
     message:
         "Put the benchmark together"
@@ -37,11 +37,10 @@ rule benchmark_table:
 
 
 rule real_data:
-    input:
-        code=code("real_data.py"),
     output:
         LAYOUT.real_data("{part}"),
     params:
+        code=code("real_data.py"),
         job=lambda w: as_text(plan(w).real_data(w.part)),
     wildcard_constraints:
         part="fit|test",
@@ -53,12 +52,12 @@ rule real_data:
 
 rule real_run:
     input:
-        code=code("real_run.py"),
         fit=LAYOUT.real_data("fit"),
         test=LAYOUT.real_data("test"),
     output:
         LAYOUT.real_run("{learner}"),
     params:
+        code=code("real_run.py"),
         job=lambda w: as_text(plan(w).real_run(w.learner)),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
@@ -68,12 +67,12 @@ rule real_run:
 
 rule real_twin:
     input:
-        code=code("real_twin.py"),
         fit=LAYOUT.real_data("fit"),
         sample=lambda w: sample(w, w.learner),
     output:
         LAYOUT.real_twin("{learner}"),
     params:
+        code=code("real_twin.py"),
         job=lambda w: as_text(plan(w).real_twin(w.learner)),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
@@ -83,7 +82,6 @@ rule real_twin:
 
 rule real_table:
     input:
-        code=code("real_table.py"),
         runs=lambda w: [
             *(layout(w).real_run(learner) for learner in study(w).real.learners),
             *(layout(w).real_twin(learner) for learner in study(w).real.twin),
@@ -91,6 +89,7 @@ rule real_table:
     output:
         LAYOUT.real,
     params:
+        code=code("real_table.py"),
         job=lambda w: as_text(plan(w).real_table()),
     message:
         "Put the results on the real arm together"

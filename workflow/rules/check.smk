@@ -3,11 +3,12 @@
 
 rule check:
     input:
-        code=code("check.py"),
         summary=LAYOUT.summary,
         expected=lambda w: study(w).expected,
     output:
         LAYOUT.check,
+    params:
+        code=code("check.py"),
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -16,10 +17,11 @@ rule check:
 
 rule expect:
     input:
-        code=code("expect.py"),
         summary=LAYOUT.summary,
     output:
         LAYOUT.expected,
+    params:
+        code=code("expect.py"),
     message:
         "Propose new bands for the check"
     script:

@@ -21,12 +21,12 @@ def asked(root, needs):
 
 rule summary:
     input:
-        code=code("summarise.py"),
         histories=lambda w: [layout(w).history(*run) for run in TRAININGS[w.root].runs],
         scenarios=lambda w: [layout(w).scenario(name) for name in TRAININGS[w.root].scenarios()],
     output:
         LAYOUT.summary,
     params:
+        code=code("summarise.py"),
         job=lambda w: as_text(plan(w).summary()),
     message:
         "Put the final errors of every training into one table"
@@ -36,11 +36,11 @@ rule summary:
 
 rule claims:
     input:
-        code=code("claims.py"),
         evidence=lambda w: judging(request(w.root)).inputs,
     output:
         LAYOUT.claims,
     params:
+        code=code("claims.py"),
         job=lambda w: as_text(judging(request(w.root))),
     message:
         "Judge every claim of the paper"
@@ -54,12 +54,12 @@ def page_needs(wildcards):
 
 rule page:
     input:
-        code=code("page.py"),
         template="workflow/templates/{page}.j2",
         evidence=lambda w: page_needs(w).inputs,
     output:
         LAYOUT.page("{page}"),
     params:
+        code=code("page.py"),
         job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),

@@ -3,13 +3,13 @@
 
 rule train:
     input:
-        code=code("train.py"),
         scenario=LAYOUT.scenario("{scenario}"),
         sample=lambda w: sample(w, w.learner),
     output:
         history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
         learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
     params:
+        code=code("train.py"),
         job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     priority: 10
     message:
@@ -29,12 +29,13 @@ def training_chunks(suffix):
 
 rule run:
     input:
-        code=code("gather.py"),
         histories=training_chunks(".parquet"),
         learned=training_chunks(".npz"),
     output:
         history=LAYOUT.history("{scenario}", "{learner}"),
         learned=LAYOUT.learned("{scenario}", "{learner}"),
+    params:
+        code=code("gather.py"),
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
@@ -43,11 +44,11 @@ rule run:
 
 rule ensemble_chunk:
     input:
-        code=code("ensemble.py"),
         sample=lambda w: sample(w, w.learner),
     output:
         LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
     params:
+        code=code("ensemble.py"),
         job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
@@ -57,13 +58,14 @@ rule ensemble_chunk:
 
 rule ensemble:
     input:
-        code=code("concat.py"),
         chunks=lambda w: [
             layout(w).ensemble_chunk(w.series, w.learner, chunk)
             for chunk in plan(w).draw_chunks(w.series, w.learner)
         ],
     output:
         LAYOUT.ensemble("{series}", "{learner}"),
+    params:
+        code=code("concat.py"),
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
@@ -72,12 +74,12 @@ rule ensemble:
 
 rule bench:
     input:
-        code=code("bench.py"),
         scenario=own_scenario,
         samples=lambda w: [sample(w, learner) for learner in MEASURED],
     output:
         LAYOUT.bench,
     params:
+        code=code("bench.py"),
         job=lambda w: as_text(plan(w).speed(MEASURED)),
     message:
         "Measure the speed of moves and trainings"

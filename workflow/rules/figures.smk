@@ -9,12 +9,12 @@ def figure_needs(wildcards):
 
 rule figure:
     input:
-        code=code("figure.py"),
         evidence=lambda w: figure_needs(w).inputs,
     output:
         LAYOUT.figure("{figure}"),
         LAYOUT.figure("{figure}", ".png"),
     params:
+        code=code("figure.py"),
         job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),

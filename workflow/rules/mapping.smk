@@ -3,13 +3,13 @@
 
 rule study_mapping:
     input:
-        code=code("study_mapping.py"),
         scenarios=lambda w: [layout(w).scenario(name) for name in study(w).experiments.scenarios],
         own=own_scenario,
     output:
         coupling=LAYOUT.mapping("coupling"),
         propagation=LAYOUT.mapping("propagation"),
     params:
+        code=code("study_mapping.py"),
         job=lambda w: as_text(plan(w).true_mapping()),
     message:
         "Measure what sections 4 and 5 say of the true mapping"
@@ -18,11 +18,10 @@ rule study_mapping:
 
 
 rule study_visits:
-    input:
-        code=code("study_visits.py"),
     output:
         LAYOUT.mapping("visits"),
     params:
+        code=code("study_visits.py"),
         job=lambda w: as_text(plan(w).visits()),
     message:
         "Measure the expected learning of section 6"
@@ -32,12 +31,12 @@ rule study_visits:
 
 rule study_replay:
     input:
-        code=code("study_replay.py"),
         scenario=own_scenario,
         sample=lambda w: sample(w, "improved"),
     output:
         LAYOUT.mapping("replay"),
     params:
+        code=code("study_replay.py"),
         job=lambda w: as_text(plan(w).replay()),
     message:
         "Teach the improved learner by a table instead of a robot"

@@ -3,7 +3,6 @@
 
 rule recording:
     input:
-        code=code("record.py"),
         scenario=LAYOUT.scenario("{scenario}"),
         samples=lambda w: [sample(w, learner) for learner in plan(w).recorded()],
         histories=lambda w: [
@@ -12,6 +11,7 @@ rule recording:
     output:
         LAYOUT.recording("{scenario}"),
     params:
+        code=code("record.py"),
         job=lambda w: as_text(plan(w).recording(w.scenario)),
     message:
         "Record the arm on {wildcards.scenario}"
@@ -27,7 +27,6 @@ def recordings_of(root):
 
 rule before_and_after:
     input:
-        code=code("pictures.py"),
         recording=lambda w: layout(w).recording(study(w).scenario),
     output:
         before=report(
@@ -43,6 +42,7 @@ rule before_and_after:
             labels={"picture": "After recalibration"},
         ),
     params:
+        code=code("pictures.py"),
         scenario=lambda w: study(w).scenario,
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"

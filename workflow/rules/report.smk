@@ -43,7 +43,6 @@ for root_ in STUDIES:
         name:
             f"report_pages_{STUDIES[root_].name}"
         input:
-            code=code("report_pages.py"),
             texts=[*(TEXTS / f"{name}.html" for name in texts_), TEXTS / f"{report_.FRONT}.rst"],
             figures=[path for path in figures_of(root_) if path.endswith(".svg")],
             evidence=asked(root_, report_.needs).inputs,
@@ -55,7 +54,8 @@ for root_ in STUDIES:
             ],
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
         params:
-            job=as_text(asked(root_, report_.needs)),
+            code=code("report_pages.py"),
+            job=lambda w, root=root_: as_text(asked(root, report_.needs)),
         message:
             "Write the pages of the report"
         script:

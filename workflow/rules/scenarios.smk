@@ -5,12 +5,11 @@ from recalib.study.trainings import scenario_of
 
 
 rule assignments:
-    input:
-        code=code("assign.py"),
     output:
         table=LAYOUT.assignments("{robot}"),
         assignment=LAYOUT.assignments("{robot}", ".json"),
     params:
+        code=code("assign.py"),
         job=lambda w: as_text(plan(w).assignments(w.robot)),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
@@ -27,11 +26,11 @@ def assignment(wildcards):
 
 rule scenario:
     input:
-        code=code("scenario.py"),
         assignment=assignment,
     output:
         LAYOUT.scenario("{scenario}"),
     params:
+        code=code("scenario.py"),
         job=lambda w: as_text(plan(w).scenario(w.scenario)),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"

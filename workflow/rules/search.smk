@@ -31,12 +31,12 @@ def trial_chunks(wildcards, rounds):
 
 rule search_trials:
     input:
-        code=code("search_trials.py"),
         scenario=own_scenario,
         earlier=lambda w: trial_chunks(w, range(1, int(w.round))),
     output:
         LAYOUT.search_chunk("{training}", "{round}", "{chunk}"),
     params:
+        code=code("search_trials.py"),
         job=lambda w: as_text(plan(w).trials(w.training, int(w.round), int(w.chunk))),
     message:
         "Search for {wildcards.training}: round {wildcards.round}, chunk {wildcards.chunk}"
@@ -46,11 +46,11 @@ rule search_trials:
 
 rule search:
     input:
-        code=code("search_sample.py"),
         trials=lambda w: trial_chunks(w, plan(w).rounds()),
     output:
         LAYOUT.searched("{training}"),
     params:
+        code=code("search_sample.py"),
         job=lambda w: as_text(plan(w).sample(w.training)),
     message:
         "Keep all trials of the search for {wildcards.training}"
