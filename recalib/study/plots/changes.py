@@ -47,7 +47,7 @@ def _heading(evidence: Evidence, rows: dict[str, list[Estimate]]) -> str:
     if not changes:
         return "Figure 4: learners beside the paper's two"
     most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
-    return f"Figure 4: of the four changes, {most} make the greatest difference"
+    return f"Figure 4: the four changes; the one that matters most: {most}"
 
 
 def figure4(evidence: Evidence) -> Figure:
