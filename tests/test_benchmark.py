@@ -4,7 +4,7 @@ import pytest
 
 from recalib.errors import UnknownName
 from recalib.interfaces import Outcome
-from recalib.learners import peers
+from recalib.study.entrants import PEERS, make_peer
 from recalib.study.evidence.guidance import moves_text, where_worse
 from recalib.study.evidence.results import ERRORS
 from recalib.study.experiments.benchmark import Timed, measured_at, moves_to_reach
@@ -16,12 +16,12 @@ def test_a_map_is_measured_where_its_moves_meet_a_budget():
 
 
 def test_every_peer_can_be_made_and_knows_nothing_yet(controller):
-    for name in peers.NEEDS:
+    for name in PEERS:
         desired = np.zeros((2, 3, 6))
-        commands = peers.build(name, 2, controller).command(desired)
+        commands = make_peer(name, 2, controller).command(desired)
         assert np.allclose(commands, desired, atol=1e-9), name
     with pytest.raises(UnknownName, match="gaussian_process"):
-        peers.build("magic", 1, controller)
+        make_peer("magic", 1, controller)
 
 
 def test_only_the_time_of_the_learner_is_taken():

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.learners import peers
 from recalib.loading import load
+from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
 from recalib.study.plants import Resolved
 from recalib.training import train
@@ -111,7 +111,7 @@ def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_pat
     controller, runs = resolved.controller(), range(2)
     alone = train(
         resolved.plant(controller, seed, runs),
-        peers.build("affine", 2, controller),
+        make_peer("affine", 2, controller),
         campaign.desired_poses(seed, "noise", runs, 2),
         campaign.test_poses(seed, "noise", runs, 20),
         [1, 2],

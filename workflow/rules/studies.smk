@@ -3,9 +3,16 @@
 from workflow.alone import hold
 
 
+def folder_of(job):
+    """The folder of results that a job writes into; the shipped one's for what is published."""
+    roots = sorted(STUDIES, key=len, reverse=True)
+    inside = (root for root in roots for path in job.output if path.startswith(f"{root}/"))
+    return next(inside, RESULTS)
+
+
 onstart:
     try:
-        hold({job.wildcards_dict.get("root", RESULTS) for job in workflow.dag.needrun_jobs()})
+        hold({folder_of(job) for job in workflow.dag.needrun_jobs()})
     except RecalibError as error:
         raise WorkflowError(str(error)) from None
 

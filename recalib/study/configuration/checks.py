@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.errors import UnknownName
-from recalib.learners.peers import NEEDS
 from recalib.study.configuration.damages import Assigned, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.entrants import PEERS
 from recalib.study.trainings import elsewhere, scenario_of, training
 
 
@@ -41,7 +41,7 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("experiments", "scenarios"), plan.scenarios), [*study.scenarios, *on_robots]),
         (_places(("benchmark", "scenarios"), benchmark.scenarios), [*study.scenarios, *on_robots]),
         (_places(("experiments", "ladder"), plan.ladder), known),
-        (_places(("real", "learners"), real.learners), NEEDS),
+        (_places(("real", "learners"), real.learners), PEERS),
     ):
         for path, name in places.items():
             if name not in valid:
@@ -50,7 +50,7 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("experiments", "learners"), plan.learners), ()),
         (_places(("experiments", "beside"), plan.beside), ()),
         (_places(("experiments", "ensemble"), plan.ensemble), ()),
-        (_places(("benchmark", "learners"), benchmark.learners), NEEDS),
+        (_places(("benchmark", "learners"), benchmark.learners), PEERS),
         (_places(("real", "twin"), real.twin), ()),
     ):
         for path, name in places.items():
@@ -63,7 +63,7 @@ def _names(study: Study) -> Iterator[Mistake]:
                 yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
     for name in study.learners:
         stem, _, end = name.rpartition("_")
-        if name in NEEDS or (stem in study.learners and end.isdecimal()):
+        if name in PEERS or (stem in study.learners and end.isdecimal()):
             yield Mistake(("learners", name), ": a name with another meaning; valid: a new one")
 
 

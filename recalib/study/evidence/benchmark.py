@@ -5,10 +5,10 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from recalib.learners.peers import NEEDS
 from recalib.randomness import generator
 from recalib.study import jobs
-from recalib.study.experiments.benchmark import BLACK_BOX, moves_to_reach
+from recalib.study.entrants import needs_of
+from recalib.study.experiments.benchmark import moves_to_reach
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import bootstrap
 
@@ -48,7 +48,7 @@ def reached(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
                     "moves": median,
                     "low": low,
                     "high": high,
-                    "needs": NEEDS.get(learner, BLACK_BOX),
+                    "needs": needs_of(learner),
                 }
             )
     return pd.DataFrame(rows)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.learners.peers import NEEDS
+from recalib.study.entrants import PEERS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS
@@ -39,7 +39,7 @@ def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
     """Scenarios, budgets and errors at which the hybrid is worse than the best other peer."""
     rows = []
     counted = [each for each in budgets if each >= FIRST]
-    peers = table[table["learner"].isin(NEEDS) & table["moves"].isin(counted)]
+    peers = table[table["learner"].isin(PEERS) & table["moves"].isin(counted)]
     for (scenario, moves), own in peers.groupby(["scenario", "moves"], sort=False):
         for error in ERRORS:
             errors = own.set_index("learner")[error]

@@ -8,15 +8,14 @@ import numpy as np
 import pandas as pd
 
 from recalib.interfaces import Learner
-from recalib.learners import peers
 from recalib.study import jobs
+from recalib.study.entrants import make_peer
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
 from recalib.training import train
 
-BLACK_BOX = "measured poses, two moves for each"
 MOVES = 2  # of an iteration of the paper's learners
 
 
@@ -68,7 +67,7 @@ def compete(
     controller, plants = fleet([Resolved.read(path) for path in scenarios], job.seed, runs)
     if job.learner is None:
         iterations, moves = max(job.moves), 1
-        learner = Timed(peers.build(job.name, total, controller))
+        learner = Timed(make_peer(job.name, total, controller))
     else:
         iterations, moves = job.learner.iterations, MOVES
         learner = Timed(build_tuned(job.learner, sample, total))

@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
+from recalib.study.entrants import ENTRANTS
+
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 
@@ -34,14 +36,8 @@ class Look:
 
 
 LOOKS = {
-    "improved": Look("#0072B2", "o", SOLID, "improved"),
-    "ritter": Look("#D55E00", "P", DASHED, "Ritter"),
-    "uncorrected": Look("0.5", "", SOLID, "uncorrected"),
-    "affine": Look("#CC79A7", "v", SOLID, "affine"),
-    "quadratic": Look("#E69F00", "^", SOLID, "quadratic"),
-    "gaussian_process": Look("#009E73", "D", SOLID, "Gaussian process"),
-    "geometric": Look("#56B4E9", "s", SOLID, "geometric"),
-    "hybrid": Look("#000000", "*", SOLID, "hybrid"),
+    name: Look(each.color, each.marker, DASHED if name == "ritter" else SOLID, each.label)
+    for name, each in ENTRANTS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 OTHER = {"improved": ("#56B4E9", "d"), "ritter": ("#E69F00", "^")}

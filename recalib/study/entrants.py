@@ -1,0 +1,100 @@
+"""The learners that are compared, a home for each: what it needs, how it is made, how it looks.
+
+The paper's are made of their settings in the configuration (`recalib.study.experiments.settings`);
+they, and learners of nobody's foreseeing, make two moves an iteration, today's one.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from recalib.errors import UnknownName
+
+# Whoever only asks for names need not wait for what builds and moves arms.
+if TYPE_CHECKING:
+    from recalib.interfaces import Learner
+    from recalib.nominal.controller import Controller
+
+Make = Callable[[int, "Controller"], "Learner"]
+POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
+TWO_MOVES = f"{POSES}, two moves for each"
+
+
+class Entrant(NamedTuple):
+    """A learner that is compared.
+
+    Attributes:
+        label: what it is called.
+        color: of Okabe and Ito's palette, which the colour-blind can tell apart.
+        marker: for black and white; empty for none.
+        needs: what it needs to know.
+        make: from the number of runs and the nominal controller, the learner that has learned
+            nothing yet; None for the paper's.
+    """
+
+    label: str
+    color: str
+    marker: str
+    needs: str = TWO_MOVES
+    make: Make | None = None
+
+
+# Imported where they are used: jobs without such a learner need not wait for scikit-learn.
+def _uncorrected(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.uncorrected import UncorrectedLearner
+
+    return UncorrectedLearner()
+
+
+def _affine(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.polynomial import PolynomialLearner
+
+    return PolynomialLearner(runs, degree=1)
+
+
+def _quadratic(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.polynomial import PolynomialLearner
+
+    return PolynomialLearner(runs, degree=2)
+
+
+def _gaussian_process(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.gaussian_process import GaussianProcessLearner
+
+    return GaussianProcessLearner(runs)
+
+
+def _geometric(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.geometric import GeometricLearner
+
+    return GeometricLearner(runs, controller)
+
+
+def _hybrid(runs: int, controller: "Controller") -> "Learner":
+    from recalib.learners.hybrid import HybridLearner
+
+    return HybridLearner(runs, controller)
+
+
+ENTRANTS: Mapping[str, Entrant] = {
+    "improved": Entrant("improved", "#0072B2", "o"),
+    "ritter": Entrant("Ritter", "#D55E00", "P"),
+    "uncorrected": Entrant("uncorrected", "0.5", "", "nothing", _uncorrected),
+    "affine": Entrant("affine", "#CC79A7", "v", POSES, _affine),
+    "quadratic": Entrant("quadratic", "#E69F00", "^", POSES, _quadratic),
+    "gaussian_process": Entrant("Gaussian process", "#009E73", "D", POSES, _gaussian_process),
+    "geometric": Entrant("geometric", "#56B4E9", "s", KINEMATICS, _geometric),
+    "hybrid": Entrant("hybrid", "#000000", "*", KINEMATICS, _hybrid),
+}
+PEERS = [name for name, entrant in ENTRANTS.items() if entrant.make]  # today's learners
+
+
+def make_peer(name: str, runs: int, controller: "Controller") -> "Learner":
+    """The peer of this name, which has learned nothing yet. Raises UnknownName."""
+    if name not in PEERS:
+        raise UnknownName("peer", name, PEERS)
+    return ENTRANTS[name].make(runs, controller)
+
+
+def needs_of(name: str) -> str:
+    """What a learner needs to know."""
+    return ENTRANTS[name].needs if name in ENTRANTS else TWO_MOVES
