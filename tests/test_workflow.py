@@ -1,5 +1,6 @@
 """The whole workflow on a small study, in a copy of the project."""
 
+import fcntl
 import subprocess
 
 import numpy as np
@@ -12,6 +13,7 @@ from recalib.study.experiments import campaign
 from recalib.study.plants import Resolved
 from recalib.training import train
 from tests.conftest import ROOT, TINY, copy_project, snakemake
+from workflow import alone
 
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
 
@@ -177,3 +179,18 @@ def test_another_value_under_the_shipped_name_is_refused_and_changes_nothing(che
         ["git", "status", "--porcelain"], cwd=checkout, capture_output=True, text=True, check=True
     )
     assert status.stdout == ""
+
+
+@shared
+def test_a_second_run_in_a_folder_of_results_is_told_to_wait(project):
+    again = "--forcerun", "check", "--", f"{TINY}/check.txt"
+    with (project / TINY / alone.MARK).open("a", encoding="utf-8") as mark:
+        fcntl.flock(mark, fcntl.LOCK_EX)
+        before = (project / TINY / "check.txt").stat().st_mtime_ns
+        waiting = snakemake(project, *again)
+        assert waiting.returncode != 0
+        assert f"another run is at work in {TINY}: wait until it has ended" in waiting.stdout
+        assert (project / TINY / "check.txt").stat().st_mtime_ns == before
+        elsewhere = "results/studies/elsewhere/scenarios/intact.json"
+        assert snakemake(project, "--config", "name=elsewhere", "--", elsewhere).returncode == 0
+    assert snakemake(project, *again).returncode == 0

@@ -61,7 +61,7 @@ def _viewer() -> Iterator[ViewerClient]:
         "--window-size",
         size,
     ]
-    with tempfile.TemporaryFile("w+") as log:
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
         process = subprocess.Popen([binary, *options], stdout=log, stderr=log)
         try:
             deadline = time.monotonic() + PATIENCE
