@@ -317,7 +317,8 @@ def test_outliers_and_all_are_recorded_as_the_experiment_of_fifty_seeds_measured
         seed=SEED,
     )
     sample, history = ROOT / "workflow/search/improved_200.csv", tmp_path / "improved.parquet"
-    frame, _, _ = campaign.train_seeds(training, scenario, sample)
+    columns, _, _ = campaign.train_seeds(training, scenario, sample)
+    frame = pd.DataFrame(columns)
     frame.to_parquet(history)
     path = tmp_path / "recordings" / "links_encoders.rrd"
     with pytest.raises(BrokenRecording, match="improved at iteration 4: position_error_cm is "):

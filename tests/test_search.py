@@ -99,6 +99,7 @@ def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(plan
     samples.write_sample(path, plan.sample("improved_200"), trials)
     assert samples.searched_for(path) == plan.sample("improved_200")
     assert samples.read_sample(path).equals(trials)
+    assert samples.best_trial(path) == trials.loc[1].to_dict()
     assert best(samples.read_sample(path)).name == 1, (
         "its worse error is the smallest; the first of two"
     )

@@ -11,6 +11,9 @@ def folder_of(job):
 
 
 onstart:
+    # Snakemake 9 looks at all ready jobs again every second, once for each job that has ended: in
+    # the end that takes a third of a core. There is nothing to limit the rate of jobs for.
+    workflow.scheduler.job_rate_limiter = None
     try:
         hold({folder_of(job) for job in workflow.dag.needrun_jobs()})
     except RecalibError as error:

@@ -1,9 +1,10 @@
 """Put the chunks of a table together."""
 
-import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 
 from recalib.storage import whole
 from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:
-    pd.concat(map(pd.read_parquet, snakemake.input.chunks)).to_parquet(path, index=False)
+    pq.write_table(pa.concat_tables(map(pq.read_table, snakemake.input.chunks)), path)

@@ -1,6 +1,7 @@
 """Put the chunks of a training together."""
 
-import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 
 from recalib.learned import join
 from recalib.storage import whole
@@ -8,5 +9,5 @@ from workflow.scripts.job import job
 
 with job(snakemake):
     with whole(snakemake.output.history) as path:
-        pd.concat(map(pd.read_parquet, snakemake.input.histories)).to_parquet(path, index=False)
+        pq.write_table(pa.concat_tables(map(pq.read_table, snakemake.input.histories)), path)
     join(snakemake.output.learned, snakemake.input.learned)

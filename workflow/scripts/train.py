@@ -1,5 +1,8 @@
 """Train some seeds of one learner on one scenario."""
 
+import pyarrow as pa
+import pyarrow.parquet as pq
+
 from recalib.learned import save
 from recalib.storage import whole
 from recalib.study.experiments.campaign import train_seeds
@@ -10,5 +13,5 @@ with job(snakemake):
     job_ = Training.model_validate_json(snakemake.params.job)
     history, learner, robot = train_seeds(job_, snakemake.input.scenario, snakemake.input.sample)
     with whole(snakemake.output.history) as path:
-        history.to_parquet(path, index=False)
+        pq.write_table(pa.table(history), path)
     save(snakemake.output.learned, learner, robot)

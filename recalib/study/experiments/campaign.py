@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.robots import Robot
@@ -41,15 +40,15 @@ def measured_at(measuring: jobs.Measuring, iterations: int) -> list[int]:
 
 def train_seeds(
     job: jobs.Training, scenario: str | Path, sample: str | Path
-) -> tuple[pd.DataFrame, HierarchicalLearner, Robot]:
+) -> tuple[dict[str, np.ndarray], HierarchicalLearner, Robot]:
     """Train some seeds of a learner on a scenario.
 
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the search for this training.
 
-    Returns the history, a row for each seed and measurement, the trained learner, and the robot as
-    its controller believes in it.
+    Returns the history by its columns, a row for each seed and measurement, the trained learner,
+    and the robot as its controller believes in it.
     """
     resolved, iterations = Resolved.read(scenario), job.learner.iterations
     controller, runs = resolved.controller(), range(job.first, job.last)
@@ -67,6 +66,6 @@ def train_seeds(
         )
     if refused := history.refused[:, -1].sum():
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
-    frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
-    frame["seed"] += job.first
-    return frame, learner, controller.robot
+    columns = history.columns()
+    seeds = columns.pop("run") + job.first
+    return {"seed": seeds} | columns, learner, controller.robot

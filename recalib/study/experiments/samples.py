@@ -3,6 +3,7 @@
 Reading the head of a file needs no table: the workflow does it whenever it starts.
 """
 
+import csv
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,6 +37,20 @@ def searched_for(path: str | Path) -> jobs.Sample:
             return jobs.Sample.model_validate_json(next(lines).removeprefix(COMMENT))
     except (ValueError, StopIteration):
         raise BrokenSample(path) from None
+
+
+def best_trial(path: str | Path) -> dict[str, float]:
+    """The trial in a file that the search keeps. Raises BrokenSample.
+
+    As `best(read_sample(path))`, without a table: every training starts with this.
+    """
+    from recalib.study.experiments.search import score
+
+    searched_for(path)
+    with Path(path).open(encoding="utf-8", newline="") as lines:
+        next(lines)
+        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(lines)]
+    return min(rows, key=score)
 
 
 def read_sample(path: str | Path) -> "pd.DataFrame":

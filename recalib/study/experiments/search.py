@@ -7,11 +7,14 @@ drawn as fractions of initial ones.
 """
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.learners.hierarchical import Rules, Schedule
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 NETS = ("g_k", "g_kl")
 ZOOM = 1 / 3
@@ -39,7 +42,7 @@ def _kinds(rules: Rules) -> list[str]:
 
 def draw(
     rules: Rules, ranges: Mapping, count: int, seed: int, around: Mapping | None = None
-) -> pd.DataFrame:
+) -> "pd.DataFrame":
     """Trials, a row each.
 
     Args:
@@ -48,7 +51,8 @@ def draw(
         seed: of the quasi-random sequence.
         around: a trial; the box searched is then ZOOM as wide, about it, and inside the ranges.
     """
-    from scipy.stats import qmc  # half a second, which every job of the workflow would pay
+    import pandas as pd  # half a second each, which every training would pay
+    from scipy.stats import qmc
 
     low, high = np.log(np.array([ranges[kind] for kind in _kinds(rules)])).T
     unit = qmc.Sobol(len(low), rng=np.random.default_rng(seed)).random(count)
@@ -76,9 +80,10 @@ def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
     return Schedule(column("initial_width"), final, column("initial_rate"), column("final_rate"))
 
 
-def score(errors: pd.DataFrame) -> pd.Series:
+def score(errors: Mapping):
     """What the search minimises: the larger of both errors, in cm and degrees as in Figure 1.
 
-    The paper asks for a pair of errors, and a pair is reached by both.
+    The paper asks for a pair of errors, and a pair is reached by both. Of a trial, or of a frame of
+    trials.
     """
-    return errors[["position_error_cm", "orientation_error_deg"]].max(axis=1)
+    return np.maximum(errors["position_error_cm"], errors["orientation_error_deg"])

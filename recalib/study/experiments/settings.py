@@ -2,13 +2,15 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-
-import pandas as pd
+from typing import TYPE_CHECKING
 
 from recalib.learners.hierarchical import HierarchicalLearner, Rules
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments import search
-from recalib.study.experiments.samples import read_sample
+from recalib.study.experiments.samples import best_trial
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def rules_of(learner: Learner) -> Rules:
@@ -23,7 +25,7 @@ def rules_of(learner: Learner) -> Rules:
     )
 
 
-def best(trials: pd.DataFrame) -> pd.Series:
+def best(trials: "pd.DataFrame") -> "pd.Series":
     """The trial that the search would keep."""
     return trials.loc[search.score(trials).idxmin()]
 
@@ -36,4 +38,4 @@ def build(learner: Learner, trial: Mapping, runs: int) -> HierarchicalLearner:
 
 def build_tuned(learner: Learner, path: str | Path, runs: int) -> HierarchicalLearner:
     """An untrained learner with the widths and rates of the best trial in a file."""
-    return build(learner, best(read_sample(path)), runs)
+    return build(learner, best_trial(path), runs)
