@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.checks import check
@@ -67,7 +68,7 @@ def read_studies(
     """
     base, checks = project / CONFIGURATION, (check, partial(_check_robots_once, project))
     read = partial(read_study, base, checks=checks)
-    main = read(*files, *([changes] if changes else []))
+    main = read(*files, *([_typed(changes)] if changes else []))
     others = [read(path) for path in sorted((project / OTHERS).glob("*.yaml"))]
     studies = {root_of(main.name): main}
     if main.name != SHIPPED and (files or changes):
@@ -78,6 +79,20 @@ def read_studies(
     if shipped := studies.get(root_of(SHIPPED)):
         check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
     return root_of(main.name), studies
+
+
+def _typed(value: Any) -> Any:
+    """Numbers, true, false and null as such: inside of brackets the command line has text only."""
+    match value:
+        case Mapping():
+            return {key: _typed(each) for key, each in value.items()}
+        case list() | tuple():
+            return [_typed(each) for each in value]
+        case str():
+            with suppress(ValueError):
+                meant = json.loads(value)
+                return meant if meant is None or isinstance(meant, int | float) else value
+    return value
 
 
 def _check_robots_once(project: Path, study: Study) -> list[Mistake]:
