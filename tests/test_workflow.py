@@ -142,7 +142,9 @@ def test_a_wrong_sign_in_a_learning_rule_turns_the_check_red(project):
     wrong = text.replace(right, "miss = first.achieved[:, 0] - desired")
     module.write_text(wrong, encoding="utf-8")
     # in a folder of its own, so that the shared results stay
-    broken = snakemake(project, "--config", "name=broken", "--", "results/studies/broken/check.txt")
+    small = "experiments={scenarios: [links_encoders], learners: [improved]}"
+    check = "results/studies/broken/check.txt"
+    broken = snakemake(project, "--config", "name=broken", small, "--", check)
     module.write_text(text, encoding="utf-8")
     assert broken.returncode != 0
     assert "links_encoders improved: position_error_cm is" in broken.stdout
