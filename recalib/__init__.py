@@ -15,7 +15,7 @@ _HOMES = {
     "ExternalRobot": "recalib.external",
     "GeometricLearner": "recalib.learners.geometric",
     "HierarchicalLearner": "recalib.learners.hierarchical",
-    "IMPROVED": "recalib.learners.hierarchical",
+    "IMPROVED": "recalib.learners.rules",
     "Plant": "recalib.damaged.plant",
     "Schedule": "recalib.learners.hierarchical",
     "Workspace": "recalib.nominal.poses",

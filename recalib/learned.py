@@ -21,7 +21,7 @@ from recalib.storage import whole
 if TYPE_CHECKING:  # to join files takes no robot
     from recalib.nominal.robots import Robot
 
-FORMAT, VERSION = "recalib learner", 1
+FORMAT, VERSION = "recalib learner", 2
 KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
 ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
 PROBES = 8  # joint angles at which the kinematics of two robots are compared

@@ -35,7 +35,8 @@ def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> S
     # Imported where they are used: the maps need not wait for scikit-learn.
     match kind:
         case "hierarchical":
-            from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+            from recalib.learners.hierarchical import HierarchicalLearner, Schedule
+            from recalib.learners.rules import Rules
 
             rules = settings["rules"]
             nets = {name: tuple(rules[name]) for name in ("supernet", "subnet")}

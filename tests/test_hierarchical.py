@@ -6,8 +6,9 @@ import pytest
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
 from recalib.interfaces import Outcome
-from recalib.learners.hierarchical import SEPARATE, HierarchicalLearner, Rules, Schedule
+from recalib.learners.hierarchical import HierarchicalLearner, Schedule
 from recalib.learners.maps import regular_grid
+from recalib.learners.rules import SEPARATE, Rules
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
@@ -27,7 +28,7 @@ def strange_world(commands):
     ("separate", "theta", "jacobian", "equal"), [*product([False, True], repeat=4)]
 )
 def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta, jacobian, equal):
-    runs, iterations = 2, 6
+    runs, iterations = 2, 40  # more than are kept back
     rules = Rules(separate, theta, jacobian, equal, **SIZES)
     widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
     learner = HierarchicalLearner(runs, rules, Schedule(1.5, widths, 0.9, 0.3))
@@ -70,7 +71,9 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
     for name, each in enumerate(learner.maps.values()):
         for run, k, l in product(range(runs), range(12), range(6)):
-            assert np.allclose(each.jacobian[run, :, :, k, l], slow[run][name].A[k, l], atol=1e-12)
+            held = each.theta.all[run, k, l], each.jacobian.all[run, k, l]
+            assert np.allclose(held[0], slow[run][name].theta[k, l], atol=1e-12)
+            assert np.allclose(held[1], slow[run][name].A[k, l], atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -110,23 +113,41 @@ def test_nothing_is_learned_from_a_refused_move():
     refused_second.learn(desired, refuse(1), 0.0)
     for name, before in fresh.maps.items():
         first, second = refused_first.maps[name], refused_second.maps[name]
-        assert np.array_equal(first.theta, before.theta)
-        assert np.array_equal(first.jacobian, before.jacobian)
+        assert np.array_equal(first.theta.all, before.theta.all)
+        assert np.array_equal(first.jacobian.all, before.jacobian.all)
         # the first move teaches theta, the second the Jacobians
-        assert not np.array_equal(second.theta, before.theta)
-        assert np.array_equal(second.jacobian, before.jacobian)
+        assert not np.array_equal(second.theta.all, before.theta.all)
+        assert np.array_equal(second.jacobian.all, before.jacobian.all)
 
 
-def test_a_refused_run_does_not_disturb_the_others():
-    desired = np.random.default_rng(8).uniform(-1, 1, (2, 6))
-    both, alone = improved(2), improved(1)
-    both.learn(
-        desired, lambda c: strange_world(c)._replace(executed=np.array([[False], [True]])), 0.0
-    )
-    alone.learn(desired[1:], strange_world, 0.0)
+@pytest.mark.parametrize("increments", [True, False])
+def test_a_run_learns_the_same_alone_and_beside_others(increments):
+    """Bit for bit, also where another run's moves are refused."""
+    rules = Rules(increments, increments, increments, increments)
+    widths = SEPARATE_WIDTHS if increments else SINGLE_WIDTHS
+    beside, alone = (HierarchicalLearner(n, rules, Schedule(1.5, widths, 0.9, 0.3)) for n in (3, 1))
+    desired = np.random.default_rng(8).uniform(-1, 1, (3, 40, 6))
+
+    def refuse_the_first(commands):
+        return strange_world(commands)._replace(executed=np.array([[False], [True], [True]]))
+
+    for t in range(40):
+        beside.learn(desired[:, t], refuse_the_first if t % 3 else strange_world, t / 40)
+        alone.learn(desired[1:2, t], strange_world, t / 40)
     for name, learned in alone.maps.items():
-        assert np.allclose(both.maps[name].theta[1:], learned.theta, atol=1e-15)
-        assert np.allclose(both.maps[name].jacobian[1:], learned.jacobian, atol=1e-15)
+        assert np.array_equal(beside.maps[name].theta.all[1:2], learned.theta.all)
+        assert np.array_equal(beside.maps[name].jacobian.all[1:2], learned.jacobian.all)
+
+
+@pytest.mark.parametrize("separate", [True, False])
+@pytest.mark.parametrize("sizes", [((3, 3, 3), (3, 3, 3)), ((2, 1, 4), (1, 1, 2))])
+def test_a_new_learner_commands_what_is_desired(sizes, separate):
+    widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
+    fresh = HierarchicalLearner(
+        2, Rules(separate, True, True, True, *sizes), Schedule(1.5, widths, 0.9, 0.3)
+    )
+    u = np.random.default_rng(0).uniform(-1.5, 1.5, (2, 30, 6))
+    assert np.allclose(fresh.command(u), u, atol=1e-14)
 
 
 def test_an_intact_robot_is_left_alone(controller, robot):

@@ -15,9 +15,10 @@ from recalib.interfaces import Outcome
 from recalib.learned import KINDS, join, save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hierarchical import HierarchicalLearner, Rules, Schedule
+from recalib.learners.hierarchical import HierarchicalLearner, Schedule
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
+from recalib.learners.rules import Rules
 from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loading import load
 from recalib.nominal.kinematics import Arm
@@ -165,9 +166,9 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1, 1), robot)
     arrays = dict(np.load(path))
-    header = json.loads(str(arrays.pop("header"))) | {"version": 2}
+    header = json.loads(str(arrays.pop("header"))) | {"version": 3}
     np.savez(path, header=json.dumps(header), **arrays)
-    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 2\); valid: .* 1\)"):
+    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 3\); valid: .* 2\)"):
         load(path, robot)
 
 

@@ -9,8 +9,9 @@ from pydantic import TypeAdapter
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.learners import hierarchical, schedules
-from recalib.learners.maps import HierarchicalMap
+from recalib.learners import schedules
+from recalib.learners.cells import Cells
+from recalib.learners.maps import Nets
 from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments import campaign
@@ -58,24 +59,30 @@ def final_errors(study, controller, learner="improved"):
     return check(summary, expected)
 
 
-def random_winner(net, u):
+def random_winner(nets, u):
     rng = np.random.default_rng(0)
-    return rng.integers(len(net.w_k), size=u.shape[:-1]), rng.integers(
-        len(net.w_kl), size=u.shape[:-1]
+    return rng.integers(len(nets.w_k), size=u.shape[:-1]), rng.integers(
+        len(nets.w_kl), size=u.shape[:-1]
     )
 
 
-def no_increment(cells, weights, increments):
-    if cells.ndim == 4:  # theta, not Jacobians
-        for cell, weight, increment in zip(cells, weights, increments, strict=True):
-            cell += increment[..., None, None] * weight
+def planted_in_targets(mistake):
+    """Every update's target made another by the mistake."""
+    update = Cells.update
+
+    def mistaken(cells, rate, g_k, g_kl, target):
+        update(cells, rate, g_k, g_kl, mistake(target))
+
+    return mock.patch.object(Cells, "update", mistaken)
+
+
+def no_jacobian(target):
+    return np.zeros_like(target) if target.ndim == 3 else target
 
 
 PLANTED = {
-    "Jacobian increment off": lambda: mock.patch.object(
-        hierarchical, "propagate_increments", no_increment
-    ),
-    "winner at random": lambda: mock.patch.object(HierarchicalMap, "winner", random_winner),
+    "Jacobian increment off": lambda: planted_in_targets(no_jacobian),
+    "winner at random": lambda: mock.patch.object(Nets, "winner", random_winner),
     # dt proportional to width^n d(width) instead of width^-n: most of the time at the large widths
     "equal visits inverted": lambda: mock.patch.object(
         schedules, "DIMENSIONS", -schedules.DIMENSIONS
@@ -89,11 +96,7 @@ def test_without_an_error_the_check_is_green(study, controller, learner):
 
 
 def test_an_error_planted_in_ritters_rules_turns_the_check_red(study, controller):
-    def towards_zero(cells, weights, values):
-        for cell, weight in zip(cells, weights, strict=True):
-            cell *= 1 - weight
-
-    with mock.patch.object(hierarchical, "propagate_values", towards_zero):
+    with planted_in_targets(np.zeros_like):
         assert not final_errors(study, controller, "ritter_200")["ok"].any()
 
 

@@ -1,8 +1,4 @@
-"""The learners of the paper: hierarchical maps with Ritter's rules or the improved ones.
-
-The improvement of the paper is four changes of Ritter's algorithm. Each is a switch of its own
-here, so that any of them can be taken away from the one or added to the other.
-"""
+"""The learners of the paper: hierarchical maps with Ritter's rules or the improved ones."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -13,48 +9,12 @@ import numpy as np
 from recalib.errors import InvalidSetting
 from recalib.interfaces import Execute, State
 from recalib.learners import schedules
-from recalib.learners.maps import HierarchicalMap, propagate_increments, propagate_values
-from recalib.nominal.poses import ORIENTATION, POSITION
-
-SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
-SINGLE = {"pose": slice(0, 6)}
+from recalib.learners.maps import HierarchicalMap, Nets
+from recalib.learners.rules import Rules
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
 SHORTEST_MOVE = 1e-6
-
-
-@dataclass(frozen=True)
-class Rules:
-    """The four switches and the sizes of the nets.
-
-    Args:
-        separate_maps: one map for position and one for orientation commands (section 4), or one
-            for both.
-        theta_increments: propagate increments of theta, (6) and (7), or its values, (2) and (4).
-        jacobian_increments: propagate increments of the Jacobian, (8) and (9), or its values, (3)
-            and (5).
-        equal_visits: the schedule of section 6 with a linear rate, or Ritter's exponential
-            schedules.
-        supernet, subnet: cells along each position and each orientation coordinate.
-    """
-
-    separate_maps: bool
-    theta_increments: bool
-    jacobian_increments: bool
-    equal_visits: bool
-    supernet: tuple[int, int, int] = (3, 3, 3)
-    subnet: tuple[int, int, int] = (3, 3, 3)
-
-    @property
-    def maps(self) -> Mapping[str, slice]:
-        """Name of each map and the coordinates of the command that it computes."""
-        return SEPARATE if self.separate_maps else SINGLE
-
-
-IMPROVED = Rules(
-    separate_maps=True, theta_increments=True, jacobian_increments=True, equal_visits=True
-)
 
 
 @dataclass(frozen=True)
@@ -112,73 +72,67 @@ class HierarchicalLearner:
 
     def __init__(self, runs: int, rules: Rules, schedule: Schedule):
         self.rules, self.schedule = rules, schedule
+        self.nets = Nets(rules.supernet, rules.subnet)
         self.maps = {
-            name: HierarchicalMap(runs, rules.supernet, rules.subnet, outputs)
+            name: HierarchicalMap(runs, self.nets, rules, outputs)
             for name, outputs in rules.maps.items()
+        }
+        self._runs = np.arange(runs)
+        self._final_widths = {
+            name: np.stack([np.broadcast_to(width, runs) for width in pair])
+            for name, pair in schedule.final_widths.items()
         }
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1)."""
-        return np.concatenate([each.output(desired) for each in self.maps.values()], axis=-1)
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
+        k, l = self.nets.winner(desired)
+        cells = self._runs[:, None], k, l
+        maps = self.maps.values()
+        theta = np.concatenate([each.theta.all[cells] for each in maps], axis=-1)
+        jacobian = np.concatenate([each.jacobian.all[cells] for each in maps], axis=-2)
+        return theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
 
         Nothing is learned from a refused move.
         """
-        cells = {
-            name: (k[:, 0], l[:, 0])
-            for name, each in self.maps.items()
-            for k, l in [each.winner(desired[:, None])]
-        }
-        winners = {name: each.at(*cells[name]) for name, each in self.maps.items()}
-        theta = self.command(desired[:, None])
-        first = execute(theta)
-        miss = desired - first.achieved[:, 0]  # u - u'
+        k, l = self.nets.winner(desired)
+        maps = self.maps.values()
+        theta = np.concatenate([each.theta.at(k, l) for each in maps], axis=-1)
+        jacobian = np.concatenate([each.jacobian.at(k, l) for each in maps], axis=-2)
+        command = theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
+        first = execute(command[:, None])
         # A_kl (u - u'): the correction of the second movement, and the increment of (6)
-        correction = {
-            name: np.einsum("roi,ri->ro", jacobian, miss) for name, (_, jacobian) in winners.items()
-        }
-        second = execute(theta + np.concatenate(list(correction.values()), axis=-1)[:, None])
+        correction = applied(jacobian, desired - first.achieved[:, 0])
+        second = execute((command + correction)[:, None])
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
         length = np.square(moved).sum(axis=-1)
         learn_theta = first.executed[:, 0]
         learn_jacobian = learn_theta & second.executed[:, 0] & (length > SHORTEST_MOVE**2)
         direction = moved / np.where(learn_jacobian, length, 1)[:, None]
+        # Both rules start from the same increments, (6) and (8); Ritter's targets add what the
+        # winner held, (2) and (3).
+        new_theta = correction
+        new_jacobian = (correction - applied(jacobian, moved))[:, :, None] * direction[:, None, :]
+        if not self.rules.theta_increments:
+            new_theta = theta + new_theta
+        if not self.rules.jacobian_increments:
+            new_jacobian = jacobian + new_jacobian
+        rate = self._rate(fraction)
         for name, each in self.maps.items():
-            theta_kl, jacobian_kl = winners[name]
-            weights = self._weights(name, *cells[name], fraction)
-            # Both rules start from the same increments, (6) and (8); Ritter's targets add what the
-            # winner held, (2) and (3).
-            theta_step = correction[name]
-            jacobian_step = (theta_step - np.einsum("roi,ri->ro", jacobian_kl, moved))[
-                :, :, None
-            ] * direction[:, None, :]
-            theta_weights, jacobian_weights = (
-                weights * learn[:, None, None] for learn in (learn_theta, learn_jacobian)
-            )
-            if self.rules.theta_increments:
-                propagate_increments(each.theta, theta_weights, theta_step)
-            else:
-                propagate_values(each.theta, theta_weights, theta_kl + theta_step)
-            if self.rules.jacobian_increments:
-                propagate_increments(each.jacobian, jacobian_weights, jacobian_step)
-            else:
-                propagate_values(each.jacobian, jacobian_weights, jacobian_kl + jacobian_step)
+            near = self.nets.neighbourhood(k, l, *self.widths(name, fraction))
+            each.theta.update(rate * learn_theta, *near, new_theta[:, each.outputs])
+            each.jacobian.update(rate * learn_jacobian, *near, new_jacobian[:, each.outputs])
 
-    def widths(self, name: str, fraction: float) -> tuple[np.ndarray, np.ndarray]:
-        """Widths of g_k and of g_kl, each (run,), after this fraction of the training.
+    def widths(self, name: str, fraction: float) -> np.ndarray:
+        """Widths (2, run) of g_k and of g_kl after this fraction of the training.
 
         Args:
             name: of a map; see `Rules.maps`.
         """
-        plan, runs = self.schedule, len(self.maps[name].theta)
         narrow = schedules.equal_visits if self.rules.equal_visits else schedules.exponential
-        of_k, of_kl = (
-            np.broadcast_to(narrow(plan.initial_width, end, fraction), runs)
-            for end in plan.final_widths[name]
-        )
-        return of_k, of_kl
+        return narrow(self.schedule.initial_width, self._final_widths[name], fraction)
 
     def settings(self) -> dict[str, Any]:
         """Rules and schedule.
@@ -191,26 +145,26 @@ class HierarchicalLearner:
 
     def state(self) -> list[State]:
         """For each run theta and Jacobian of each map, as `HierarchicalMap` describes them."""
-        runs = range(len(next(iter(self.maps.values())).theta))
         return [
             {
-                name: {"theta": each.theta[run], "jacobian": each.jacobian[run]}
+                name: {"theta": each.theta.all[run], "jacobian": each.jacobian.all[run]}
                 for name, each in self.maps.items()
             }
-            for run in runs
+            for run in self._runs
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        for run, state in enumerate(states):
-            for name, each in self.maps.items():
-                each.theta[run] = state[name]["theta"]
-                each.jacobian[run] = state[name]["jacobian"]
+        for name, each in self.maps.items():
+            each.theta.all[:] = [state[name]["theta"] for state in states]
+            each.jacobian.all[:] = [state[name]["jacobian"] for state in states]
 
-    def _weights(self, name: str, k: np.ndarray, l: np.ndarray, fraction: float) -> np.ndarray:
-        """c' g_k g_kl (run, K, L)."""
-        plan = self.schedule
+    def _rate(self, fraction: float) -> float | np.ndarray:
+        """c', a number or (run,)."""
         weaken = schedules.linear if self.rules.equal_visits else schedules.exponential
-        rate = np.broadcast_to(weaken(plan.initial_rate, plan.final_rate, fraction), k.shape)
-        widths = self.widths(name, fraction)
-        return rate[:, None, None] * self.maps[name].neighbourhood(k, l, *widths)
+        return weaken(*self.schedule.rates, fraction)
+
+
+def applied(jacobian: np.ndarray, offset: np.ndarray) -> np.ndarray:
+    """A d (..., 6) of Jacobians A (..., 6, 6) and offsets d (..., 6)."""
+    return np.einsum("...oi,...i->...o", jacobian, offset)

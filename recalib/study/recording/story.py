@@ -72,13 +72,13 @@ def watch(
     """
     workspace, shown = controller.robot.workspace, visiting_order(tests[:POSES])
     position_map = next(iter(learner.maps.values()))
-    untrained = position_map.theta[0, POSITION].copy()
+    untrained = position_map.theta.all[0, ..., POSITION].copy()
     commands, weights, corrections = [], [], []
 
     def look(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
         weights.append(_neighbourhood(learner, desired, iteration))
-        moved = (position_map.theta[0, POSITION] - untrained).mean(axis=-1).T
+        moved = (position_map.theta.all[0, ..., POSITION] - untrained).mean(axis=1)
         corrections.append(moved * workspace.half_ranges[POSITION])
 
     history = train(plant, learner, desired[None], tests[None], measure_at, look)
@@ -88,7 +88,7 @@ def watch(
     achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *poses.shape)
     return Watched(
         history=history,
-        centres=workspace.centre[:3, 3] + position_map.w_k * workspace.half_ranges[POSITION],
+        centres=workspace.centre[:3, 3] + learner.nets.w_k * workspace.half_ranges[POSITION],
         weights=np.stack(weights),
         corrections=np.stack(corrections),
         desired=poses,
@@ -101,13 +101,11 @@ def watch(
 
 def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
     """g_k (cell,) of the position map in the iteration before; zero where there was none."""
-    name, position_map = next(iter(learner.maps.items()))
     if iteration == 0:
-        return np.zeros(len(position_map.w_k))
-    last = iteration - 1
-    widths = learner.widths(name, last / len(desired))
-    k, l = (index[:, 0] for index in position_map.winner(desired[None, last : last + 1]))
-    return position_map.neighbourhood(k, l, *widths)[0, :, l[0]]
+        return np.zeros(len(learner.nets.w_k))
+    last, name = iteration - 1, next(iter(learner.maps))
+    winner = learner.nets.winner(desired[[last]])
+    return learner.nets.neighbourhood(*winner, *learner.widths(name, last / len(desired)))[0][0]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,89 @@
+"""What all cells of a map hold, as it is learned: theta or Jacobians, by (4) to (9).
+
+An iteration teaches every cell, but reads one. So updates are kept back and made together, by one
+matrix product: memory is passed through once in `KEPT` iterations. What is read has them in it.
+"""
+
+import numpy as np
+
+KEPT = 32  # updates, at most: more make reading one cell slower than they make updates faster
+
+
+class Cells:
+    """What the cells of a map hold, in each run. What one run learns depends on no other run.
+
+    Args:
+        runs: how many.
+        start: (K, L, ...) before learning: numbers of any shape in each cell kl.
+        increments: move the cells by an increment, (7) and (9), or draw them towards a value, (4)
+            and (5).
+    """
+
+    def __init__(self, runs: int, start: np.ndarray, increments: bool):
+        supernet, subnet, *self._shape = start.shape
+        self._cells = np.tile(start.reshape(supernet, subnet, -1), (runs, 1, 1, 1))
+        self._increments = increments
+        self._runs = np.arange(runs)
+        self._kept = 0
+        self._g_k, self._g_kl, self._targets = (
+            np.empty((KEPT, runs, size)) for size in (supernet, subnet, self._cells.shape[-1])
+        )
+
+    @property
+    def all(self) -> np.ndarray:
+        """(run, K, L, ...) in all cells; written to, what they hold. Stale after an update."""
+        if self._kept:
+            self._make()
+        return self._cells.reshape(*self._cells.shape[:3], *self._shape)
+
+    def at(self, k: np.ndarray, l: np.ndarray) -> np.ndarray:
+        """(run, ...) in one cell (k, l) of each run, each (run,)."""
+        held = self._cells[self._runs, k, l]
+        if self._kept:
+            kept = slice(self._kept)
+            weights = self._g_k[kept, self._runs, k] * self._g_kl[kept, self._runs, l]
+            if not self._increments:
+                held *= _outlast(weights)[:, None]
+            held += np.einsum("br,brn->rn", weights, self._targets[kept])
+        return held.reshape(-1, *self._shape)
+
+    def update(
+        self, rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, target: np.ndarray
+    ) -> None:
+        """Move every cell by, or draw it towards, the target of its run.
+
+        Args:
+            rate: (run,) learning rate c'; a run learns nothing by 0.
+            g_k, g_kl: (run, K) and (run, L) neighbourhoods of the winner.
+            target: (run, ...) theta* or A*.
+        """
+        if self._kept == KEPT:
+            self._make()
+        np.multiply(rate[:, None], g_k, out=self._g_k[self._kept])
+        self._g_kl[self._kept] = g_kl
+        self._targets[self._kept] = target.reshape(len(target), -1)
+        self._kept += 1
+
+    def _make(self) -> None:
+        """Make the updates that were kept back, run by run: so the cache holds what they need."""
+        kept, self._kept = slice(self._kept), 0
+        for run, cells in enumerate(self._cells):
+            table = cells.reshape(-1, cells.shape[-1])
+            g_k, g_kl = self._g_k[kept, run], self._g_kl[kept, run]
+            weights = (g_k[:, :, None] * g_kl[:, None, :]).reshape(-1, len(table))
+            if not self._increments:
+                table *= _outlast(weights)[:, None]
+            table += weights.T @ self._targets[kept, run]
+
+
+def _outlast(weights: np.ndarray) -> np.ndarray:
+    """Make of the weights of updates (update, ...) those that they keep under the later ones.
+
+    Each later update towards a value leaves 1 - weight of what was there. In place; returns what
+    all together leave (...) of what was there before.
+    """
+    left = 1 - weights
+    for update in reversed(range(len(weights) - 1)):
+        left[update] *= left[update + 1]
+    weights[:-1] *= left[1:]
+    return left[0]
