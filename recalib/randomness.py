@@ -8,7 +8,7 @@ import numpy as np
 def generator(seed: int, *keys: str | int) -> np.random.Generator:
     """A generator for one purpose, such as generator(1996, "links", 0, "desired poses").
 
-    Learners are never among the keys: those that are compared see the same poses.
+    In trainings learners are never among the keys: those that are compared see the same poses.
     """
     words = [zlib.crc32(key.encode()) if isinstance(key, str) else key for key in keys]
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, *words])))

@@ -13,7 +13,6 @@ from recalib.study.configuration.study import (
     Learner,
     Mapping,
     PaperDamage,
-    Ranges,
     Robot,
     Series,
     Source,
@@ -56,10 +55,11 @@ class Measuring(Frozen):
 
 
 class Training(Frozen):
-    """Some seeds of a training: from `first` to before `last`."""
+    """Some seeds of a training: from `first` to before `last`, so many for each search."""
 
     scenario: str
     learner: Learner
+    seeds: int
     first: int
     last: int
     measuring: Measuring
@@ -67,25 +67,22 @@ class Training(Frozen):
     seed: int
 
 
-class Trials(Frozen):
-    """Some trials of one round of the search for a training: from `first` to before `last`."""
+class Searches(Frozen):
+    """Some of the searches for a training: from `first` to before `last`."""
 
     training: str
     learner: Learner
-    ranges: Ranges
-    trials: int
-    seeds: int
-    seed: int
-    round: int
+    budget: Budget
     first: int
     last: int
     tests: int
 
 
 class Sample(Frozen):
-    """The whole sample of the search for a training, and what was searched for, on what."""
+    """All trials of the searches for a training, and what was searched for, on what."""
 
     learner: Learner
+    searches: int
     budget: Budget
     robot: str
     scenario: str

@@ -88,12 +88,12 @@ class Layout:
         """What a training learned."""
         return f"{self.root}/runs/{scenario}/{learner}.npz"
 
-    def search_chunk(self, training: str, round_: str, chunk: str) -> str:
-        """Some trials of the search for a training."""
-        return f"{self.root}/chunks/search/{training}.{round_}.{chunk}.csv"
+    def search_chunk(self, training: str, chunk: str) -> str:
+        """Some of the searches for a training."""
+        return f"{self.root}/chunks/search/{training}.{chunk}.csv"
 
     def searched(self, training: str) -> str:
-        """The whole sample of the search for a training."""
+        """All trials of the searches for a training."""
         return f"{self.root}/search/{training}.csv"
 
     def ensemble_chunk(self, series: str, learner: str, chunk: str) -> str:

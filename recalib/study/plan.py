@@ -59,11 +59,15 @@ class Plan:
             seed=self.study.seed,
         )
 
-    def seeds(self, learner: str) -> int:
-        """How many seeds a learner is trained with."""
-        plan = self.study.training
+    def searches(self, learner: str) -> int:
+        """How many independent searches there are for a learner."""
+        plan = self.study.search
         short = training(self.study, learner).iterations <= plan.short
-        return plan.seeds if short else plan.seeds_long
+        return plan.searches if short else plan.searches_long
+
+    def seeds(self, learner: str) -> int:
+        """How many seeds a learner is trained with, those of all its searches."""
+        return self.searches(learner) * self.study.training.seeds
 
     def measuring(self) -> jobs.Measuring:
         """How trainings are measured."""
@@ -85,40 +89,38 @@ class Plan:
         return jobs.Training(
             scenario=scenario,
             learner=rules(self.study, learner),
+            seeds=self.study.training.seeds,
             **bounds(chunk, self.seeds(learner), self.study.training.seeds_per_job),
             measuring=self.measuring(),
             throughout=robot == self.study.robot and learner in self.study.experiments.learners,
             seed=self.study.seed,
         )
 
-    def rounds(self) -> range:
-        """The rounds of the search."""
-        return range(1, self.study.search.rounds + 1)
+    def searches_per_job(self, learner: str) -> int:
+        """How many searches for a learner one job does."""
+        most, each = self.study.search.iterations_per_job, training(self.study, learner).iterations
+        return max(1, most // each)
 
-    def trial_chunks(self) -> list[int]:
-        """The chunks of a round of the search."""
-        return chunks(self.study.search.trials, self.study.search.trials_per_job)
+    def search_chunks(self, learner: str) -> list[int]:
+        """The chunks of the searches for a training."""
+        return chunks(self.searches(learner), self.searches_per_job(learner))
 
-    def trials(self, learner: str, round_: int, chunk: int) -> jobs.Trials:
-        """Some trials of the search for a training."""
-        search = self.study.search
-        return jobs.Trials(
+    def search(self, learner: str, chunk: int) -> jobs.Searches:
+        """Some of the searches for a training."""
+        return jobs.Searches(
             training=learner,
             learner=rules(self.study, learner),
-            ranges=search.ranges,
-            trials=search.trials,
-            seeds=search.seeds,
-            seed=search.seed,
-            round=round_,
-            **bounds(chunk, search.trials, search.trials_per_job),
+            budget=_only(Budget, self.study.search),
+            **bounds(chunk, self.searches(learner), self.searches_per_job(learner)),
             tests=self.study.training.tests,
         )
 
     def sample(self, learner: str) -> jobs.Sample:
-        """The whole sample of the search for a training."""
+        """All trials of the searches for a training."""
         study = self.study
         return jobs.Sample(
             learner=rules(study, learner),
+            searches=self.searches(learner),
             budget=_only(Budget, study.search),
             robot=study.robot,
             scenario=study.scenario,

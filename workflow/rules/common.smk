@@ -59,7 +59,6 @@ wildcard_constraints:
     learner=r"\w+",
     chunk=r"\d+",
     batch=r"\d+",
-    round=r"[1-9]",
     series=r"[a-z]+",
     figure=r"\w+",
     training=r"\w+_\d+",

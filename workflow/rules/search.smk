@@ -1,4 +1,4 @@
-"""The rough search for widths and rates: no part of a run that finds its samples in workflow/search."""
+"""The rough searches for widths and rates: no part of a run that finds its samples in workflow/search."""
 
 from functools import cache
 
@@ -6,7 +6,7 @@ from recalib.study.trainings import rules as rules_of, training
 
 
 def sample(wildcards, learner):
-    """The file with the search's sample for a training: the shipped one, or the study's own."""
+    """The file with the searches for a training: the shipped one, or the study's own."""
     return sample_at(wildcards.root, str(training(study(wildcards), learner)))
 
 
@@ -16,44 +16,39 @@ def sample_at(root, name):
     if STUDIES[root].settings == "shipped" and (ROOT / shipped).exists():
         from recalib.study.experiments.samples import searched_for
 
-        if searched_for(ROOT / shipped).learner == wanted:
+        found = searched_for(ROOT / shipped)
+        if found.learner == wanted and found.searches >= PLANS[root].searches(name):
             return shipped.as_posix()
     return Layout(root).searched(name)
 
 
-def trial_chunks(wildcards, rounds):
-    return [
-        layout(wildcards).search_chunk(wildcards.training, round_, chunk)
-        for round_ in rounds
-        for chunk in plan(wildcards).trial_chunks()
-    ]
-
-
-rule search_trials:
-    input:
-        scenario=own_scenario,
-        earlier=lambda w: trial_chunks(w, range(1, int(w.round))),
-    output:
-        LAYOUT.search_chunk("{training}", "{round}", "{chunk}"),
-    params:
-        code=code("search_trials.py"),
-        job=lambda w: as_text(plan(w).trials(w.training, int(w.round), int(w.chunk))),
-    message:
-        "Search for {wildcards.training}: round {wildcards.round}, chunk {wildcards.chunk}"
-    script:
-        "../scripts/search_trials.py"
-
-
 rule search:
     input:
-        trials=lambda w: trial_chunks(w, plan(w).rounds()),
+        scenario=own_scenario,
+    output:
+        LAYOUT.search_chunk("{training}", "{chunk}"),
+    params:
+        code=code("search.py"),
+        job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
+    message:
+        "Search for {wildcards.training}, chunk {wildcards.chunk} of its searches"
+    script:
+        "../scripts/search.py"
+
+
+rule search_sample:
+    input:
+        trials=lambda w: [
+            layout(w).search_chunk(w.training, chunk)
+            for chunk in plan(w).search_chunks(w.training)
+        ],
     output:
         LAYOUT.searched("{training}"),
     params:
         code=code("search_sample.py"),
         job=lambda w: as_text(plan(w).sample(w.training)),
     message:
-        "Keep all trials of the search for {wildcards.training}"
+        "Keep all trials of the searches for {wildcards.training}"
     script:
         "../scripts/search_sample.py"
 

@@ -1,4 +1,4 @@
-"""Keep the whole sample of the search for one training."""
+"""Keep all trials of the searches for one training."""
 
 import pandas as pd
 

@@ -236,12 +236,8 @@ class Mapping(Part):
 class Training(Part):
     """How trainings are run and measured."""
 
-    short: Count
-    """Trainings of up to so many iterations have `seeds`."""
     seeds: Annotated[Count, Field(ge=2)]
-    """Seeds of a short training: two at least, or there is no interval."""
-    seeds_long: Annotated[Count, Field(ge=2)]
-    """Seeds of a longer training."""
+    """Seeds for the winner of each search: two at least, or there is no interval."""
     seeds_per_job: Count
     """Seeds that one job trains."""
     tests: Count
@@ -277,7 +273,7 @@ class Budget(Part):
     seeds: Count
     """Seeds over which a trial is averaged."""
     seed: Seed
-    """Of the trials, and of poses that are used nowhere else."""
+    """Of trials and poses: each search has its own, and its poses are used nowhere else."""
     ranges: Ranges
     """Lowest and highest values."""
 
@@ -285,8 +281,14 @@ class Budget(Part):
 class Search(Budget):
     """The search for widths and rates."""
 
-    trials_per_job: Count
-    """Trials that one job makes."""
+    short: Count
+    """Trainings of up to so many iterations have `searches`."""
+    searches: Annotated[Count, Field(ge=2)]
+    """Independent searches for a short training: two at least, or there is no interval."""
+    searches_long: Annotated[Count, Field(ge=2)]
+    """Independent searches for a longer training."""
+    iterations_per_job: Count
+    """A job does as many searches as have so many iterations together, and one at least."""
 
 
 class Study(Part):

@@ -7,8 +7,8 @@ from recalib.study.measured import ERRORS
 
 KEYS = ["scenario", "learner"]
 
-# The band is the mean over the seeds plus and minus so many standard errors of it: other seeds
-# would stay inside, and a change of a rule that matters does not.
+# The band is the mean plus and minus so many standard errors of it, at the settings that the
+# searches found: other seeds would stay inside, and a change of a rule that matters does not.
 STANDARD_ERRORS = 4
 # Below these, an error is rounding and the nominal controller's tolerance.
 NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
@@ -34,8 +34,8 @@ def expect(summary: pd.DataFrame) -> pd.DataFrame:
     rows = []
     for cells in summary.to_dict("records"):
         for error in ERRORS:
-            mean, low, high = (cells[f"final_{error}{bound}"] for bound in ("", "_low", "_high"))
-            spread = STANDARD_ERRORS * (high - low) / (2 * 1.96)
+            mean = cells[f"final_{error}"]
+            spread = STANDARD_ERRORS * cells[f"final_{error}_se"]
             band = (
                 (0.0, NEGLIGIBLE[error])
                 if mean < NEGLIGIBLE[error]

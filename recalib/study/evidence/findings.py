@@ -67,7 +67,6 @@ def _said(claim: dict) -> dict:
     figures = [figure.removeprefix("figure") for figure in home.figures]
     return claim | {
         "reason": home.reason.format(**home.limits),
-        "interpretation": home.interpretation,
         "figures": " and ".join(f"Figure {figure}" for figure in figures),
     }
 
@@ -83,6 +82,8 @@ def context(evidence: Evidence) -> dict:
     summary, scaled = evidence.summary(), evidence.ensemble(IMPROVED, "scaled")
     ensembles = [evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
+    improved = evidence.fact("improved")
+    sample, searched_for = evidence.sample(improved), evidence.searched_for(improved)
     return {
         "n": n,
         "measured": measured,
@@ -92,7 +93,8 @@ def context(evidence: Evidence) -> dict:
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),
-        "trials": len(evidence.sample(evidence.fact("improved"))),
+        "trials": len(sample) // searched_for.searches,
+        "searches": searched_for.searches,
         "ensemble": _ensemble(*ensembles),
         "scaled": _scaled(scaled),
         "scaled_robots": scaled["robot"].nunique(),

@@ -49,6 +49,8 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "points": lambda study, _: study.mapping.points,
     "radius": lambda study, _: study.mapping.radius,
     "assignment_poses": lambda study, _: study.paper_damage.poses,
+    "short_searches": lambda study, _: study.search.short,
+    "searches_long": lambda study, _: study.search.searches_long,
     "tests": lambda study, _: study.training.tests,
     "measure_every": lambda study, _: study.training.measure_every,
     "real_robot": lambda study, _: study.real.robot,

@@ -15,13 +15,16 @@ def needs(ask: Request) -> None:
     for scenario in (None, "translation", "rotation"):
         ask.scenario(scenario)
     ask.sample(ask.fact("improved"))
-    ask.fact("published")
+    for fact in ("published", "short_searches", "searches_long"):
+        ask.fact(fact)
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary = evidence.summary()
     rows = {(row["scenario"], row["learner"]): row for row in summary.to_dict("records")}
+    improved, claims = evidence.fact("improved"), evidence.claims()
+    figure_1 = next(claim for claim in claims if claim["id"] == "figure-1")["measured"]
     return {
         "n": n,
         "pair": pair,
@@ -29,9 +32,10 @@ def context(evidence: Evidence) -> dict:
         "shipped": evidence.shipped,
         "study": evidence.study,
         "figures": "figures" if evidence.shipped else "../figures",
-        "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
+        "own": rows[evidence.fact("scenario"), improved],
+        "typical": ", ".join(f"{n(figure_1[f'final {unit}'])} {unit}" for unit in UNITS),
         "summary": list(rows.values()),
-        "claims": evidence.claims(),
+        "claims": claims,
         "published": " and ".join(
             f"{evidence.fact('published')[error]:g} {unit}"
             for error, unit in zip(ERRORS, UNITS, strict=True)
@@ -41,5 +45,7 @@ def context(evidence: Evidence) -> dict:
         "assignments": len(evidence.assignments()),
         "translation": amounts(evidence.scenario("translation")["damages"][0]),
         "rotation": amounts(evidence.scenario("rotation")["damages"][0]),
-        "trials": len(evidence.sample(evidence.fact("improved"))),
+        "trials": len(evidence.sample(improved)) // evidence.searched_for(improved).searches,
+        "short": evidence.fact("short_searches"),
+        "searches_long": evidence.fact("searches_long"),
     }

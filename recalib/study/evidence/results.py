@@ -9,9 +9,10 @@ from pydantic import JsonValue
 
 from recalib.errors import RecalibError
 from recalib.randomness import generator
+from recalib.study import jobs
 from recalib.study.evidence.needs import Needs
 from recalib.study.layout import SHIPPED, Layout
-from recalib.study.measured import ERRORS
+from recalib.study.measured import errors_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -77,14 +78,14 @@ class Evidence:
         return self._table(self._layout.history(scenario or self.fact("scenario"), learner))
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
-        """Position [cm] and orientation errors [degrees] (seed, 2), last or first measurement."""
-        history = self.history(learner, scenario)
-        when = history["iteration"].max() if moment == "last" else history["iteration"].min()
-        then = history[history["iteration"] == when].sort_values("seed")
-        return then[list(ERRORS)].to_numpy()
+        """Position [cm] and orientation errors [degrees], last or first measurement.
+
+        (search, seed, 2): the winner of each search with its seeds.
+        """
+        return errors_of(self.history(learner, scenario), moment)
 
     def ladder(self, learner: str) -> dict[int, np.ndarray]:
-        """Final errors (seed, 2) for each number of iterations that it was trained for."""
+        """Final errors (search, seed, 2) for each number of iterations that it was trained for."""
         return {rung: self.errors(name) for rung, name in self.fact("ladder")[learner]}
 
     def ensemble(self, learner: str, series: str) -> "pd.DataFrame":
@@ -108,16 +109,16 @@ class Evidence:
         return table.loc[table["distance"].idxmin()]
 
     def sample(self, learner: str) -> "pd.DataFrame":
-        """The sample of the search for a training, a trial a row."""
+        """All trials of the searches for a training, a row each."""
         from recalib.study.experiments.samples import read_sample
 
         return read_sample(self._sample_path(learner))
 
-    def search_seeds(self, learner: str) -> int:
-        """Seeds over which each trial of the search for a training was averaged."""
+    def searched_for(self, learner: str) -> jobs.Sample:
+        """What the searches for a training could spend, and on what."""
         from recalib.study.experiments.samples import searched_for
 
-        return searched_for(self._sample_path(learner)).budget.seeds
+        return searched_for(self._sample_path(learner))
 
     def _sample_path(self, learner: str) -> str:
         if learner not in self._needs.samples:

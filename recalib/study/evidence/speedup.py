@@ -1,41 +1,49 @@
 """How many iterations a learner needs for a pair of errors, and how many times another's."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
-from recalib.study.statistics import LEVEL, RESAMPLES, Estimate
+from recalib.study.statistics import Draws, Estimate
 
 
-def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray) -> float:
-    """The least number of iterations after which both errors are within the target.
+def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray) -> np.ndarray:
+    """The least number of iterations (...) after which both errors are within the target.
 
     Args:
         rungs: (rung,) ascending numbers of iterations, each with a training tuned for it.
-        errors: (rung, 2) mean final errors.
-        target: (2,) errors to reach.
+        errors: (..., rung, 2) mean final errors.
+        target: (..., 2) errors to reach.
 
-    Returns the number, interpolated on logarithmic scales between the last rung that misses and the
-    first that reaches; NaN where the first rung reaches already, since fewer iterations might have,
-    and infinity where none does.
+    Interpolated on logarithmic scales between the last rung that misses and the first that reaches;
+    NaN where the first rung reaches already, since fewer iterations might have, and infinity where
+    none does.
     """
-    worse = np.max(errors / target, axis=1)
-    reached = np.flatnonzero(worse <= 1)
-    if not len(reached):
-        return np.inf
-    first = reached[0]
-    if first == 0:
-        return np.nan
-    before, after = np.log(worse[first - 1]), np.log(worse[first])
-    share = before / (before - after)
-    return float(np.exp(np.log(rungs[first - 1]) + share * np.log(rungs[first] / rungs[first - 1])))
+    worse = np.log((errors / np.asarray(target)[..., None, :]).max(axis=-1))
+    reached = worse <= 0
+    after = np.maximum(reached.argmax(axis=-1), min(1, len(rungs) - 1))
+    before = after - 1
+    missed, within = (
+        np.take_along_axis(worse, rung[..., None], axis=-1)[..., 0] for rung in (before, after)
+    )
+    grid = np.log(np.asarray(rungs, dtype=float))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = missed / (missed - within)
+    needed = np.exp(grid[before] + share * (grid[after] - grid[before]))
+    needed = np.where(reached.any(axis=-1), needed, np.inf)
+    return np.where(reached[..., 0], np.nan, needed)
 
 
 def speed_up(
-    slow: dict[int, np.ndarray], fast: dict[int, np.ndarray], target, random: np.random.Generator
+    slow: Mapping[int, np.ndarray],
+    fast: Mapping[int, np.ndarray],
+    target,
+    random: np.random.Generator,
 ) -> Estimate:
-    """Iterations that the slow learner needs over those of the fast one, bootstrapped over seeds.
+    """Iterations that the slow learner needs over those of the fast one.
 
     Args:
-        slow, fast: for each rung of iterations, final errors (seed, 2).
+        slow, fast: for each rung of iterations, final errors (search, seed, 2).
         target: a pair of errors (2,), or a rung of the fast learner: the errors that it reaches.
         random: of the interval.
 
@@ -43,23 +51,16 @@ def speed_up(
     get there. An infinite bound says that the slow learner does not get there on its rungs, so
     that it needs more than the highest of them: nothing else is known.
     """
-
-    def ratio(pick) -> float:
-        means = [
-            {rung: pick(errors).mean(axis=0) for rung, errors in ladder.items()}
-            for ladder in (slow, fast)
-        ]
-        goal = means[1][target] if np.isscalar(target) else np.asarray(target)
-        needed = [
-            iterations_needed(np.array(list(m)), np.array(list(m.values())), goal) for m in means
-        ]
-        if np.isscalar(target):
-            needed[1] = float(target)
-        return needed[0] / needed[1] if needed[1] < np.inf else np.nan
-
-    resampled = [
-        ratio(lambda errors: errors[random.integers(len(errors), size=len(errors))])
-        for _ in range(RESAMPLES // 4)
+    draws = Draws(random)
+    means = [
+        np.stack([draws.means(errors) for errors in ladder.values()], axis=1)
+        for ladder in (slow, fast)
     ]
-    low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], method="nearest")
-    return Estimate(ratio(lambda errors: errors), float(low), float(high))
+    if np.isscalar(target):
+        goal, quick = means[1][:, list(fast).index(target)], float(target)
+    else:
+        goal = np.asarray(target)
+        quick = iterations_needed(np.array(list(fast)), means[1], goal)
+        quick = np.where(np.isinf(quick), np.nan, quick)
+    needed = iterations_needed(np.array(list(slow)), means[0], goal)
+    return draws.estimate(needed / quick)

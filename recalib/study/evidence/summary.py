@@ -1,15 +1,16 @@
-"""The first and the last errors of every training, with intervals over seeds."""
+"""The first and the last errors of every training, with intervals."""
 
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
 from recalib.study import jobs
-from recalib.study.measured import ERRORS
-from recalib.study.statistics import bootstrap
+from recalib.study.measured import ERRORS, errors_of
+from recalib.study.statistics import estimate
 
 
 def summarise(
@@ -34,16 +35,24 @@ def summarise(
 
 
 def _measured(history: pd.DataFrame, seed: int, scenario: str, learner: str) -> dict:
-    last = history["iteration"].max()
     cells = {
+        "searches": history["search"].nunique(),
         "seeds": history["seed"].nunique(),
-        "iterations": last,
+        "iterations": history["iteration"].max(),
         "moves": history["moves"].max(),
         "refused": history.groupby("seed")["refused"].max().sum(),
     }
-    for moment, iteration in (("initial", history["iteration"].min()), ("final", last)):
-        then = history[history["iteration"] == iteration]
-        for error in ERRORS:
+    for moment, when in (("initial", "first"), ("final", "last")):
+        errors = errors_of(history, when)
+        for kind, error in enumerate(ERRORS):
             luck = generator(seed, "summary", scenario, learner, moment, error)
-            cells |= bootstrap(then[error], luck).columns(f"{moment}_{error}")
+            name = f"{moment}_{error}"
+            cells |= estimate(errors[..., kind], luck).columns(name)
+            cells[f"{name}_se"] = error_at_these_settings(errors[..., kind])
     return cells
+
+
+def error_at_these_settings(values: np.ndarray) -> float:
+    """Standard error of the mean of values (search, seed), where only the seeds were others."""
+    by_search = values.var(axis=1, ddof=1)
+    return float(np.sqrt(by_search.mean() / values.size))

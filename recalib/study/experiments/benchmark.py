@@ -59,7 +59,8 @@ def compete(
 
     Args:
         scenarios: files of the scenarios as resolved.
-        sample: for a learner of the paper, file of the search for it.
+        sample: for a learner of the paper, file of the searches for it, whose winners the seeds
+            get in turn.
 
     Returns a row for each scenario, seed and budget of moves.
     """
@@ -70,7 +71,8 @@ def compete(
         learner = Timed(make_peer(job.name, total, controller))
     else:
         iterations, moves = job.learner.iterations, MOVES
-        learner = Timed(build_tuned(job.learner, sample, total))
+        searches = [run + 1 for run in runs] * len(scenarios)
+        learner = Timed(build_tuned(job.learner, sample, searches))
     desired, tests = (
         np.concatenate([poses(job.seed, scenario, runs, count) for scenario in job.scenarios])
         for poses, count in ((desired_poses, iterations), (test_poses, job.tests))

@@ -1,4 +1,4 @@
-"""Trainings of one learner over many seeds: their poses, and the chunks that the workflow runs."""
+"""Trainings of one learner: their poses, and the chunks that the workflow makes."""
 
 import sys
 from collections.abc import Sequence
@@ -41,31 +41,36 @@ def measured_at(measuring: jobs.Measuring, iterations: int) -> list[int]:
 def train_seeds(
     job: jobs.Training, scenario: str | Path, sample: str | Path
 ) -> tuple[dict[str, np.ndarray], HierarchicalLearner, Robot]:
-    """Train some seeds of a learner on a scenario.
+    """Train some seeds of a learner on a scenario: the winner of each search, each with its seeds.
+
+    The poses of a seed are the same for every learner.
 
     Args:
         scenario: file of the scenario as resolved.
-        sample: file of the search for this training.
+        sample: file of the searches for this training.
 
-    Returns the history by its columns, a row for each seed and measurement, the trained learner,
+    Returns the history by its columns, a row for each run and measurement, the trained learner,
     and the robot as its controller believes in it.
     """
     resolved, iterations = Resolved.read(scenario), job.learner.iterations
-    controller, runs = resolved.controller(), range(job.first, job.last)
-    plant = resolved.plant(controller, job.seed, runs)
-    learner = build_tuned(job.learner, sample, len(runs))
+    controller = resolved.controller()
+    seeds = np.arange(job.first, job.last)
+    searches = 1 + seeds // job.seeds
+    plant = resolved.plant(controller, job.seed, seeds)
+    learner = build_tuned(job.learner, sample, searches)
     name = f"{Path(sample).stem} on {job.scenario}"
     with progress_bar(name, iterations) as progress:
         history = train(
             plant,
             learner,
-            desired_poses(job.seed, job.scenario, runs, iterations),
-            test_poses(job.seed, job.scenario, runs, job.measuring.tests),
+            desired_poses(job.seed, job.scenario, seeds, iterations),
+            test_poses(job.seed, job.scenario, seeds, job.measuring.tests),
             measured_at(job.measuring, iterations) if job.throughout else [0, iterations],
             progress,
         )
     if refused := history.refused[:, -1].sum():
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
     columns = history.columns()
-    seeds = columns.pop("run") + job.first
-    return {"seed": seeds} | columns, learner, controller.robot
+    run = columns.pop("run")
+    by_run = {"search": searches[run], "seed": seeds[run]}
+    return by_run | columns, learner, controller.robot

@@ -39,7 +39,7 @@ def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
     """Train a learner on some robots of a series, each with all scales of its damage.
 
     Args:
-        sample: file of the search for this training.
+        sample: file of the searches for this training, whose winners the robots get in turn.
 
     Returns a row for each robot and scale.
     """
@@ -53,7 +53,7 @@ def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
     runs = [job.first + index for index, _ in cases]
     history = train(
         Plant(controller, arms),
-        build_tuned(job.learner, sample, len(cases)),
+        build_tuned(job.learner, sample, [run + 1 for run in runs]),
         desired_poses(job.seed, "ensemble", runs, iterations),
         test_poses(job.seed, "ensemble", runs, job.tests),
         [0, iterations],

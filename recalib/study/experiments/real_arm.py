@@ -152,7 +152,7 @@ def learn_on_twin(job: jobs.RealTwin, fit: str | PathLike, sample: str | PathLik
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
-        sample: file of the search for this training.
+        sample: file of the searches for this training, whose winners the subsets get in turn.
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
@@ -162,7 +162,7 @@ def learn_on_twin(job: jobs.RealTwin, fit: str | PathLike, sample: str | PathLik
     met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
     history = train(
         Plant(Controller(robot, job.nominal.controller.greatest_condition), [twin]),
-        build_tuned(job.learner, sample, len(runs)),
+        build_tuned(job.learner, sample, [run + 1 for run in runs]),
         desired_poses(job.seed, "twin", runs, iterations),
         test_poses(job.seed, "twin", runs, job.tests),
         sorted(met | {iterations}),

@@ -17,7 +17,7 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.Dat
 
     Args:
         scenario: file of the scenario as resolved.
-        sample: file of the search for this training.
+        sample: file of the searches for this training.
     """
     resolved, iterations = Resolved.read(scenario), job.learner.iterations
     plant = resolved.plant(resolved.controller(), job.seed, [0])
@@ -35,7 +35,7 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.Dat
 
     learned = []
     for execute in (by_robot, by_table):
-        learner = build_tuned(job.learner, sample, 1)
+        learner = build_tuned(job.learner, sample, [1])
         for iteration in range(iterations):
             learner.learn(desired[:, iteration], execute, iteration / iterations)
         learned.append(flat(learner.state()[0]))

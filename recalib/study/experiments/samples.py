@@ -1,4 +1,4 @@
-"""Samples of the search in files: all trials for a training, below what was searched for.
+"""Samples of the searches in files: all trials for a training, below what was searched for.
 
 Reading the head of a file needs no table: the workflow does it whenever it starts.
 """
@@ -25,7 +25,7 @@ class BrokenSample(RecalibError):
 
 
 def write_sample(path: str | Path, job: jobs.Sample, trials: "pd.DataFrame") -> None:
-    """Keep the trials (a row each) of the search for a training."""
+    """Keep the trials (a row each) of the searches for a training."""
     head = COMMENT + job.model_dump_json() + "\n"
     Path(path).write_text(head + trials.to_csv(index=False), encoding="utf-8")
 
@@ -39,18 +39,25 @@ def searched_for(path: str | Path) -> jobs.Sample:
         raise BrokenSample(path) from None
 
 
-def best_trial(path: str | Path) -> dict[str, float]:
-    """The trial in a file that the search keeps. Raises BrokenSample.
+def winners(path: str | Path) -> list[dict[str, float]]:
+    """The trial in a file that each search keeps, in their order. Raises BrokenSample.
 
-    As `best(read_sample(path))`, without a table: every training starts with this.
+    As `best` of each search in `read_sample(path)`, without a table: every training starts with
+    this.
     """
     from recalib.study.experiments.search import score
 
-    searched_for(path)
+    found: dict[float, dict[str, float]] = {}
+    for number in range(1, searched_for(path).searches + 1):
+        found[number] = {}
     with Path(path).open(encoding="utf-8", newline="") as lines:
         next(lines)
-        rows = [{name: float(text) for name, text in row.items()} for row in csv.DictReader(lines)]
-    return min(rows, key=score)
+        for row in csv.DictReader(lines):
+            trial = {name: float(text) for name, text in row.items()}
+            best = found[trial["search"]]
+            if not best or score(trial) < score(best):
+                found[trial["search"]] = trial
+    return list(found.values())
 
 
 def read_sample(path: str | Path) -> "pd.DataFrame":

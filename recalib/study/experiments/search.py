@@ -1,4 +1,4 @@
-"""The rough search for widths and rates: quasi-random trials, the same for every training.
+"""The rough search for widths and rates: quasi-random trials, as many for every training.
 
 A trial is a row of numbers: initial_width, for each map and net a final width (such as
 `position/g_k`), initial_rate and final_rate. The first round of trials covers the ranges, later
@@ -41,21 +41,25 @@ def _kinds(rules: Rules) -> list[str]:
 
 
 def draw(
-    rules: Rules, ranges: Mapping, count: int, seed: int, around: Mapping | None = None
+    rules: Rules,
+    ranges: Mapping,
+    count: int,
+    random: np.random.Generator,
+    around: Mapping | None = None,
 ) -> "pd.DataFrame":
     """Trials, a row each.
 
     Args:
         ranges: for each kind of number, the lowest and the highest value.
         count: how many, best a power of two.
-        seed: of the quasi-random sequence.
+        random: of the quasi-random sequence.
         around: a trial; the box searched is then ZOOM as wide, about it, and inside the ranges.
     """
     import pandas as pd  # half a second each, which every training would pay
     from scipy.stats import qmc
 
     low, high = np.log(np.array([ranges[kind] for kind in _kinds(rules)])).T
-    unit = qmc.Sobol(len(low), rng=np.random.default_rng(seed)).random(count)
+    unit = qmc.Sobol(len(low), rng=random).random(count)
     if around is not None:
         values = np.log([around[column] for column in columns(rules)])
         values[1:-2] -= values[0]
@@ -81,9 +85,8 @@ def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
 
 
 def score(errors: Mapping):
-    """What the search minimises: the larger of both errors, in cm and degrees as in Figure 1.
+    """What the search minimises: the geometric mean of both errors, by which learners are compared.
 
-    The paper asks for a pair of errors, and a pair is reached by both. Of a trial, or of a frame of
-    trials.
+    It does not depend on the units. Of a trial, or of a frame of trials.
     """
-    return np.maximum(errors["position_error_cm"], errors["orientation_error_deg"])
+    return np.sqrt(errors["position_error_cm"] * errors["orientation_error_deg"])

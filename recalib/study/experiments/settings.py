@@ -1,13 +1,13 @@
-"""A learner of the paper with the widths and rates that the search found for it."""
+"""A learner of the paper with the widths and rates that the searches found for it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from recalib.learners.hierarchical import HierarchicalLearner, Rules
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments import search
-from recalib.study.experiments.samples import best_trial
+from recalib.study.experiments.samples import winners
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -30,12 +30,19 @@ def best(trials: "pd.DataFrame") -> "pd.Series":
     return trials.loc[search.score(trials).idxmin()]
 
 
-def build(learner: Learner, trial: Mapping, runs: int) -> HierarchicalLearner:
-    """An untrained learner with the widths and rates of a trial."""
+def build(learner: Learner, trials: Sequence[Mapping]) -> HierarchicalLearner:
+    """An untrained learner, each run with the widths and rates of a trial."""
     rules = rules_of(learner)
-    return HierarchicalLearner(runs, rules, search.schedule(trial, rules))
+    columns = {name: [trial[name] for trial in trials] for name in search.columns(rules)}
+    return HierarchicalLearner(len(trials), rules, search.schedule(columns, rules))
 
 
-def build_tuned(learner: Learner, path: str | Path, runs: int) -> HierarchicalLearner:
-    """An untrained learner with the widths and rates of the best trial in a file."""
-    return build(learner, best_trial(path), runs)
+def build_tuned(learner: Learner, path: str | Path, searches: Iterable[int]) -> HierarchicalLearner:
+    """An untrained learner, each run with the widths and rates that a search in a file found.
+
+    Args:
+        searches: for each run the number of a search, from 1; beyond the last one the first
+            follows again.
+    """
+    found = winners(path)
+    return build(learner, [found[(number - 1) % len(found)] for number in searches])

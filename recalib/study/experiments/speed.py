@@ -43,7 +43,7 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
 
     Args:
         scenario: file of the scenario as resolved.
-        samples: by learner, file of the search for it.
+        samples: by learner, file of the searches for it.
     """
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
@@ -67,7 +67,7 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
     ]
     desired = desired_poses(0, "bench", range(RUNS), ITERATIONS)
     for name, rules in job.learners.items():
-        learner = build_tuned(rules, samples[name], RUNS)
+        learner = build_tuned(rules, samples[name], range(1, RUNS + 1))
         arguments = Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
         spent = seconds(train, *arguments) / (RUNS * ITERATIONS)
         lines.append(

@@ -75,11 +75,11 @@ def figure4(evidence: Evidence) -> Figure:
     axes.set_ylim(-0.5, len(rows) - 0.3)
     axes.grid(axis="y", visible=False)
     axes.legend(fontsize=9)
-    seeds = len(evidence.errors(evidence.fact("improved")))
+    searches, seeds, _ = evidence.errors(evidence.fact("improved")).shape
     title(
         figure,
         _heading(evidence, rows),
-        f"mean of both errors after {evidence.fact('iterations')} iterations, {seeds} paired seeds,"
-        f" same budget for each; {INTERVALS}",
+        f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"
+        f" {searches} searches each, {seeds} seeds for each winner\n{INTERVALS}",
     )
     return figure

@@ -77,8 +77,8 @@ def _draw_robots(axes: Axes, evidence: Evidence) -> None:
     for offset, (learner, look) in zip(offsets, learners.items(), strict=True):
         left = [
             np.max(
-                evidence.errors(learner, each).mean(axis=0)
-                / evidence.errors(learner, each, "first").mean(axis=0)
+                evidence.errors(learner, each).mean(axis=(0, 1))
+                / evidence.errors(learner, each, "first").mean(axis=(0, 1))
             )
             for each in robots.values()
         ]

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, KINDS, UNITS
+from recalib.study.measured import ERRORS, KINDS, UNITS, errors_of
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import (
@@ -23,7 +23,7 @@ from recalib.study.plots.style import (
     title,
     words,
 )
-from recalib.study.statistics import first_within
+from recalib.study.statistics import first_within, typical
 
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
@@ -39,37 +39,44 @@ def label(look, history: pd.DataFrame) -> str:
 
 
 def draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
-    """The spread of the seeds: 5th to 95th percentile at each iteration."""
+    """The spread of searches and seeds: 5th to 95th percentile at each iteration."""
     low, high = np.percentile(table, BAND, axis=1)
     axes.fill_between(table.index, low, high, color=color, alpha=0.2, linewidth=0)
 
 
-def draw_learning(axes: Axes, history: pd.DataFrame, tests: int, seed: int = 0) -> Axes:
+def of_typical_search(history: pd.DataFrame) -> pd.DataFrame:
+    """The rows of a history that belong to the typical search."""
+    number = sorted(history["search"].unique())[typical(errors_of(history))]
+    return history[history["search"] == number]
+
+
+def draw_learning(axes: Axes, history: pd.DataFrame, tests: int) -> Axes:
     """Both errors over the iterations on one scale, as in the paper's Figure 1.
 
     Args:
         axes: where to draw.
         history: of a training.
         tests: poses of each measurement.
-        seed: the one drawn bold before the spread of all.
     """
-    seeds = history["seed"].nunique()
+    bold, searches = of_typical_search(history), history["search"].nunique()
+    last = {}
     for error, style, name, unit in zip(ERRORS, (POSITION, ORIENTATION), KINDS, UNITS, strict=True):
         table = curves(history, error)
         draw_band(axes, table, style["color"])
-        axes.plot(table.index, table[seed], linewidth=2.4, label=name, **style)
+        line = curves(bold, error).mean(axis=1)
+        last[error] = line.iloc[-1]
+        axes.plot(line.index, line, linewidth=2.4, label=name, **style)
         axes.annotate(
-            f"{name}: {table[seed].iloc[0]:.1f} {unit}",
-            (table.index[0], table[seed].iloc[0]),
+            f"{name}: {line.iloc[0]:.1f} {unit}",
+            (line.index[0], line.iloc[0]),
             (26, 3),
             textcoords="offset points",
             color=style["color"],
         )
-    last = [curves(history, error).iloc[-1].mean() for error in ERRORS]
     axes.annotate(
-        f"after {history['iteration'].max()} iterations, mean of {seeds} seeds:\n"
-        f"{last[0]:.2f} cm and {last[1]:.2f} degrees",
-        (table.index[-1], max(last)),
+        f"after {history['iteration'].max()} iterations of the typical search:\n"
+        f"{last[ERRORS[0]]:.2f} cm and {last[ERRORS[1]]:.2f} degrees",
+        (history["iteration"].max(), max(last.values())),
         (0, 28),
         textcoords="offset points",
         ha="right",
@@ -80,7 +87,12 @@ def draw_learning(axes: Axes, history: pd.DataFrame, tests: int, seed: int = 0) 
         xlim=(0, history["iteration"].max()),
     )
     axes.set_ylim(bottom=0)
-    axes.legend(title=f"bold: one seed; band: {BAND[0]}-{BAND[1]} % of {seeds} seeds")
+    axes.legend(
+        title=f"bold: the median of {searches} searches for widths and rates,\n"
+        f"mean of its {bold['seed'].nunique()} seeds; band: {BAND[0]}-{BAND[1]} % of all"
+        f" {history['seed'].nunique()} runs",
+        title_fontsize=9,
+    )
     return axes
 
 
@@ -89,7 +101,7 @@ def figure1(evidence: Evidence) -> Figure:
     figure, axes = plt.subplots()
     history = evidence.history(evidence.fact("improved"))
     draw_learning(axes, history, evidence.fact("tests"))
-    ends = history.groupby("iteration")[list(ERRORS)].mean()
+    ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
     left = 100 * ends.iloc[-1] / ends.iloc[0]
     text = (
         f"Figure 1: both errors over {ends.index[-1]} iterations;"
@@ -133,8 +145,8 @@ def figure2(evidence: Evidence) -> Figure:
         plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
         plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     title(figure, f"Figure 2: {_in_one_sentence(histories, compared)}")
-    seeds = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
-    spread = f"lines: means of {seeds} seeds; bands: {BAND[0]}-{BAND[1]} % of them"
+    runs = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
+    spread = f"lines: means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %"
     legend_below(figure, panels[0], len(histories), spread)
     return figure
 
@@ -193,6 +205,6 @@ def figure3(evidence: Evidence) -> Figure:
         axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
         axes.grid(axis="y", visible=False)
     title(figure, "Figure 3: errors before and after learning, in every scenario")
-    spread = f"signs: means over seeds; lines: {BAND[0]}-{BAND[1]} % of the seeds"
+    spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
     legend_below(figure, panels[0], 1 + len(learners), spread)
     return figure

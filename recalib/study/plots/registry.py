@@ -7,6 +7,7 @@ from typing import Literal
 
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
+from recalib.study.evidence.claims.speed_up import READINGS
 from recalib.study.evidence.claims.switches import ask_for
 from recalib.study.evidence.needs import Needs, Request
 
@@ -74,7 +75,7 @@ def _figure8(ask: Request) -> None:
 
 
 def _figure9(ask: Request) -> None:
-    for learner in (IMPROVED, RITTER):
+    for learner in (IMPROVED, *READINGS):
         ask.ladder(learner)
     ask.history(ask.fact("improved"))
     ask.fact("seed")

@@ -17,15 +17,21 @@ from recalib.study.plots.style import BORDER, ORIENTATION, POSITION, plain, titl
 
 def _draw_shares(axes: Axes, evidence: Evidence) -> None:
     for learner, look in looks([IMPROVED, RITTER]).items():
-        trials = evidence.sample(evidence.fact(learner))
-        ratio = np.sort(score(trials[trials["round"] == 1])) / score(trials).min()
+        ratio = np.sort(
+            np.concatenate(
+                [
+                    score(trials[trials["round"] == 1]) / score(trials).min()
+                    for _, trials in evidence.sample(evidence.fact(learner)).groupby("search")
+                ]
+            )
+        )
         share = np.arange(1, len(ratio) + 1) / len(ratio)
         axes.step(ratio, share, label=look.label.capitalize(), **look.line())
     axes.axvline(rough_search.CLAIM.limits["factor"], **BORDER)
     axes.set(
         xscale=LOG,
-        xlabel="worse error of a random trial over that of the best trial",
-        ylabel="share of the first round's trials",
+        xlabel="error of a random trial over that of its search's best",
+        ylabel="share of the first rounds' trials",
     )
     plain(axes.xaxis, 1, 2, 5, 10, 20, 50, 100)
     axes.set_title("How rough may the search be?", fontsize=11)
@@ -37,13 +43,13 @@ def figure6(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.4))
     _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
-    trials = evidence.sample(improved)
+    trials, budget = evidence.sample(improved), evidence.searched_for(improved)
     for name, style, marker in zip(KINDS, (POSITION, ORIENTATION), "os", strict=True):
         panels[1].scatter(
             trials[f"{name}/g_k"] / trials[f"{name}/g_kl"],
             score(trials),
-            s=14,
-            alpha=0.6,
+            s=8,
+            alpha=0.4,
             color=style["color"],
             marker=marker,
             label=f"{name} map",
@@ -53,7 +59,7 @@ def figure6(evidence: Evidence) -> Figure:
         xscale=LOG,
         yscale=LOG,
         xlabel="final width of $g_k$ (positions) over that of $g_{kl}$ (orientations)",
-        ylabel="worse error [cm or degrees]",
+        ylabel="error [geometric mean of cm and degrees]",
     )
     plain(panels[1].xaxis, 0.1, 0.3, 1, 3, 10)
     plain(panels[1].yaxis, 0.3, 0.5, 1, 2, 5)
@@ -61,8 +67,9 @@ def figure6(evidence: Evidence) -> Figure:
     panels[1].legend(fontsize=9, loc="center left", frameon=True, framealpha=0.9, edgecolor="none")
     title(
         figure,
-        "Figure 6: what the search sees",
-        f"{len(trials)} trials for each training, {evidence.search_seeds(improved)} seeds each,"
-        f" improved at {evidence.fact('iterations')} iterations on the right",
+        "Figure 6: what the searches see",
+        f"{budget.searches} searches for the improved map, {len(trials) // budget.searches} trials"
+        f" each, {budget.budget.seeds} seeds a trial; on the right, those of all searches at"
+        f" {evidence.fact('iterations')} iterations",
     )
     return figure

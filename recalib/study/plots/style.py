@@ -36,8 +36,9 @@ STYLE = {
 LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
 POSITION = {"color": "#0072B2", "linestyle": SOLID}
 ORIENTATION = {"color": "#D55E00", "linestyle": DASHED}
-BAND = (5, 95)  # percent of the seeds
-INTERVALS = "lines: 95 % bootstrap intervals"
+BAND = (5, 95)  # percent of the runs
+# of `statistics.Estimate`
+INTERVALS = "lines: where 95 % of repetitions with other searches and seeds would lie"
 BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 
 

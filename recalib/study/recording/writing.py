@@ -1,4 +1,4 @@
-"""Writing a recording: the first run of an experiment once more, watched."""
+"""Writing a recording: a run of an experiment once more, watched."""
 
 from collections.abc import Mapping, Sequence
 from itertools import cycle
@@ -13,12 +13,12 @@ from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import campaign
 from recalib.study.experiments.settings import build_tuned
+from recalib.study.measured import errors_of
 from recalib.study.plants import Resolved
 from recalib.study.recording import about, arms, scene, story
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.seal import check_errors, check_recording, write_sealed
-
-FIRST = 0  # the seed that is recorded
+from recalib.study.statistics import typical
 
 
 def record(
@@ -28,22 +28,24 @@ def record(
     samples: Sequence[str | Path],
     histories: Sequence[str | Path],
 ) -> None:
-    """Write the recording of a scenario from files; see `write_recording`.
+    """Write the recording of a scenario from files: a run of the first learner's typical search.
+
+    See `write_recording`.
 
     Args:
         scenario: file of the scenario as resolved.
         samples: for each learner of the job, the file of the search for it.
         histories: for each learner of the job, the file of its training.
     """
+    tables = dict(zip(job.learners, map(pd.read_parquet, histories), strict=True))
+    errors = errors_of(next(iter(tables.values())))
+    seed = typical(errors) * errors.shape[1]  # the first one of that search
+    measured = {name: table[table["seed"] == seed] for name, table in tables.items()}
     learners = {
-        name: build_tuned(learner, sample, 1)
+        name: build_tuned(learner, sample, measured[name]["search"].unique())
         for (name, learner), sample in zip(job.learners.items(), samples, strict=True)
     }
-    measured = {
-        name: pd.read_parquet(history, filters=[("seed", "==", FIRST)])
-        for name, history in zip(job.learners, histories, strict=True)
-    }
-    write_recording(Path(path), job, Resolved.read(scenario), learners, measured)
+    write_recording(Path(path), job, Resolved.read(scenario), learners, measured, seed)
 
 
 def write_recording(
@@ -52,6 +54,7 @@ def write_recording(
     resolved: Resolved,
     learners: Mapping[str, HierarchicalLearner],
     measured: Mapping[str, Mapping[str, Sequence]],
+    seed: int,
 ) -> dict[str, story.Watched]:
     """Train learners on a scenario's robot, and write what one would have seen.
 
@@ -60,19 +63,20 @@ def write_recording(
     Args:
         job: its learners have the same number of iterations.
         learners: fresh learners of one run, by name. The arm is moved by the first of them.
-        measured: for each learner, the columns of its history in the experiment's first run.
+        measured: for each learner, the columns of its history with this seed in the experiment.
+        seed: of the poses that are visited.
 
     Returns what was watched, by learner. Raises BrokenRecording where the robot's meshes are not
     found, and where the experiment measured anything else than what was watched.
     """
     iterations = next(iter(job.learners.values())).iterations
-    desired = campaign.desired_poses(job.seed, job.scenario, [FIRST], iterations)[0]
-    tests = campaign.test_poses(job.seed, job.scenario, [FIRST], job.measuring.tests)[0]
+    desired = campaign.desired_poses(job.seed, job.scenario, [seed], iterations)[0]
+    tests = campaign.test_poses(job.seed, job.scenario, [seed], job.measuring.tests)[0]
     measure_at = campaign.measured_at(job.measuring, iterations)
     controller = resolved.controller()
     watched = {}
     for name, learner in learners.items():
-        plant = resolved.plant(controller, job.seed, [FIRST])
+        plant = resolved.plant(controller, job.seed, [seed])
         watched[name] = story.watch(controller, plant, learner, desired, tests, measure_at)
         check_errors(path, name, watched[name].history.columns(), measured[name])
 

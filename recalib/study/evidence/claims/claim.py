@@ -1,6 +1,6 @@
 """What a claim is: one home of all that is said of it, and how it is judged."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -25,6 +25,33 @@ class Limit(float):
             case "central":
                 return f"{100 * (1 - 2 * self):g} %"
         return super().__format__(how or "g")
+
+
+def below(estimate: Estimate, limit: float) -> bool | None:
+    """Whether the whole interval is below the limit; None where the limit is inside of it."""
+    if estimate.high < limit:
+        return True
+    return False if estimate.low > limit else None
+
+
+def above(estimate: Estimate, limit: float) -> bool | None:
+    """Whether the whole interval is above the limit; None where the limit is inside of it."""
+    if estimate.low > limit:
+        return True
+    return False if estimate.high < limit else None
+
+
+def every(judged: Iterable[bool | None]) -> bool | None:
+    """Whether all hold: not where one does not, and nobody knows where one is undecided."""
+    judged = list(judged)
+    if False in judged:
+        return False
+    return None if None in judged else True
+
+
+def verdict(holds: bool | None) -> str:
+    """In a word."""
+    return {True: SUPPORTED, False: NOT_SUPPORTED, None: UNDECIDED}[holds]
 
 
 @dataclass
@@ -56,9 +83,7 @@ class Finding:
     def verdict(self) -> str:
         """Undecided where a number is missing: a comparison with NaN is false, and says nothing."""
         numbers = [*self.measured.values(), *sum(self.interval.values(), start=())]
-        if self.holds is None or np.isnan(numbers).any():
-            return UNDECIDED
-        return SUPPORTED if self.holds else NOT_SUPPORTED
+        return verdict(None if np.isnan(numbers).any() else self.holds)
 
 
 @dataclass(frozen=True)
@@ -76,7 +101,6 @@ class Claim:
         needs: asks for what `measure` reads.
         measure: from evidence and limits to what was found.
         figures: that show it.
-        interpretation: why the shipped study may not have found it.
     """
 
     id: str
@@ -89,7 +113,6 @@ class Claim:
     needs: Callable[[Request], None]
     measure: Callable[[Evidence, Mapping[str, Limit]], Finding]
     figures: tuple[str, ...] = ()
-    interpretation: str = ""
 
     def judge(self, evidence: Evidence) -> dict:
         """What was measured and the verdict, as the contract of claims.json has them."""

@@ -14,7 +14,7 @@ def needs(ask):
 
 def measure(evidence, limits):
     worst = evidence.history(evidence.fact("improved"), SCENARIO)[list(ERRORS)].max()
-    ritter = evidence.errors(evidence.fact("short"), SCENARIO).mean(axis=0)
+    ritter = evidence.errors(evidence.fact("short"), SCENARIO).mean(axis=(0, 1))
     note = (
         f"Ritter's values do not leave it there: {ritter[0]:.2g} cm and {ritter[1]:.2g} degrees"
         f" after {evidence.fact('iterations')} iterations."

@@ -1,6 +1,6 @@
 """Section 3: Ritter's algorithm as it is."""
 
-from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit, above, every
 from recalib.study.evidence.claims.shares import both_left
 
 
@@ -12,7 +12,8 @@ def needs(ask):
 
 def measure(evidence, limits):
     estimates = both_left(evidence, evidence.fact("short"))
-    return Finding.of(all(each.low > limits["left"] for each in estimates.values()), estimates)
+    holds = every(above(each, limits["left"]) for each in estimates.values())
+    return Finding.of(holds, estimates)
 
 
 CLAIM = Claim(
@@ -23,7 +24,7 @@ CLAIM = Claim(
     published="no number",
     limits={"left": Limit(0.25)},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"
-    " a {left:word} of the initial ones (lower ends).",
+    " a {left:word} of the initial ones (whole intervals).",
     reason="The paper shows 200 iterations of its improvement; a learner that keeps a {left:word}"
     " of the error there is not quick.",
     needs=needs,

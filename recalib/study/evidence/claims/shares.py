@@ -2,15 +2,15 @@
 
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import KINDS
-from recalib.study.statistics import Estimate, paired_ratio
+from recalib.study.statistics import Estimate, geometric
 
 
 def left(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
     """The share that is left of the position error (kind 0) or of the orientation error (1)."""
     first, last = (
-        evidence.errors(learner, scenario, moment)[:, kind] for moment in ("first", "last")
+        evidence.errors(learner, scenario, moment)[..., kind] for moment in ("first", "last")
     )
-    return paired_ratio(last, first, evidence.rng("left", learner, KINDS[kind]))
+    return geometric(last / first, evidence.rng("left", learner, KINDS[kind]))
 
 
 def both_left(evidence: Evidence, learner: str) -> dict[str, Estimate]:
