@@ -26,7 +26,7 @@ class Cells:
         self._runs = np.arange(runs)
         self._kept = 0
         self._g_k, self._g_kl, self._targets = (
-            np.empty((KEPT, runs, size)) for size in (supernet, subnet, self._cells.shape[-1])
+            np.empty((runs, KEPT, size)) for size in (supernet, subnet, self._cells.shape[-1])
         )
 
     @property
@@ -41,10 +41,10 @@ class Cells:
         held = self._cells[self._runs, k, l]
         if self._kept:
             kept = slice(self._kept)
-            weights = self._g_k[kept, self._runs, k] * self._g_kl[kept, self._runs, l]
+            weights = self._g_k[self._runs, kept, k] * self._g_kl[self._runs, kept, l]
             if not self._increments:
-                held *= _outlast(weights)[:, None]
-            held += np.einsum("br,brn->rn", weights, self._targets[kept])
+                held *= _outlast(weights.T)[:, None]
+            held += np.einsum("rb,rbn->rn", weights, self._targets[:, kept])
         return held.reshape(-1, *self._shape)
 
     def update(
@@ -59,25 +59,30 @@ class Cells:
         """
         if self._kept == KEPT:
             self._make()
-        np.multiply(rate[:, None], g_k, out=self._g_k[self._kept])
-        self._g_kl[self._kept] = g_kl
-        self._targets[self._kept] = target.reshape(len(target), -1)
+        np.multiply(rate[:, None], g_k, out=self._g_k[:, self._kept])
+        self._g_kl[:, self._kept] = g_kl
+        self._targets[:, self._kept] = target.reshape(len(target), -1)
         self._kept += 1
 
     def _make(self) -> None:
         """Make the updates that were kept back, run by run: so the cache holds what they need."""
         kept, self._kept = slice(self._kept), 0
         for run, cells in enumerate(self._cells):
-            table = cells.reshape(-1, cells.shape[-1])
-            g_k, g_kl = self._g_k[kept, run], self._g_kl[kept, run]
-            weights = (g_k[:, :, None] * g_kl[:, None, :]).reshape(-1, len(table))
-            if not self._increments:
-                table *= _outlast(weights)[:, None]
-            table += weights.T @ self._targets[kept, run]
+            g_k, g_kl, targets = (
+                each[run, kept] for each in (self._g_k, self._g_kl, self._targets)
+            )
+            if self._increments:
+                spread = g_kl[:, :, None] * targets[:, None, :]
+                change = g_k.T @ spread.reshape(len(g_k), -1)
+            else:
+                weights = g_k[:, :, None] * g_kl[:, None, :]
+                cells *= _outlast(weights)[:, :, None]
+                change = weights.reshape(len(g_k), -1).T @ targets
+            cells += change.reshape(cells.shape)
 
 
 def _outlast(weights: np.ndarray) -> np.ndarray:
-    """Make of the weights of updates (update, ...) those that they keep under the later ones.
+    """Turn the weights of updates (update, ...) into those that they keep under the later ones.
 
     Each later update towards a value leaves 1 - weight of what was there. In place; returns what
     all together leave (...) of what was there before.
