@@ -5,6 +5,7 @@ These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
@@ -16,6 +17,7 @@ from recalib.quantities import ANGLE, LENGTH
 # Pinocchio and SciPy take a second, and whoever only reads a configuration needs neither of them:
 # they are imported where an arm is made.
 if TYPE_CHECKING:
+    from recalib.nominal.chain import Chain
     from recalib.nominal.kinematics import Arm
     from recalib.nominal.robots import Robot
 
@@ -41,7 +43,14 @@ class DamagedArm:
         Args:
             angles: (n, 6) rad in which the controller believes.
         """
-        return self.arm.forward(self.standing(angles))
+        return self.chain.forward(self.standing(angles)[None])[0]
+
+    @cached_property
+    def chain(self) -> "Chain":
+        """Its kinematics for many postures at once, once all damages are done."""
+        from recalib.nominal.chain import Chain
+
+        return Chain(self.arm)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
         """Joint angles (n, 6) [rad] at which the arm stands.

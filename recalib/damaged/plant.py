@@ -4,8 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.interfaces import ForwardKinematics, Outcome
+from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
 
 
@@ -14,7 +16,8 @@ class Plant:
 
     Args:
         controller: the nominal controller, which knows of no damage.
-        arms: one for each run, or a single one for all runs: damaged, or a twin of a real one.
+        arms: a damaged one for each run, or a single one for all runs, which may be the twin of a
+            real one.
         disturbances: of the executed moves; none unless given.
         generators: their randomness, one for each run.
 
@@ -26,12 +29,13 @@ class Plant:
     def __init__(
         self,
         controller: Controller,
-        arms: Sequence[ForwardKinematics],
+        arms: Sequence[DamagedArm] | Sequence[ForwardKinematics],
         disturbances: Disturbances | None = None,
         generators: Sequence[np.random.Generator] = (),
     ):
         self._controller, self._arms = controller, arms
         self._disturbances, self._generators = disturbances, generators
+        self._chains = len(arms) > 1 and Chain.side_by_side([arm.chain for arm in arms])
         self._home = [arm.forward(controller.robot.home[None])[0] for arm in arms]
         self.moves = self.refused = 0
 
@@ -67,10 +71,11 @@ class Plant:
         """As `achieve`, for commands that the controller has turned into joint angles."""
         angles, executed = targets
         runs, moves, _ = angles.shape
-        if len(self._arms) == 1:
-            poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
+        if self._chains:
+            standing = [arm.standing(own) for arm, own in zip(self._arms, angles, strict=True)]
+            poses = self._chains.forward(np.stack(standing))
         else:
-            poses = np.stack([arm.forward(q) for arm, q in zip(self._arms, angles, strict=True)])
+            poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
         if not executed.all():
             homes = np.broadcast_to(np.stack(self._home)[:, None], poses.shape)
             poses[~executed] = homes[~executed]

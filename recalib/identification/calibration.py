@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
 from recalib.interfaces import State
+from recalib.nominal.chain import to_frames
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.regression import Process, is_time_to_search
@@ -102,9 +103,10 @@ def angles_for(
     def look(runs, angles):
         each = (
             calibrations[run].forward_and_jacobian(own)
-            for run, own in zip(runs, angles, strict=True)
+            for run, own in zip(runs, angles.transpose(1, 2, 0), strict=True)
         )
-        return tuple(map(np.stack, zip(*each, strict=True)))
+        reached, jacobians = map(np.stack, zip(*each, strict=True))
+        return to_frames(reached), lambda unsolved: jacobians[unsolved].transpose(2, 3, 0, 1)
 
     return solve_groups(look, poses, start, TOLERANCE, STEPS)[0]
 

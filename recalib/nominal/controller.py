@@ -14,12 +14,15 @@ import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.monomials import monomials
+from recalib.nominal.chain import Chain
 from recalib.nominal.newton import TOLERANCE, solve_newton
+from recalib.nominal.poses import ORIENTATION
 from recalib.nominal.robots import Robot
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
 DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
+TRUSTED = 1.25  # up to here it is: learners command poses a little beyond the workspace
 NOT_REACHED = "no joint angles reach it"
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 
@@ -70,12 +73,12 @@ class Controller:
     """
 
     def __init__(self, robot: Robot, greatest_condition: float = GREATEST_CONDITION):
-        self.robot = robot
+        self.robot, self._chain = robot, Chain(robot.arm)
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
         knots, solved = np.tile(robot.home, (len(grid), 1)), []
         for part in BOXES:  # from home outwards, so that every knot is on the branch of home
             poses = robot.workspace.to_poses(grid * part)
-            knots, residuals = solve_newton(robot.arm, poses, knots)
+            knots, residuals = solve_newton(self._chain, poses, knots)
             solved.append(knots)
         self._check_reach(poses, residuals)
         self._check_limits(knots)
@@ -85,17 +88,26 @@ class Controller:
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
-        # the polynomial knows nothing of what is beyond the workspace
-        features = monomials(np.clip(self.robot.workspace.to_coordinates(poses), -1, 1), DEGREE)
+        return self._solve(poses, self.robot.workspace.to_coordinates(poses))
+
+    def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
+        beyond = np.abs(coordinates).max(axis=1, keepdims=True) > TRUSTED
+        features = monomials(np.where(beyond, np.clip(coordinates, -1, 1), coordinates), DEGREE)
         # row by row: one product of all would round with the batch's size
         start = (features[:, None] @ self._guess)[:, 0]
-        angles, residuals = solve_newton(self.robot.arm, poses, start)
+        angles, residuals = solve_newton(self._chain, poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
 
     def targets(self, commands: np.ndarray) -> Targets:
         """What the commands, coordinates (run, move, 6), ask of the joints."""
-        solution = self.solve(self.robot.workspace.to_poses(commands.reshape(-1, 6)))
+        workspace, coordinates = self.robot.workspace, commands.reshape(-1, 6).copy()
+        poses = workspace.to_poses(coordinates)
+        # a turn of more than a right angle may be a smaller one the other way
+        turns = np.abs(coordinates[:, ORIENTATION] * workspace.half_ranges[ORIENTATION])
+        if (far := turns.max(axis=1) > np.pi / 2).any():
+            coordinates[far] = workspace.to_coordinates(poses[far])
+        solution = self._solve(poses, coordinates)
         return Targets(
             solution.angles.reshape(commands.shape), solution.reached.reshape(commands.shape[:-1])
         )

@@ -4,21 +4,26 @@ from collections.abc import Callable
 
 import numpy as np
 
-from recalib.nominal.kinematics import Arm
+from recalib.nominal.chain import LAST, NEXT, Chain, blocks, jacobians, to_frames
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 
-# From the groups (m,) that are asked for and their joint angles (m, n, 6) [rad] to the poses
-# (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, 6) there.
-Look = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+# From the groups (m,) that are asked for and their joint angles (6, m, n) [rad] to the frames
+# (3, 4, m, n) [m] of the tool, and a function from those of the groups that are not yet solved, an
+# index, to the tool's Jacobians (6, 6, unsolved, n) there.
+Linearise = Callable[[np.ndarray | slice], np.ndarray]
+Look = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, Linearise]]
 
 
-def solve_newton(arm: Arm, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def solve_newton(
+    chain: Chain, poses: np.ndarray, start: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Joint angles (n, 6) [rad] that take the arm's tool to poses, each solved by itself.
 
     Args:
+        chain: of the arm.
         poses: (n, 4, 4) of the tool in the base frame [m].
         start: (n, 6) rad nearby.
 
@@ -27,11 +32,15 @@ def solve_newton(arm: Arm, poses: np.ndarray, start: np.ndarray) -> tuple[np.nda
     """
 
     def look(_, angles):
-        reached, jacobians = arm.forward_and_jacobian(angles[:, 0])
-        return reached[:, None], jacobians[:, None]
+        frames = chain.frames(angles)
+        return frames[-1], lambda unsolved: jacobians(frames[..., unsolved, :])
 
-    angles, residuals = solve_groups(look, poses[:, None], start[:, None], TOLERANCE, STEPS)
-    return angles[:, 0], residuals[:, 0]
+    angles, residuals = np.empty(start.shape), np.empty(len(start))
+    for block in blocks(len(start)):
+        angles[block, None], residuals[block, None] = solve_groups(
+            look, poses[block, None], start[block, None], TOLERANCE, STEPS
+        )
+    return angles, residuals
 
 
 def solve_groups(
@@ -48,42 +57,61 @@ def solve_groups(
         steps: at most so many.
     """
     found, left = start.copy(), np.full(start.shape[:2], np.inf)
-    unsolved, goals, angles, best, least = np.arange(len(poses)), poses, start, found, left
+    unsolved, goals, angles = (
+        np.arange(len(poses)),
+        to_frames(poses),
+        start.transpose(2, 0, 1).copy(),
+    )
+    best, least = angles, left
     for _ in range(steps):
-        reached, jacobians = look(unsolved, angles)
+        reached, linearise = look(unsolved, angles)
         missing = _missing(reached, goals)
-        residuals = np.abs(missing).max(axis=-1)
+        residuals = np.abs(missing).max(axis=0)
         better = residuals < least
-        best, least = np.where(better[..., None], angles, best), np.where(better, residuals, least)
+        if better.all():
+            best, least = angles, residuals
+        else:
+            best, least = np.where(better, angles, best), np.where(better, residuals, least)
         goes_on = (least > tolerance).any(axis=1)
         if not goes_on.any():
             break
-        if not goes_on.all():
-            found[unsolved], left[unsolved] = best, least
-            unsolved, goals, angles, best, least, jacobians, missing = (
-                each[goes_on] for each in (unsolved, goals, angles, best, least, jacobians, missing)
+        if goes_on.all():
+            goes_on = slice(None)
+        else:
+            found[unsolved], left[unsolved] = best.transpose(1, 2, 0), least
+            unsolved, least = unsolved[goes_on], least[goes_on]
+            goals, angles, best, missing = (
+                each[..., goes_on, :] for each in (goals, angles, best, missing)
             )
-        turns = _solve_each(jacobians, missing)
-        longest = np.abs(turns).max(axis=-1, keepdims=True)
-        angles = angles + turns * (LONGEST_STEP / np.maximum(LONGEST_STEP, longest))
-    found[unsolved], left[unsolved] = best, least
+        angles = angles + _turns(linearise(goes_on), missing)
+    found[unsolved], left[unsolved] = best.transpose(1, 2, 0), least
     return found, left
 
 
 def _missing(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes the poses `start` (..., 4, 4) to `end`, (..., 6), along the base's axes.
+    """What takes the frames `start` (3, 4, ...) to `end`, (6, ...), along the base's axes.
 
     The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
     angle itself where Newton's method ends.
     """
-    between = end[..., :3, :3] @ start[..., :3, :3].swapaxes(-2, -1)
-    turns = (between - between.swapaxes(-2, -1))[..., [2, 0, 1], [1, 2, 0]] / 2
-    return np.concatenate([end[..., :3, 3] - start[..., :3, 3], turns], axis=-1)
+    back = np.add.reduce(start[:, None, :3] * end[:, :3], axis=2)  # from the end to the start
+    missing = np.empty((6, *start.shape[2:]))
+    np.subtract(end[:, 3], start[:, 3], out=missing[:3])
+    np.subtract(back[NEXT, LAST], back[LAST, NEXT], out=missing[3:])
+    missing[3:] /= 2
+    return missing
 
 
-def _solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The solutions (..., 6) of linear equations; of a singular one the smallest."""
+def _turns(matrices: np.ndarray, missing: np.ndarray) -> np.ndarray:
+    """Newton's steps (6, ...) [rad] by Jacobians (6, 6, ...): the smallest of a singular one."""
+    matrices = matrices.transpose(2, 3, 0, 1)
+    missing = missing.transpose(1, 2, 0)[..., None]
     try:
-        return np.linalg.solve(matrices, vectors[..., None])[..., 0]
+        turns = np.linalg.solve(matrices, missing)[..., 0]
     except np.linalg.LinAlgError:  # one of them is exactly singular
-        return (np.linalg.pinv(matrices) @ vectors[..., None])[..., 0]
+        turns = (np.linalg.pinv(matrices) @ missing)[..., 0]
+    turns = turns.transpose(2, 0, 1).copy()
+    longest = np.abs(turns).max(axis=0)
+    if longest.max() > LONGEST_STEP:
+        turns = turns * (LONGEST_STEP / np.maximum(LONGEST_STEP, longest))
+    return turns

@@ -17,7 +17,7 @@ def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) 
     workspace = controller.robot.workspace
     poses = workspace.to_poses(desired)
     start = controller.solve(poses).angles + arm.offsets
-    angles, residuals = solve_newton(arm.arm, poses, start)
+    angles, residuals = solve_newton(arm.chain, poses, start)
     commands = workspace.to_coordinates(controller.robot.arm.forward(angles - arm.offsets))
     commands[residuals > TOLERANCE] = np.nan
     return commands
