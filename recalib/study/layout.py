@@ -34,6 +34,11 @@ class Layout:
         return f"{self.root}/claims.json"
 
     @property
+    def coverage(self) -> str:
+        """How often intervals held, when the study was repeated within itself."""
+        return f"{self.root}/coverage.csv"
+
+    @property
     def check(self) -> str:
         """The check of the final errors."""
         return f"{self.root}/check.txt"

@@ -3,6 +3,7 @@
 from functools import partial
 
 from recalib.study.evidence.claims import judging
+from recalib.study.evidence.coverage import needs as needs_of_coverage
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
 
@@ -46,6 +47,24 @@ rule claims:
         "Judge every claim of the paper"
     script:
         "../scripts/claims.py"
+
+
+def coverage_needs(wildcards):
+    return asked(wildcards.root, needs_of_coverage)
+
+
+rule coverage:
+    input:
+        evidence=lambda w: coverage_needs(w).inputs,
+    output:
+        LAYOUT.coverage,
+    params:
+        code=code("coverage.py"),
+        job=lambda w: as_text(coverage_needs(w)),
+    message:
+        "Repeat the study in small, within itself: do its intervals hold?"
+    script:
+        "../scripts/coverage.py"
 
 
 def page_needs(wildcards):

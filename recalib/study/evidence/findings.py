@@ -20,6 +20,7 @@ def needs(ask: Request) -> None:
     """What the page reads."""
     ask.summary()
     ask.claims()
+    ask.coverage()
     for series in ("assignments", "scaled"):
         ask.ensemble(IMPROVED, series)
     ask.ensemble(RITTER, "assignments")
@@ -93,6 +94,7 @@ def context(evidence: Evidence) -> dict:
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),
+        "coverage": 100 * evidence.coverage()["inside"].mean(),
         "trials": len(sample) // searched_for.searches,
         "searches": searched_for.searches,
         "ensemble": _ensemble(*ensembles),

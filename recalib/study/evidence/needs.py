@@ -189,6 +189,10 @@ class Request:
         """The judged claims."""
         self._result(self._layout.claims)
 
+    def coverage(self) -> None:
+        """How often intervals held."""
+        self._result(self._layout.coverage)
+
     def benchmark(self) -> None:
         """Errors of every learner against moves."""
         self._result(self._layout.benchmark)

@@ -11,6 +11,7 @@ from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 
 if TYPE_CHECKING:
+    import pandas as pd
     from jinja2 import Environment
 
 TEXTS = "workflow/report"
@@ -74,9 +75,9 @@ def context(evidence: Evidence) -> dict:
         **evidence.facts,
         "own": runs.get((evidence.fact("scenario"), evidence.fact("improved"))),
         "runs": runs,
-        "settings": {learner: best(sample).to_dict() for learner, sample in samples.items()},
+        "settings": {learner: _spread(best(sample)) for learner, sample in samples.items()},
         "rounds": one["round"].nunique(),
-        "trials": int((one["round"] == 1).sum()),
+        "trials": int((one["round"] == 1).sum()) // one["search"].nunique(),
         "resolved": [
             evidence.scenario(scenario) for scenario in dict.fromkeys(each for each, _ in runs)
         ],
@@ -84,6 +85,11 @@ def context(evidence: Evidence) -> dict:
         "versions": {"Python": platform.python_version()}
         | {name: version(name) for name in PACKAGES},
     }
+
+
+def _spread(winners: "pd.DataFrame") -> dict[str, str]:
+    """The least and the largest of each number."""
+    return {name: f"{values.min():.2g} to {values.max():.2g}" for name, values in winners.items()}
 
 
 def drawing(path: str | Path):

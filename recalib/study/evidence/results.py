@@ -141,6 +141,10 @@ class Evidence:
         """The first and the last errors of every training."""
         return self._table(self._layout.summary)
 
+    def coverage(self) -> "pd.DataFrame":
+        """How often intervals held."""
+        return self._table(self._layout.coverage)
+
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""
         return self._table(self._layout.benchmark)

@@ -38,6 +38,13 @@ def measured(claim: Mapping) -> str:
     return "; ".join(text(label, value) for label, value in claim["measured"].items())
 
 
+def brief(claim: Mapping) -> str:
+    """The first number that was measured for a claim, without its interval."""
+    label, value = next(iter(claim["measured"].items()))
+    number = "more" if value is None else _rounding(value) or f"{value:.3g}"
+    return f"{label}: {number}"
+
+
 def amounts(entry: Mapping) -> str:
     """A damage in the words of the configuration, without their keys."""
     values = (", ".join(each) if isinstance(each, list) else each for each in entry.values())

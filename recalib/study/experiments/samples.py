@@ -42,7 +42,7 @@ def searched_for(path: str | Path) -> jobs.Sample:
 def winners(path: str | Path) -> list[dict[str, float]]:
     """The trial in a file that each search keeps, in their order. Raises BrokenSample.
 
-    As `best` of each search in `read_sample(path)`, without a table: every training starts with
+    As `best(read_sample(path))`, without a table: every training starts with
     this.
     """
     from recalib.study.experiments.search import score

@@ -25,9 +25,9 @@ def rules_of(learner: Learner) -> Rules:
     )
 
 
-def best(trials: "pd.DataFrame") -> "pd.Series":
-    """The trial that the search would keep."""
-    return trials.loc[search.score(trials).idxmin()]
+def best(trials: "pd.DataFrame") -> "pd.DataFrame":
+    """The trials that the searches keep, one each."""
+    return trials.loc[search.score(trials).groupby(trials["search"]).idxmin()]
 
 
 def build(learner: Learner, trials: Sequence[Mapping]) -> HierarchicalLearner:

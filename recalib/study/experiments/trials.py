@@ -1,18 +1,19 @@
 """Independent searches for the widths and rates of a training, on poses that nothing else uses."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.interfaces import Commandable
+from recalib.learners.hierarchical import HierarchicalLearner, Rules
 from recalib.randomness import generator
 from recalib.study import jobs
+from recalib.study.configuration.study import Budget
 from recalib.study.experiments import search
 from recalib.study.experiments.campaign import desired_poses, test_poses
-from recalib.study.experiments.settings import best, rules_of
+from recalib.study.experiments.settings import rules_of
 from recalib.study.plants import Resolved
 from recalib.training import train
 
@@ -28,54 +29,62 @@ def search_for(job: jobs.Searches, scenario: str | Path) -> pd.DataFrame:
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(job.budget.seeds)]
 
-    def plant(runs: int) -> Plant:
+    def robots(runs: int) -> Commandable:
         return resolved.plant(controller, job.budget.seed, seeds * (runs // len(seeds)))
 
-    searches = range(job.first + 1, job.last + 1)
     found = []
-    for number in searches:
-        # as a scope of randomness: nothing of a search is that of another one, or of a training
+    for number in range(job.first + 1, job.last + 1):
+        # nothing of a search is that of another one, or of a training
         luck = f"search {number} for {job.training} on {resolved.scenario}"
-        desired = desired_poses(job.budget.seed, luck, seeds, job.learner.iterations)
-        tests = test_poses(job.budget.seed, luck, seeds, job.tests)
-        trials = _search(job, luck, plant, desired, tests)
+        rules, iterations = rules_of(job.learner), job.learner.iterations
+        trials = search_once(robots, rules, iterations, job.budget, job.tests, luck)
         trials.insert(0, "search", number)
         found.append(trials)
     return pd.concat(found, ignore_index=True)
 
 
-def _search(job: jobs.Searches, luck: str, plant, desired, tests) -> pd.DataFrame:
-    """One search, round after round."""
-    rules, budget = rules_of(job.learner), job.budget
+def search_once(
+    robots: Callable[[int], Commandable],
+    rules: Rules,
+    iterations: int,
+    budget: Budget,
+    tests: int,
+    luck: str,
+    score: Callable[[Mapping], pd.Series] = search.score,
+) -> pd.DataFrame:
+    """All trials of one search, round after round, a row each.
+
+    Args:
+        robots: makes as many, for the runs of all seeds of the first trial, then of the next.
+        iterations: of a training.
+        tests: poses on which a trial is measured.
+        luck: the scope of its randomness.
+        score: of a frame of trials, what the search minimises.
+    """
+    seeds = range(budget.seeds)
+    poses = desired_poses(budget.seed, luck, seeds, iterations)
+    tested = test_poses(budget.seed, luck, seeds, tests)
     rounds: list[pd.DataFrame] = []
     for round_ in range(1, budget.rounds + 1):
-        centre = best(pd.concat(rounds)) if rounds else None
+        so_far = pd.concat(rounds, ignore_index=True) if rounds else None
+        centre = None if so_far is None else so_far.loc[score(so_far).idxmin()]
         random = generator(budget.seed, luck, "trials", round_)
         trials = search.draw(rules, dict(budget.ranges), budget.trials, random, centre)
-        errors = _errors(job, trials, plant, desired, tests)
-        trials = trials.assign(**errors)
+        runs = len(trials) * len(seeds)
+        history = train(
+            robots(runs),
+            HierarchicalLearner(runs, rules, search.schedule(trials, rules, len(seeds))),
+            np.tile(poses, (len(trials), 1, 1)),
+            np.tile(tested, (len(trials), 1, 1)),
+            [iterations],
+        )
+        for column, errors in (
+            ("position_error_cm", 100 * history.position),
+            ("orientation_error_deg", np.degrees(history.orientation)),
+        ):
+            by_trial = np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds))
+            means = np.exp(by_trial.mean(axis=1))  # geometric, over the seeds
+            trials[column] = [float(f"{mean:.{DIGITS}g}") for mean in means]
         trials.insert(0, "round", round_)
         rounds.append(trials)
-    return pd.concat(rounds)
-
-
-def _errors(job: jobs.Searches, trials: pd.DataFrame, plant, desired, tests) -> Mapping:
-    """The errors of trials, each their geometric mean over the seeds."""
-    rules, seeds = rules_of(job.learner), job.budget.seeds
-    runs = len(trials) * seeds
-    history = train(
-        plant(runs),
-        HierarchicalLearner(runs, rules, search.schedule(trials, rules, seeds)),
-        np.tile(desired, (len(trials), 1, 1)),
-        np.tile(tests, (len(trials), 1, 1)),
-        [job.learner.iterations],
-    )
-    errors = {}
-    for column, measured in (
-        ("position_error_cm", 100 * history.position),
-        ("orientation_error_deg", np.degrees(history.orientation)),
-    ):
-        by_trial = np.log(measured[:, -1, 0]).reshape(len(trials), seeds)
-        means = np.exp(by_trial.mean(axis=1))
-        errors[column] = [float(f"{mean:.{DIGITS}g}") for mean in means]
-    return errors
+    return pd.concat(rounds, ignore_index=True)
