@@ -10,6 +10,7 @@ from recalib.damaged.kinds import DAMAGES
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, UnknownName
+from recalib.nominal.robots import link_end
 from tests.conftest import ROOT
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
@@ -51,6 +52,23 @@ def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
     assert np.allclose(np.linalg.norm(damaged[:, :3, 3] - nominal[:, :3, 3], axis=1), 0.04)
     with pytest.raises(InvalidSetting, match=f"{whole * 100:.2f} cm, its length"):
         apply(robot, [LinkShortening(link, whole + 1e-6)])
+
+
+@pytest.mark.parametrize(
+    ("link", "before", "after"),
+    [
+        ("upper_arm_link", [0, -0.1719, 0.612], [0, -0.1719, 0.572]),
+        ("wrist_3_link", [0, 0.0922, 0], [0, 0.0522, 0]),
+    ],
+)
+def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
+    damaged = apply(robot, [LinkShortening(link, 0.04, "axis")])
+    ends = [link_end(arm.model, "tool0", robot.links[link]) for arm in (robot.arm, damaged.arm)]
+    assert np.allclose(ends, [before, after])
+    with pytest.raises(InvalidSetting, match=r"below 61.20 cm|below 9.22 cm"):
+        apply(robot, [LinkShortening(link, 0.612, "axis")])
+    with pytest.raises(UnknownName, match="valid: axis, line"):
+        LinkShortening(link, 0.04, "z")
 
 
 def test_an_encoder_shift_is_an_offset_of_its_joint(robot):

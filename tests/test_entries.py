@@ -23,6 +23,7 @@ from recalib.study.configuration.damages import (
 ENTRY = TypeAdapter(Entry)
 WORDS = [
     ({"link": "forearm_link", "shorten": "4 cm"}, LinkShortening("forearm_link", 0.04)),
+    ({"link": "a", "shorten": "1 cm", "along": "axis"}, LinkShortening("a", 0.01, "axis")),
     ({"encoder": "elbow_joint", "shift": "-3 deg"}, EncoderShift("elbow_joint", -np.radians(3))),
     ({"translate": ["1 cm", "0 m", "-2 mm"]}, BaseShift(translation=(0.01, 0.0, -0.002))),
     ({"rotate": ["0 deg", "180 deg", "1 rad"]}, BaseShift(rotation=(0.0, np.pi, 1.0))),
@@ -74,9 +75,9 @@ def test_every_kind_is_tried_above():
 
 def test_disturbances_are_gathered_beside_damages():
     entries = [meant for _, meant in WORDS]
-    assert disturbances_among(entries) == Disturbances(*entries[8:11])
-    assert damages_among(entries) == entries[:8]
-    assert disturbances_among(entries[:8]) is None
+    assert disturbances_among(entries) == Disturbances(*entries[9:12])
+    assert damages_among(entries) == entries[:9]
+    assert disturbances_among(entries[:9]) is None
 
 
 def test_an_assigned_damage_is_its_part_of_the_assignment():
@@ -86,7 +87,19 @@ def test_an_assigned_damage_is_its_part_of_the_assignment():
     assert encoders.part_of(assignment) == [assignment[1]]
 
 
-@pytest.mark.parametrize("said", [{}, {"twist": "3 deg"}, "links", None, [], 3, {3: 4}])
+@pytest.mark.parametrize(
+    "said",
+    [
+        {},
+        {"twist": "3 deg"},
+        {"link": "a", "shorten": "1 cm", "along": "z"},
+        "links",
+        None,
+        [],
+        3,
+        {3: 4},
+    ],
+)
 def test_what_is_no_entry_is_refused(said):
     with pytest.raises(ValidationError):
         ENTRY.validate_python(said)

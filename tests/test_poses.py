@@ -5,24 +5,33 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
-from recalib.nominal.poses import Workspace, orientation_error, position_error
+from recalib.errors import UnknownName
+from recalib.nominal.poses import COORDINATES, Workspace, orientation_error, position_error
 
 CENTRE = np.eye(4)
 CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()
 CENTRE[:3, 3] = 0.7, -0.2, 0.4
-WORKSPACE = Workspace(CENTRE, np.array([0.25, 0.3, 0.25, 0.35, 0.35, 0.35]))
+HALF_RANGES = np.array([0.25, 0.3, 0.25, 0.35, 0.35, 0.35])
+WORKSPACE = Workspace(CENTRE, HALF_RANGES)
+both = pytest.mark.parametrize(
+    "workspace",
+    [Workspace(CENTRE, HALF_RANGES, each) for each in COORDINATES],
+    ids=list(COORDINATES),
+)
 coordinates = arrays(float, (5, 6), elements=st.floats(-2, 2))
 vectors = arrays(float, 3, elements=st.floats(-1, 1))
 
 
-@given(coordinates)
-def test_coordinates_survive_the_round_trip(u):
-    assert np.allclose(WORKSPACE.to_coordinates(WORKSPACE.to_poses(u)), u, atol=1e-12)
+@both
+@given(u=coordinates)
+def test_coordinates_survive_the_round_trip(workspace, u):
+    assert np.allclose(workspace.to_coordinates(workspace.to_poses(u)), u, atol=1e-12)
 
 
-@given(coordinates)
-def test_poses_are_rigid(u):
-    rotations = WORKSPACE.to_poses(u)[:, :3, :3]
+@both
+@given(u=coordinates)
+def test_poses_are_rigid(workspace, u):
+    rotations = workspace.to_poses(u)[:, :3, :3]
     assert np.allclose(rotations @ rotations.swapaxes(1, 2), np.eye(3), atol=1e-12)
     assert np.allclose(np.linalg.det(rotations), 1)
 
@@ -38,6 +47,19 @@ def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     )
     x, y, z = (Rotation.from_rotvec(0.35 * axis).as_matrix() for axis in np.eye(3))
     assert np.allclose(pose[2, :3, :3], CENTRE[:3, :3] @ z @ y @ x)
+
+
+def test_a_rotation_vector_turns_about_itself():
+    workspace = Workspace(CENTRE, HALF_RANGES, "rotation_vector")
+    pose = workspace.to_poses(np.array([0, 0, 0, 1, 1, 1.0]))
+    turned = CENTRE[:3, :3].T @ pose[:3, :3]
+    assert np.allclose(turned @ [1, 1, 1], [1, 1, 1])
+    assert np.trace(turned) == pytest.approx(1 + 2 * np.cos(0.35 * np.sqrt(3)))
+
+
+def test_unknown_coordinates_are_refused_with_the_known_ones():
+    with pytest.raises(UnknownName, match="valid: roll_pitch_yaw, rotation_vector"):
+        Workspace(CENTRE, HALF_RANGES, "quaternion")
 
 
 @given(vectors, vectors, st.floats(0.001, 3.1))

@@ -6,7 +6,7 @@ These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from recalib.nominal.chain import Chain
     from recalib.nominal.kinematics import Arm
     from recalib.nominal.robots import Robot
+
+
+ALONG = "line", "axis"  # in which a link is shortened
 
 
 @dataclass
@@ -119,10 +122,20 @@ class BaseShift(Damage):
 
 @dataclass(frozen=True)
 class LinkShortening(Damage):
-    """A link shortened along the straight line between its joints (the last: joint and tool)."""
+    """A link shortened between its joints (the last: joint and tool)."""
 
     link: str = said("link", "A link of the robot.")
     length: float = said("shorten", "Length taken off.", LENGTH)
+    along: Literal[ALONG] = said(
+        "along",
+        "The straight line between its joints, or the axis of its frame along which it is longest.",
+        default="line",
+    )
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.along not in ALONG:
+            raise UnknownName("direction in which a link is shortened", self.along, ALONG)
 
     def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
         from recalib.nominal.robots import link_end
@@ -130,11 +143,13 @@ class LinkShortening(Damage):
         if self.link not in robot.links:
             raise UnknownName(f"link of {robot.name}", self.link, robot.links)
         end = link_end(damaged.arm.model, damaged.arm.tool, robot.links[self.link])
-        whole = np.linalg.norm(end)
+        longest = np.abs(end).argmax()
+        part = end if self.along == "line" else end[longest : longest + 1]
+        whole = np.linalg.norm(part)
         if self.length >= whole:
             valid = f"from 0 to below {whole * 100:.2f} cm, its length"
             raise InvalidSetting(f"shorten of {self.link}", f"{self.length * 100:g} cm", valid)
-        end *= 1 - self.length / whole
+        part *= 1 - self.length / whole
 
 
 @dataclass(frozen=True)

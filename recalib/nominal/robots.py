@@ -74,6 +74,7 @@ def load_robot(
     orientation_range: Sequence[float],
     limits: Mapping[str, tuple[float, float]] | None = None,
     name: str | None = None,
+    coordinates: str = "roll_pitch_yaw",
 ) -> Robot:
     """The robot that a URDF describes, with a workspace about its home.
 
@@ -82,12 +83,13 @@ def load_robot(
         tool: name of the link whose frame is the pose.
         home: rad by joint, at the centre of the workspace.
         position_range: (3,) m, full sizes of the workspace along the base's axes.
-        orientation_range: (3,) rad, its full ranges of roll, pitch and yaw.
+        orientation_range: (3,) rad, its full ranges of roll, pitch and yaw, or of rotation vectors.
         limits: lowest and highest angle [rad] by joint, in place of the URDF's.
         name: what people call it; the file's name unless given.
+        coordinates: of orientations; see `Workspace`.
 
-    Raises UnknownName (URDF, tool link, joint), UnsuitableRobot, and InvalidSetting (a joint
-    without a home, a home beyond a joint's limits, a workspace without size).
+    Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot, and InvalidSetting (a
+    joint without a home, a home beyond a joint's limits, a workspace without size).
     """
     path, limits = _find(urdf), limits or {}
     arm = _serial_arm(path, tool)
@@ -115,6 +117,7 @@ def load_robot(
     workspace = Workspace(
         centre=arm.forward(angles[None])[0],
         half_ranges=np.array([*position_range, *orientation_range]) / 2,
+        coordinates=coordinates,
     )
     return Robot(name or path.stem, path, arm, angles, lower, upper, workspace)
 

@@ -23,13 +23,15 @@ from recalib.study.plants import nominal_controller
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 
 
-def shortenings(links: Sequence[str], lengths: Sequence[float]) -> list[tuple[LinkShortening, ...]]:
+def shortenings(
+    links: Sequence[str], lengths: Sequence[float], along: str
+) -> list[tuple[LinkShortening, ...]]:
     """Every way to take the lengths [m] off as many different links."""
     ways = dict.fromkeys(
         tuple(sorted(zip(chosen, lengths, strict=True)))
         for chosen in permutations(links, len(lengths))
     )
-    return [tuple(LinkShortening(link, length) for link, length in way) for way in ways]
+    return [tuple(LinkShortening(link, length, along) for link, length in way) for way in ways]
 
 
 def shifts(joints: Sequence[str], angles: Sequence[float]) -> list[tuple[EncoderShift, ...]]:
@@ -48,6 +50,7 @@ class Ways:
     Args:
         links: to which the lengths [m] may be assigned.
         joints: to whose encoders the angles [rad] may be, with either sign.
+        along: which direction links are shortened; see `LinkShortening`.
     """
 
     def __init__(
@@ -56,9 +59,10 @@ class Ways:
         lengths: Sequence[float],
         joints: Sequence[str],
         angles: Sequence[float],
+        along: str = "line",
     ):
         self._links, self._joints = list(links), list(joints)
-        self.short, self.shifted = shortenings(links, lengths), shifts(joints, angles)
+        self.short, self.shifted = shortenings(links, lengths, along), shifts(joints, angles)
 
     def __len__(self) -> int:
         return len(self.short) * len(self.shifted)

@@ -32,6 +32,7 @@ def nominal_robot(nominal: jobs.Nominal) -> Robot:
         orientation_range=entry.workspace.orientation,
         limits=entry.limits,
         name=nominal.name,
+        coordinates=entry.workspace.coordinates,
     )
 
 

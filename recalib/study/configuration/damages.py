@@ -3,6 +3,7 @@
 Words, meanings and units stand beside the fields of the damage's class (`recalib.damaged.words`).
 """
 
+import builtins
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, Literal, Union, get_origin
@@ -54,8 +55,13 @@ def _model(kind: type[Described]) -> type[Frozen]:
     for field in dataclasses.fields(kind):
         word = words(kind)[field.name]
         number = _TYPES[word.quantity, word.signed] if word.quantity else Share
-        each = Text if field.type is str else number
-        its_type = tuple[each, each, each] if get_origin(field.type) is tuple else each
+        match get_origin(field.type):
+            case None:
+                its_type = Text if field.type is str else number
+            case builtins.tuple:
+                its_type = tuple[number, number, number]
+            case _:  # a choice
+                its_type = field.type
         default = ... if field.default is dataclasses.MISSING else field.default
         said[word.key] = its_type, Field(default, description=word.meaning)
     inner = create_model(kind.__name__, __base__=Frozen, __doc__=kind.__doc__, **said)

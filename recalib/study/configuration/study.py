@@ -44,7 +44,9 @@ class Workspace(Part):
     position: tuple[Size, Size, Size]
     """Along the base's x, y and z."""
     orientation: tuple[Range, Range, Range]
-    """Of roll, pitch and yaw."""
+    """Of roll, pitch and yaw, or along the axes of rotation vectors."""
+    coordinates: Literal["roll_pitch_yaw", "rotation_vector"] = "roll_pitch_yaw"
+    """By which orientations are given."""
 
 
 class Robot(Part):
