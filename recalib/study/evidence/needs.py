@@ -5,6 +5,7 @@ tables and draws nothing, since the workflow does it whenever it starts.
 """
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
 from pydantic import JsonValue
 
@@ -12,7 +13,7 @@ from recalib.errors import UnknownName
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.layout import Layout
+from recalib.study.layout import OUTCOMES, SHIPPED, Layout
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
@@ -192,6 +193,11 @@ class Request:
     def coverage(self) -> None:
         """How often intervals held."""
         self._result(self._layout.coverage)
+
+    def outcomes(self) -> None:
+        """What was measured in each universe, where the study is the one that they vary."""
+        if self.study.name == SHIPPED and Path(OUTCOMES).exists():
+            self._result(OUTCOMES)
 
     def benchmark(self) -> None:
         """Errors of every learner against moves."""

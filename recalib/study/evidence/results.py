@@ -11,7 +11,7 @@ from recalib.errors import RecalibError
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.evidence.needs import Needs
-from recalib.study.layout import SHIPPED, Layout
+from recalib.study.layout import OUTCOMES, SHIPPED, Layout
 from recalib.study.measured import errors_of
 
 if TYPE_CHECKING:
@@ -144,6 +144,10 @@ class Evidence:
     def coverage(self) -> "pd.DataFrame":
         """How often intervals held."""
         return self._table(self._layout.coverage)
+
+    def outcomes(self) -> "pd.DataFrame | None":
+        """A row for each universe; None for a study without any."""
+        return self._table(OUTCOMES) if OUTCOMES in self._needs.files else None
 
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""

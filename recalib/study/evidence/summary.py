@@ -10,7 +10,7 @@ import pandas as pd
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.measured import ERRORS, errors_of
-from recalib.study.statistics import estimate
+from recalib.study.statistics import Draws
 
 
 def summarise(
@@ -42,13 +42,13 @@ def _measured(history: pd.DataFrame, seed: int, scenario: str, learner: str) -> 
         "moves": history["moves"].max(),
         "refused": history.groupby("seed")["refused"].max().sum(),
     }
-    for moment, when in (("initial", "first"), ("final", "last")):
-        errors = errors_of(history, when)
-        for kind, error in enumerate(ERRORS):
-            luck = generator(seed, "summary", scenario, learner, moment, error)
-            name = f"{moment}_{error}"
-            cells |= estimate(errors[..., kind], luck).columns(name)
-            cells[f"{name}_se"] = error_at_these_settings(errors[..., kind])
+    names = [f"{moment}_{error}" for moment in ("initial", "final") for error in ERRORS]
+    values = np.concatenate([errors_of(history, when) for when in ("first", "last")], axis=-1)
+    draws = Draws(generator(seed, "summary", scenario, learner))
+    means = draws.means(values)  # once for all four numbers: drawing is what takes the time
+    for index, name in enumerate(names):
+        cells |= draws.estimate(means[:, index]).columns(name)
+        cells[f"{name}_se"] = error_at_these_settings(values[..., index])
     return cells
 
 

@@ -64,7 +64,7 @@ def judging(request: Callable[[], Request]) -> Judging:
     needs = {}
     for claim in CLAIMS:
         ask = request()
-        claim.needs(ask)
+        claim.ask(ask)
         needs[claim.id] = ask.needs
     return Judging(claims=needs)
 
@@ -79,5 +79,5 @@ def missing(study: Study) -> list[str]:
     layout, trainings = Layout(root_of(study.name)), Trainings(study)
     ask = Request(study, trainings, layout, layout.searched)
     for claim in CLAIMS:
-        claim.needs(ask)
+        claim.ask(ask)
     return ask.lacking

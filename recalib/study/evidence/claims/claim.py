@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from recalib.study.evidence.claims.across import Across, Share, over_all
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.statistics import Estimate
@@ -49,6 +50,12 @@ def every(judged: Iterable[bool | None]) -> bool | None:
     return None if None in judged else True
 
 
+def somewhere(judged: Iterable[bool | None]) -> bool | None:
+    """Whether it holds somewhere, and nowhere does the reverse; the reverse is judged alike."""
+    judged = set(judged) - {None}
+    return judged.pop() if len(judged) == 1 else None
+
+
 def verdict(holds: bool | None) -> str:
     """In a word."""
     return {True: SUPPORTED, False: NOT_SUPPORTED, None: UNDECIDED}[holds]
@@ -59,20 +66,25 @@ class Finding:
     """What was measured.
 
     Attributes:
-        holds: whether the criterion does; None where what was measured cannot tell.
+        holds: whether the criterion does; None where what was measured cannot tell. By system,
+            where a claim is about several.
         measured: numbers by label.
         interval: of those that have one.
         note: what else there is to say.
     """
 
-    holds: bool | None
+    holds: bool | dict[str, bool | None] | None
     measured: dict[str, float]
     interval: dict[str, tuple[float, float]] = field(default_factory=dict)
     note: str = ""
 
     @classmethod
     def of(
-        cls, holds: bool | None, estimates: Mapping[str, Estimate], note: str = "", **others: float
+        cls,
+        holds: bool | dict[str, bool | None] | None,
+        estimates: Mapping[str, Estimate],
+        note: str = "",
+        **others: float,
     ) -> "Finding":
         """A finding of estimates, and of numbers without an interval."""
         means = {label: estimate.mean for label, estimate in estimates.items()}
@@ -80,10 +92,15 @@ class Finding:
         return cls(holds, means | others, intervals, note)
 
     @property
-    def verdict(self) -> str:
-        """Undecided where a number is missing: a comparison with NaN is false, and says nothing."""
+    def systems(self) -> dict[str, bool | None]:
+        """Whether the criterion holds, by system; that of a claim about a single one has no name.
+
+        Undecided where a number is missing: a comparison with NaN is false, and says nothing.
+        """
         numbers = [*self.measured.values(), *sum(self.interval.values(), start=())]
-        return verdict(None if np.isnan(numbers).any() else self.holds)
+        known = not np.isnan(numbers).any()
+        by_system = self.holds if isinstance(self.holds, dict) else {"": self.holds}
+        return {system: holds if known else None for system, holds in by_system.items()}
 
 
 @dataclass(frozen=True)
@@ -100,6 +117,7 @@ class Claim:
         reason: why just that would; it may name limits alone.
         needs: asks for what `measure` reads.
         measure: from evidence and limits to what was found.
+        across: how it is measured in a universe, by system; empty where nothing can vary it.
         figures: that show it.
     """
 
@@ -112,11 +130,16 @@ class Claim:
     reason: str
     needs: Callable[[Request], None]
     measure: Callable[[Evidence, Mapping[str, Limit]], Finding]
+    across: Mapping[str, Across] = field(default_factory=dict)
     figures: tuple[str, ...] = ()
 
     def judge(self, evidence: Evidence) -> dict:
         """What was measured and the verdict, as the contract of claims.json has them."""
         finding = self.measure(evidence, self.limits)
+        shares = self.shares(evidence)
+        judged = {
+            system: over_all(home, shares.get(system)) for system, home in finding.systems.items()
+        }
 
         def said(text: str) -> str:
             return text.format(**self.limits, **evidence.facts)
@@ -132,9 +155,35 @@ class Claim:
                 for label, (low, high) in finding.interval.items()
             },
             "criterion": said(self.criterion),
-            "verdict": finding.verdict,
+            "verdict": verdict(somewhere(judged.values())),
             "note": finding.note,
+            "universes": next((share.said for share in shares.values()), None),
+            "systems": {
+                system: {
+                    "verdict": verdict(each),
+                    "universes": shares[system].said if shares else None,
+                }
+                for system, each in judged.items()
+                if system
+            },
         }
+
+    def ask(self, request: Request) -> None:
+        """Ask for all that judging it reads."""
+        self.needs(request)
+        if self.across:
+            request.outcomes()
+
+    def shares(self, evidence: Evidence) -> dict[str, Share]:
+        """In how many universes it holds, by system; empty for a study without universes."""
+        outcomes = evidence.outcomes() if self.across else None
+        if outcomes is None:
+            return {}
+        found = {}
+        for system, across in self.across.items():
+            holds = across.holds(outcomes, self.limits[across.limit])
+            found[system] = Share(int(holds.sum()), len(holds))
+        return found
 
 
 def _number(value: float) -> float | None:

@@ -1,5 +1,6 @@
 """Section 7: the paper's Figure 1."""
 
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, below, every
 from recalib.study.evidence.claims.shares import both_left
 from recalib.study.statistics import typical
@@ -32,5 +33,6 @@ CLAIM = Claim(
     " a figure would show.",
     needs=needs,
     measure=measure,
+    across={"": Across("left", "left")},
     figures=("figure1",),
 )

@@ -1,5 +1,6 @@
 """Section 3: the intact robot."""
 
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.measured import ERRORS
 
@@ -35,5 +36,6 @@ CLAIM = Claim(
     " sees as much.",
     needs=needs,
     measure=measure,
+    across={"": Across("intact", "error")},
     figures=("figure3",),
 )

@@ -1,5 +1,6 @@
 """Section 7: the whole robot moved."""
 
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, below, every
 from recalib.study.evidence.claims.shares import left
 from recalib.study.measured import ERRORS, KINDS
@@ -43,5 +44,6 @@ CLAIM = Claim(
     " 1996 repeats.",
     needs=needs,
     measure=measure,
+    across={"": Across("rigid_left", "left")},
     figures=("figure3",),
 )

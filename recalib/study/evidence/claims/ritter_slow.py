@@ -1,5 +1,6 @@
 """Section 3: Ritter's algorithm as it is."""
 
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, above, every
 from recalib.study.evidence.claims.shares import both_left
 
@@ -29,5 +30,6 @@ CLAIM = Claim(
     " of the error there is not quick.",
     needs=needs,
     measure=measure,
+    across={"": Across("ritter_left", "left", below=False)},
     figures=("figure9",),
 )

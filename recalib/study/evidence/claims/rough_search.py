@@ -20,8 +20,9 @@ def measure(evidence, limits):
         within = []
         for _, trials in evidence.sample(evidence.fact(role)).groupby("search"):
             first = trials[trials["round"] == 1]
-            within.append(score(first) <= limits["factor"] * score(trials).min())
-        shares[label] = estimate(np.array(within, dtype=float), evidence.rng("rough", label))
+            within.append(np.mean(score(first) <= limits["factor"] * score(trials).min()))
+        # a search's share has the luck of its trials in it already
+        shares[label] = estimate(np.array(within)[:, None], evidence.rng("rough", label))
     return Finding.of(above(shares["improved"], limits["share"]), shares)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.statistics import Estimate
@@ -73,5 +74,6 @@ CLAIM = Claim(
     " paper says of Ritter's. (Until several searches were made, one reading decided.)",
     needs=needs,
     measure=measure,
+    across={"": Across("factor", "factor", below=False)},
     figures=("figure9",),
 )

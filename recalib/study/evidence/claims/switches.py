@@ -5,13 +5,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from recalib.study.configuration.switches import SWITCHES, Switch
-from recalib.study.evidence.claims.claim import Claim, Finding, Limit, below, verdict
+from recalib.study.evidence.claims.across import Across
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit, below
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.statistics import Estimate, combined, ratio
 
 BY_KEY = {switch.key: switch for switch in SWITCHES}
 RATIO = Limit(1.0)
+SYSTEMS = "the improved system", "Ritter's"
 
 
 def compare(evidence: Evidence, ours: str, theirs: str) -> Estimate:
@@ -38,28 +40,18 @@ def ask_for(ask: Request, switches: tuple[Switch, ...]) -> None:
     ask.fact("seed")
 
 
-def helps(judged: list[bool | None]) -> bool | None:
-    """Whether a change helps: somewhere, and nowhere does it harm."""
-    if True in judged and False not in judged:
-        return True
-    return False if False in judged and True not in judged else None
-
-
 def found(evidence: Evidence, limits: Mapping[str, Limit], switch: Switch) -> Finding:
     """Where a change helps."""
     pairs = with_and_without(evidence, switch)
     estimates = {label: compare(evidence, *pair) for label, pair in pairs.items()}
-    judged = [below(each, limits["ratio"]) for each in estimates.values()]
-    note = (
-        f"For the improved system: {verdict(judged[0])}; for Ritter's: {verdict(judged[1])}."
-        " By kind of error: "
-    )
+    judged = (below(each, limits["ratio"]) for each in estimates.values())
     by_kind = []
     for label, pair in pairs.items():
         logarithms = (np.log(evidence.errors(each)).mean(axis=(0, 1)) for each in pair)
         kinds = np.exp(np.subtract(*logarithms))
         by_kind.append(f"{label}, {kinds[0]:.2f} in position and {kinds[1]:.2f} in orientation")
-    return Finding.of(helps(judged), estimates, note + "; ".join(by_kind) + ".")
+    note = f"By kind of error: {'; '.join(by_kind)}."
+    return Finding.of(dict(zip(SYSTEMS, judged, strict=True)), estimates, note)
 
 
 def claim(switch: Switch, facts: tuple[str, ...] = (), **said) -> Claim:
@@ -74,6 +66,10 @@ def claim(switch: Switch, facts: tuple[str, ...] = (), **said) -> Claim:
         limits={"ratio": RATIO},
         needs=needs,
         measure=lambda evidence, limits: found(evidence, limits, switch),
+        across={
+            SYSTEMS[0]: Across(f"{switch.key}_improved"),
+            SYSTEMS[1]: Across(f"{switch.key}_ritter"),
+        },
         **said,
     )
 

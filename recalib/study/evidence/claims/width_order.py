@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, above, below, every
 from recalib.study.measured import KINDS
 from recalib.study.statistics import geometric
@@ -49,5 +50,6 @@ CLAIM = Claim(
     " trial and are no independent sample.)",
     needs=needs,
     measure=measure,
+    across={"": Across("width_order")},
     figures=("figure6",),
 )
