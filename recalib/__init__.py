@@ -17,7 +17,7 @@ _HOMES = {
     "HierarchicalLearner": "recalib.learners.hierarchical",
     "IMPROVED": "recalib.learners.rules",
     "Plant": "recalib.damaged.plant",
-    "Schedule": "recalib.learners.hierarchical",
+    "Schedule": "recalib.learners.schedules",
     "Workspace": "recalib.nominal.poses",
     "calibrate": "recalib.identification.calibration",
     "load": "recalib.loading",

@@ -63,7 +63,7 @@ class Savable(Learner, Protocol):
     kind: str
 
     def settings(self) -> dict[str, Any]:
-        """What it was made with, in the types of JSON."""
+        """What it was made with, in the types of JSON; a list, `by_run`, of what runs differ in."""
         ...
 
     def state(self) -> list[State]:

@@ -32,8 +32,7 @@ Path = str | PathLike
 def save(path: Path, learner: Savable, robot: "Robot") -> None:
     """Write what a learner has learned on a robot.
 
-    Raises UnknownName (a learner of no known kind) and InvalidSetting (runs with schedules of their
-    own).
+    Raises UnknownName (a learner of no known kind).
     """
     kind = getattr(learner, "kind", type(learner).__name__)
     if kind not in KINDS:
@@ -53,12 +52,15 @@ def join(path: Path, parts: Iterable[Path]) -> None:
 
     Raises InvalidFile.
     """
-    header, states = None, []
+    header, states, by_run = None, [], []
     for part in parts:
         its_header, its_states = read(part)
+        by_run += its_header["settings"].pop("by_run", [])
         if its_header != (header := header or its_header):
             raise InvalidFile(part, "it is of another learner or robot than the first")
         states += its_states
+    if by_run:
+        header["settings"]["by_run"] = by_run
     _write(path, header, states)
 
 

@@ -22,11 +22,14 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     header, states = read(path)
     if found := differences(header["robot"], identity(robot)):
         raise OtherRobot(path, found)
+    settings = header["settings"]
     if run is not None:
         if not 0 <= run < len(states):
             raise InvalidSetting("run", run, f"0 to {len(states) - 1}")
         states = [states[run]]
-    learner = _build(header["kind"], header["settings"], len(states), robot)
+        if "by_run" in settings:
+            settings["by_run"] = [settings["by_run"][run]]
+    learner = _build(header["kind"], settings, len(states), robot)
     learner.restore(states)
     return learner
 
@@ -35,14 +38,16 @@ def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> S
     # Imported where they are used: the maps need not wait for scikit-learn.
     match kind:
         case "hierarchical":
-            from recalib.learners.hierarchical import HierarchicalLearner, Schedule
+            from recalib.learners.hierarchical import HierarchicalLearner
             from recalib.learners.rules import Rules
+            from recalib.learners.schedules import Schedule
 
-            rules = settings["rules"]
-            nets = {name: tuple(rules[name]) for name in ("supernet", "subnet")}
-            return HierarchicalLearner(
-                runs, Rules(**rules | nets), Schedule(**settings["schedule"])
-            )
+            rules = {
+                name: tuple(value) if isinstance(value, list) else value
+                for name, value in settings["rules"].items()
+            }
+            schedules = [Schedule(**each) for each in settings["by_run"]]
+            return HierarchicalLearner(runs, Rules(**rules), Schedule.of_runs(schedules))
         case "polynomial":
             from recalib.learners.polynomial import PolynomialLearner
 

@@ -26,8 +26,11 @@ class SlowMap:
         )  # (1)
 
 
-def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments):
-    """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map."""
+def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments, units):
+    """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map.
+
+    Poses are measured in coordinates; (3) and (8) are taken where `units` of them are one.
+    """
     winners = [(m.winner(u), m.theta[m.winner(u)].copy(), m.A[m.winner(u)].copy()) for m in maps]
     command = np.concatenate([m.output(u) for m in maps])
     u1 = execute(command)
@@ -36,7 +39,10 @@ def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments)
     du = u2 - u1
     for m, (cell, theta, A), (width_k, width_kl) in zip(maps, winners, widths, strict=True):
         d_theta = A @ (u - u1)
-        error = np.outer(d_theta - A @ du, du) / np.linalg.norm(du) ** 2
+        there, du_there = A / units, units * du  # d theta / d (units u), and units du
+        error = (
+            np.outer(d_theta - there @ du_there, du_there) / np.linalg.norm(du_there) ** 2
+        ) * units
         theta_star = d_theta if theta_increments else theta + d_theta  # (6) or (2)
         A_star = error if jacobian_increments else A + error  # (8) or (3)
         for i, j in m.theta:

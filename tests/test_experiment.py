@@ -4,8 +4,9 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner, Schedule
+from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED
+from recalib.learners.schedules import Schedule
 from recalib.training import measuring_grid, train
 
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}

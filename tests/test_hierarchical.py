@@ -4,15 +4,17 @@ import numpy as np
 import pytest
 
 from recalib.damaged.plant import Plant
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, RecalibError
 from recalib.interfaces import Outcome
-from recalib.learners.hierarchical import HierarchicalLearner, Schedule
-from recalib.learners.maps import regular_grid
-from recalib.learners.rules import SEPARATE, Rules
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.nets import regular_grid
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
 SEPARATE_WIDTHS = {"position": (0.4, 0.9), "orientation": (1.1, 0.3)}
+WIDTHS = {False: SINGLE_WIDTHS, True: SEPARATE_WIDTHS}
 SIZES = {"supernet": (2, 3, 2), "subnet": (3, 1, 2)}
 
 
@@ -24,56 +26,106 @@ def strange_world(commands):
     return Outcome(mixed, np.ones(commands.shape[:2], dtype=bool))
 
 
-@pytest.mark.parametrize(
-    ("separate", "theta", "jacobian", "equal"), [*product([False, True], repeat=4)]
-)
-def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(separate, theta, jacobian, equal):
-    runs, iterations = 2, 40  # more than are kept back
-    rules = Rules(separate, theta, jacobian, equal, **SIZES)
-    widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
-    learner = HierarchicalLearner(runs, rules, Schedule(1.5, widths, 0.9, 0.3))
-    slices = SEPARATE.values() if separate else [slice(0, 6)]
-    slow = [
-        [
-            SlowMap(regular_grid(SIZES["supernet"]), regular_grid(SIZES["subnet"]), rows)
-            for rows in slices
-        ]
-        for _ in range(runs)
-    ]
-    desired = np.random.default_rng(5).uniform(-1, 1, (runs, iterations, 6))
-    for t in range(iterations):
-        fraction = t / iterations
-        learner.learn(desired[:, t], strange_world, fraction)
-        if equal:
-            rate = 0.9 + (0.3 - 0.9) * fraction
-            now = [
-                tuple((1.5**-2 + (end**-2 - 1.5**-2) * fraction) ** -0.5 for end in pair)
-                for pair in widths.values()
-            ]
-        else:
-            rate = 0.9 * (0.3 / 0.9) ** fraction
-            now = [tuple(1.5 * (end / 1.5) ** fraction for end in pair) for pair in widths.values()]
-        for run in range(runs):
+SWITCHES = [*product([False, True], repeat=4)]
+CONVENTIONS = [
+    {"centres": "faces"},
+    {"metric": (0.25, 0.3, 0.25, 0.35, 0.35, 0.35)},
+    {"metric": (25, 30, 25, 20, 20, 20)},
+    {"rate": "linear"},
+    {"rate": "exponential"},
+    {"dimensions": 6},
+    {"spread": "logarithms"},
+]
+CASES = [(switches, {}) for switches in SWITCHES]
+CASES += [(switches, each) for each in CONVENTIONS for switches in (SWITCHES[0], SWITCHES[-1])]
+
+
+def written_out(learner, desired, start, rates):
+    """The maps of each run after learning by the paper, written out cell by cell."""
+    rules, widths = learner.rules, WIDTHS[learner.rules.separate_maps]
+    grids = [regular_grid(SIZES[net], rules.centres) for net in ("supernet", "subnet")]
+    power = (1 if rules.spread == "widths" else 0) - rules.dimensions
+    every = []
+    for poses in desired:
+        maps = [SlowMap(*grids, outputs) for outputs in rules.maps.values()]
+        for t, u in enumerate(poses):
+            f = t / len(poses)
+            if rules.equal_visits:
+                now = [
+                    tuple(
+                        (start**power + (e**power - start**power) * f) ** (1 / power) for e in ends
+                    )
+                    for ends in widths.values()
+                ]
+            else:
+                now = [tuple(start * (e / start) ** f for e in ends) for ends in widths.values()]
+            if rules.rate == "linear" or (rules.rate is None and rules.equal_visits):
+                rate = rates[0] + (rates[1] - rates[0]) * f
+            else:
+                rate = rates[0] * (rates[1] / rates[0]) ** f
             cycle(
-                slow[run],
-                desired[run, t],
+                maps,
+                u,
                 lambda c: strange_world(c[None, None]).achieved[0, 0],
                 rate,
                 now,
-                theta,
-                jacobian,
+                rules.theta_increments,
+                rules.jacobian_increments,
+                np.array(rules.metric),
             )
+        every.append(maps)
+    return every
+
+
+@pytest.mark.parametrize(("switches", "convention"), CASES)
+def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, convention):
+    runs, iterations = 2, 40  # more than are kept back
+    rules = Rules(*switches, **SIZES, **convention)
+    learner = HierarchicalLearner(runs, rules, Schedule(1.5, WIDTHS[switches[0]], 0.9, 0.3))
+    desired = np.random.default_rng(5).uniform(-1, 1, (runs, iterations, 6))
+    for t in range(iterations):
+        learner.learn(desired[:, t], strange_world, t / iterations)
+    slow = written_out(learner, desired, 1.5, (0.9, 0.3))
     tests = np.random.default_rng(6).uniform(-1, 1, (runs, 20, 6))
     expected = [
         [np.concatenate([m.output(u) for m in slow[run]]) for u in tests[run]]
         for run in range(runs)
     ]
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
-    for name, each in enumerate(learner.maps.values()):
+    for number, each in enumerate(learner.maps.values()):
         for run, k, l in product(range(runs), range(12), range(6)):
             held = each.theta.all[run, k, l], each.jacobian.all[run, k, l]
-            assert np.allclose(held[0], slow[run][name].theta[k, l], atol=1e-12)
-            assert np.allclose(held[1], slow[run][name].A[k, l], atol=1e-12)
+            assert np.allclose(held[0], slow[run][number].theta[k, l], atol=1e-12)
+            assert np.allclose(held[1], slow[run][number].A[k, l], atol=1e-12)
+
+
+def test_a_metric_matters_by_the_ratios_of_its_units():
+    def learned(metric):
+        rules = Rules(*SWITCHES[-1], **SIZES, metric=metric)
+        learner = HierarchicalLearner(1, rules, Schedule(1.5, SEPARATE_WIDTHS, 0.9, 0.3))
+        for t, u in enumerate(np.random.default_rng(5).uniform(-1, 1, (10, 1, 6))):
+            learner.learn(u, strange_world, t / 10)
+        return learner.maps["position"].jacobian.all
+
+    metres = (0.25, 0.3, 0.25, 0.35, 0.35, 0.35)
+    assert np.allclose(learned(metres), learned(tuple(8 * unit for unit in metres)), atol=1e-12)
+    assert not np.allclose(learned(metres), learned((1,) * 6), atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("convention", "message"),
+    [
+        ({"centres": "corners"}, "unknown centres of cells 'corners'; valid: boxes, faces"),
+        ({"spread": "squares"}, "unknown spread .* 'squares'; valid: logarithms, widths"),
+        ({"rate": "cosine"}, "unknown fall .* 'cosine'; valid: exponential, linear"),
+        ({"dimensions": 4}, "dimensions is 4; valid: 3 or 6"),
+        ({"metric": (1, 1, 1)}, "metric is .*; valid: six numbers above 0"),
+        ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; valid: six numbers above 0"),
+    ],
+)
+def test_an_impossible_convention_is_refused(convention, message):
+    with pytest.raises(RecalibError, match=message):
+        Rules(True, True, True, True, **convention)
 
 
 @pytest.mark.parametrize(

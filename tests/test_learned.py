@@ -15,10 +15,11 @@ from recalib.interfaces import Outcome
 from recalib.learned import KINDS, join, save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hierarchical import HierarchicalLearner, Schedule
+from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loading import load
 from recalib.nominal.kinematics import Arm
@@ -175,8 +176,45 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
 def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
     with pytest.raises(UnknownName, match="UncorrectedLearner.*valid: gaussian_process"):
         save(tmp_path / "a.npz", UncorrectedLearner(), robot)
-    trials = replace(SCHEDULE, initial_rate=np.array([0.5, 0.6]))
-    learner = HierarchicalLearner(2, Rules(True, True, True, True), trials)
-    with pytest.raises(InvalidSetting, match="one that all runs share"):
-        save(tmp_path / "a.npz", learner, robot)
     assert not [*tmp_path.iterdir()]
+
+
+def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robot, tmp_path):
+    """As the winners of several searches have them."""
+    rules = Rules(
+        True, False, True, True, (2, 2, 2), (2, 2, 2), "faces", (0.3, 0.3, 0.3, 1, 1, 1), 6,
+        "logarithms", "exponential",
+    )  # fmt: skip
+    own = Schedule(
+        np.array([4.0, 3.0, 2.0]),
+        {"position": (np.array([0.6, 0.7, 0.8]), 1.5), "orientation": (1.0, 1.0)},
+        np.array([0.8, 0.9, 0.7]),
+        0.4,
+    )
+    desired = np.random.default_rng(4).uniform(-1, 1, (3, 10, 6))
+
+    def bend(commands):
+        executed = np.ones(commands.shape[:2], dtype=bool)
+        return Outcome(commands + 0.1 * np.sin(commands[..., ::-1]), executed)
+
+    def go_on(learner, runs, moves):
+        for move in moves:
+            learner.learn(desired[runs, move], bend, move / 10)
+        return learner
+
+    together = go_on(HierarchicalLearner(3, rules, own), [0, 1, 2], range(5))
+    save(tmp_path / "together.npz", together, robot)
+    paths = [tmp_path / "first.npz", tmp_path / "others.npz"]
+    for path, runs in zip(paths, ([0], [1, 2]), strict=True):
+        parts = [together.schedule.of_run(run) for run in runs]
+        learner = HierarchicalLearner(len(runs), rules, Schedule.of_runs(parts))
+        save(path, go_on(learner, runs, range(5)), robot)
+    join(tmp_path / "all.npz", paths)
+    joined = load(tmp_path / "all.npz", robot)
+    assert joined.rules == rules and joined.settings() == together.settings()
+    go_on(together, [0, 1, 2], range(5, 10))
+    go_on(joined, [0, 1, 2], range(5, 10))
+    last = go_on(load(tmp_path / "all.npz", robot, 2), [2], range(5, 10))
+    tests = np.random.default_rng(5).uniform(-1, 1, (3, 20, 6))
+    assert np.array_equal(joined.command(tests), together.command(tests))
+    assert np.array_equal(last.command(tests[[2]]), together.command(tests)[[2]])

@@ -11,7 +11,7 @@ from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.learners import schedules
 from recalib.learners.cells import Cells
-from recalib.learners.maps import Nets
+from recalib.learners.nets import Nets
 from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments import campaign
@@ -80,12 +80,16 @@ def no_jacobian(target):
     return np.zeros_like(target) if target.ndim == 3 else target
 
 
+def inverted(equal_visits):
+    return lambda start, end, fraction, n, spread: equal_visits(start, end, fraction, -n, spread)
+
+
 PLANTED = {
     "Jacobian increment off": lambda: planted_in_targets(no_jacobian),
     "winner at random": lambda: mock.patch.object(Nets, "winner", random_winner),
     # dt proportional to width^n d(width) instead of width^-n: most of the time at the large widths
     "equal visits inverted": lambda: mock.patch.object(
-        schedules, "DIMENSIONS", -schedules.DIMENSIONS
+        schedules, "equal_visits", inverted(schedules.equal_visits)
     ),
 }
 

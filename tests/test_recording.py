@@ -14,8 +14,9 @@ from scipy.spatial.transform import Rotation
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Sag
-from recalib.learners.hierarchical import HierarchicalLearner, Schedule
+from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
+from recalib.learners.schedules import Schedule
 from recalib.nominal.poses import position_error
 from recalib.study import jobs
 from recalib.study.experiments import campaign

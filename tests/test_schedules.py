@@ -1,3 +1,5 @@
+from functools import partial
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -5,7 +7,15 @@ from hypothesis import strategies as st
 
 from recalib.learners import schedules
 
-LAWS = [schedules.exponential, schedules.linear, schedules.equal_visits]
+LAWS = [
+    schedules.exponential,
+    schedules.linear,
+    *(
+        partial(schedules.equal_visits, dimensions=n, spread=spread)
+        for n in (3, 6)
+        for spread in schedules.SPREADS
+    ),
+]
 starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)
 
 
@@ -22,14 +32,20 @@ def test_laws_stay_where_start_and_end_are_equal(law):
     assert np.allclose(law(0.7, 0.7, np.linspace(0, 1, 5)), 0.7)
 
 
+@pytest.mark.parametrize("n", [3, 6])
+@pytest.mark.parametrize(("spread", "scale"), [("widths", np.asarray), ("logarithms", np.log)])
 @given(start=starts, end=ends)
-def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(start, end):
-    """The law of section 6: dt/d(width) L(width) is the same at every width."""
-    time = np.linspace(0, 1, 100_001)
-    width = schedules.equal_visits(start, end, time)
-    pace = np.gradient(time, width) * schedules.expected_learning(width, schedules.DIMENSIONS, 8)
-    inner = slice(10, -10)
-    assert np.allclose(pace[inner] / pace[inner].mean(), 1, rtol=1e-2)
+def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(
+    n, spread, scale, start, end
+):
+    """The law of section 6: dt L(width), over every step of what is spread, is the same."""
+    time, step = np.linspace(0.05, 0.95, 50), 1e-5
+    before, width, after = (
+        schedules.equal_visits(start, end, time + shift, n, spread) for shift in (-step, 0, step)
+    )
+    pace = 2 * step / (scale(after) - scale(before))
+    learned = pace * schedules.expected_learning(width, n, 2.0**n)
+    assert np.allclose(learned / learned.mean(), 1, rtol=1e-4)
 
 
 def test_the_exponential_law_has_a_constant_factor():

@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from recalib.errors import UnknownName
-from recalib.learners.hierarchical import Rules
+from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
 from recalib.study.experiments.settings import best, rules_of

@@ -31,7 +31,10 @@ class Cells:
 
     @property
     def all(self) -> np.ndarray:
-        """(run, K, L, ...) in all cells; written to, what they hold. Stale after an update."""
+        """(run, K, L, ...) in all cells; written to, what they hold. Stale after an update.
+
+        To ask makes all updates: what is learned differs, by rounding, from when one does not ask.
+        """
         if self._kept:
             self._make()
         return self._cells.reshape(*self._cells.shape[:3], *self._shape)

@@ -1,60 +1,21 @@
 """The learners of the paper: hierarchical maps with Ritter's rules or the improved ones."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidSetting
 from recalib.interfaces import Execute, State
 from recalib.learners import schedules
-from recalib.learners.maps import HierarchicalMap, Nets
+from recalib.learners.maps import HierarchicalMap
+from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
 SHORTEST_MOVE = 1e-6
-
-
-@dataclass(frozen=True)
-class Schedule:
-    """Widths and rates at the start and at the end of training, each a number or an array (run,).
-
-    Args:
-        initial_width: of all neighbourhoods (section 7), in workspace coordinates: the workspace
-            is 2 wide.
-        final_widths: for each map (`Rules.maps`), those of g_k and of g_kl.
-        initial_rate, final_rate: the learning rate c' of (4), (5), (7) and (9).
-
-    Raises InvalidSetting where a width is not above 0 or a rate not in (0, 1].
-    """
-
-    initial_width: float | np.ndarray
-    final_widths: Mapping[str, tuple[float | np.ndarray, float | np.ndarray]]
-    initial_rate: float | np.ndarray
-    final_rate: float | np.ndarray
-
-    def __post_init__(self):
-        for width in self.widths:
-            if not np.all(np.greater(width, 0)):
-                raise InvalidSetting("width of a neighbourhood", width, "above 0")
-        for rate in self.rates:
-            if not np.all(np.greater(rate, 0) & np.less_equal(rate, 1)):
-                raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
-
-    @property
-    def widths(self) -> list[float | np.ndarray]:
-        """All of them, the initial one first."""
-        return [
-            self.initial_width,
-            *(width for pair in self.final_widths.values() for width in pair),
-        ]
-
-    @property
-    def rates(self) -> list[float | np.ndarray]:
-        """Both of them, the initial one first."""
-        return [self.initial_rate, self.final_rate]
 
 
 class HierarchicalLearner:
@@ -71,17 +32,13 @@ class HierarchicalLearner:
     kind = "hierarchical"
 
     def __init__(self, runs: int, rules: Rules, schedule: Schedule):
-        self.rules, self.schedule = rules, schedule
-        self.nets = Nets(rules.supernet, rules.subnet)
+        self.rules, self.schedule = rules, schedule.over(runs)
+        self.nets = Nets(rules.supernet, rules.subnet, rules.centres)
         self.maps = {
             name: HierarchicalMap(runs, self.nets, rules, outputs)
             for name, outputs in rules.maps.items()
         }
         self._runs = np.arange(runs)
-        self._final_widths = {
-            name: np.stack([np.broadcast_to(width, runs) for width in pair])
-            for name, pair in schedule.final_widths.items()
-        }
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
@@ -107,10 +64,13 @@ class HierarchicalLearner:
         correction = applied(jacobian, desired - first.achieved[:, 0])
         second = execute((command + correction)[:, None])
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
-        length = np.square(moved).sum(axis=-1)
         learn_theta = first.executed[:, 0]
-        learn_jacobian = learn_theta & second.executed[:, 0] & (length > SHORTEST_MOVE**2)
-        direction = moved / np.where(learn_jacobian, length, 1)[:, None]
+        far = np.square(moved).sum(axis=-1) > SHORTEST_MOVE**2
+        learn_jacobian = learn_theta & second.executed[:, 0] & far
+        # du^T / |du|^2 in the units of the metric; the Jacobian's columns are back in coordinates.
+        direction = np.square(self.rules.metric) * moved
+        length = (direction * moved).sum(axis=-1)
+        direction /= np.where(learn_jacobian, length, 1)[:, None]
         # Both rules start from the same increments, (6) and (8); Ritter's targets add what the
         # winner held, (2) and (3).
         new_theta = correction
@@ -131,17 +91,17 @@ class HierarchicalLearner:
         Args:
             name: of a map; see `Rules.maps`.
         """
-        narrow = schedules.equal_visits if self.rules.equal_visits else schedules.exponential
-        return narrow(self.schedule.initial_width, self._final_widths[name], fraction)
+        start, ends = self.schedule.initial_width, self.schedule.final_widths[name]
+        if not self.rules.equal_visits:
+            return schedules.exponential(start, ends, fraction)
+        return schedules.equal_visits(
+            start, ends, fraction, self.rules.dimensions, self.rules.spread
+        )
 
     def settings(self) -> dict[str, Any]:
-        """Rules and schedule.
-
-        Raises InvalidSetting where the runs differ in their schedule: they are trials of a search.
-        """
-        if any(np.ndim(value) for value in (*self.schedule.widths, *self.schedule.rates)):
-            raise InvalidSetting("schedule", self.schedule, "one that all runs share")
-        return {"rules": asdict(self.rules), "schedule": asdict(self.schedule)}
+        """The rules and, by run, the schedule."""
+        by_run = [asdict(self.schedule.of_run(run)) for run in self._runs]
+        return {"rules": asdict(self.rules), "by_run": by_run}
 
     def state(self) -> list[State]:
         """For each run theta and Jacobian of each map, as `HierarchicalMap` describes them."""
@@ -159,10 +119,10 @@ class HierarchicalLearner:
             each.theta.all[:] = [state[name]["theta"] for state in states]
             each.jacobian.all[:] = [state[name]["jacobian"] for state in states]
 
-    def _rate(self, fraction: float) -> float | np.ndarray:
-        """c', a number or (run,)."""
-        weaken = schedules.linear if self.rules.equal_visits else schedules.exponential
-        return weaken(*self.schedule.rates, fraction)
+    def _rate(self, fraction: float) -> np.ndarray:
+        """c' (run,)."""
+        weaken = schedules.RATES[self.rules.law_of_rate]
+        return weaken(self.schedule.initial_rate, self.schedule.final_rate, fraction)
 
 
 def applied(jacobian: np.ndarray, offset: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""What tells a learner of the paper from another: four switches, and the sizes of the nets.
+"""What tells a learner of the paper from another: switches, sizes, conventions.
 
 The improvement of the paper is four changes of Ritter's algorithm. Each is a switch of its own
 here, so that any of them can be taken away from the one or added to the other.
@@ -7,6 +7,11 @@ here, so that any of them can be taken away from the one or added to the other.
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from recalib.errors import InvalidSetting, UnknownName
+from recalib.learners.nets import CENTRES
+from recalib.learners.schedules import DIMENSIONS, RATES, SPREADS
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -15,7 +20,7 @@ SINGLE = {"pose": slice(0, 6)}
 
 @dataclass(frozen=True)
 class Rules:
-    """The four switches and the sizes of the nets.
+    """The four switches, the sizes of the nets, and the conventions that the paper leaves open.
 
     Args:
         separate_maps: one map for position and one for orientation commands (section 4), or one
@@ -23,9 +28,19 @@ class Rules:
         theta_increments: propagate increments of theta, (6) and (7), or its values, (2) and (4).
         jacobian_increments: propagate increments of the Jacobian, (8) and (9), or its values, (3)
             and (5).
-        equal_visits: the schedule of section 6 with a linear rate, or Ritter's exponential
-            schedules.
+        equal_visits: widths fall by the schedule of section 6, or by Ritter's exponential one.
         supernet, subnet: cells along each position and each orientation coordinate.
+        centres: where the cells are: in the middle of equal "boxes", or from face to face ("faces")
+            of the workspace (section 3).
+        metric: six factors that turn workspace coordinates into the units in which the norm in (3)
+            and (8) is taken; by their ratios alone. All 1: half-ranges of the workspace.
+            The half-ranges in m and rad: metres with radians.
+        dimensions: n in (10), for equal visits: 3, those of each net, or 6, those of both.
+        spread: what equal visits are spread over evenly: "widths", or their "logarithms".
+        rate: how the learning rate falls, "linear" (section 7) or "exponential" (Ritter); None:
+            linear with equal visits, exponential without.
+
+    Raises UnknownName and InvalidSetting.
     """
 
     separate_maps: bool
@@ -34,11 +49,34 @@ class Rules:
     equal_visits: bool
     supernet: tuple[int, int, int] = (3, 3, 3)
     subnet: tuple[int, int, int] = (3, 3, 3)
+    centres: str = "boxes"
+    metric: tuple[float, ...] = (1.0,) * 6
+    dimensions: int = DIMENSIONS
+    spread: str = "widths"
+    rate: str | None = None
+
+    def __post_init__(self):
+        for kind, name, valid in (
+            ("centres of cells", self.centres, CENTRES),
+            ("spread of equal visits", self.spread, SPREADS),
+            ("fall of the learning rate", self.law_of_rate, RATES),
+        ):
+            if name not in valid:
+                raise UnknownName(kind, name, valid)
+        if self.dimensions not in (3, 6):
+            raise InvalidSetting("dimensions", self.dimensions, "3 or 6")
+        if np.shape(self.metric) != (6,) or not np.all(np.greater(self.metric, 0)):
+            raise InvalidSetting("metric", self.metric, "six numbers above 0")
 
     @property
     def maps(self) -> Mapping[str, slice]:
         """Name of each map and the coordinates of the command that it computes."""
         return SEPARATE if self.separate_maps else SINGLE
+
+    @property
+    def law_of_rate(self) -> str:
+        """How the learning rate falls: `rate`, or what goes with how the widths fall."""
+        return self.rate or ("linear" if self.equal_visits else "exponential")
 
 
 IMPROVED = Rules(

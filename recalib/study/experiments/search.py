@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.learners.hierarchical import Rules, Schedule
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from recalib.learners.hierarchical import HierarchicalLearner, Rules
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments import search
 from recalib.study.experiments.samples import winners

@@ -3,12 +3,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recalib.learners.maps import Nets, nearest, regular_grid
+from recalib.learners.nets import Nets, nearest, regular_grid
 
 
-def test_the_grid_halves_the_boxes_it_cuts():
+def test_the_grid_halves_the_boxes_it_cuts_or_reaches_the_faces():
     assert np.allclose(regular_grid([3]), [[-2 / 3], [0], [2 / 3]])
     assert np.allclose(regular_grid([2, 1]), [[-0.5, 0], [0.5, 0]])
+    assert np.allclose(regular_grid([3], "faces"), [[-1], [0], [1]])
+    assert np.allclose(regular_grid([2, 1], "faces"), [[-1, 0], [1, 0]])
 
 
 @given(shape=st.tuples(*[st.integers(1, 4)] * 3), seed=st.integers(0, 100))

@@ -1,0 +1,74 @@
+"""Where the cells of a hierarchical map are: a supernet of positions, and subnets of orientations.
+
+Sections 2 and 3 of the paper. Everything is in workspace coordinates, and vectorised over `run`, a
+training of its own with its own maps.
+"""
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+
+from recalib.nominal.poses import ORIENTATION, POSITION
+
+# "A regular grid covering" the workspace (section 3): along a coordinate of [-1, 1], the middles of
+# n equal boxes, which no other centres beat in quantisation error; or n from face to face.
+CENTRES = {
+    "boxes": lambda n: (2 * np.arange(n) + 1) / n - 1,
+    "faces": lambda n: np.linspace(-1, 1, n) if n > 1 else np.zeros(1),
+}
+
+
+def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
+    """Centres (cells, d) of cells in [-1, 1]^d, so many along each coordinate: shape (d,).
+
+    Args:
+        centres: which, of `CENTRES`.
+    """
+    return np.array(list(product(*map(CENTRES[centres], shape))))
+
+
+def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
+    """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
+    # |p - c|^2 without |p|^2, which is the same for every centre
+    return np.argmin((centres**2).sum(axis=1) - 2 * points @ centres.T, axis=-1)
+
+
+class Nets:
+    """A supernet whose cells k each hold a subnet of cells l.
+
+    Args:
+        supernet, subnet: cells along each position and each orientation coordinate.
+        centres: where, of `CENTRES`.
+
+    Attributes:
+        w_k (K, 3), w_kl (L, 3): centres of the supernet's cells, and of the cells of each subnet.
+        centres: (K, L, 6) both, as poses.
+    """
+
+    def __init__(self, supernet: Sequence[int], subnet: Sequence[int], centres: str = "boxes"):
+        self.w_k, self.w_kl = regular_grid(supernet, centres), regular_grid(subnet, centres)
+        k, l = np.indices((len(self.w_k), len(self.w_kl)))
+        self.centres = np.concatenate([self.w_k[k], self.w_kl[l]], axis=-1)
+        self._near_k, self._near_kl = (
+            -0.5 * ((w[:, None] - w[None]) ** 2).sum(axis=-1) for w in (self.w_k, self.w_kl)
+        )
+
+    def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The winning cells (k, l), each (...), for poses u (..., 6).
+
+        First that of the supernet, then that of its subnet.
+        """
+        return nearest(u[..., POSITION], self.w_k), nearest(u[..., ORIENTATION], self.w_kl)
+
+    def neighbourhood(
+        self, k: np.ndarray, l: np.ndarray, width_k: np.ndarray, width_kl: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """g_k (run, K) and g_kl (run, L) about the winning cells (k, l), each (run,).
+
+        Gaussians of these widths, each (run,).
+        """
+        return (
+            np.exp(self._near_k[k] / np.square(width_k)[:, None]),
+            np.exp(self._near_kl[l] / np.square(width_kl)[:, None]),
+        )
