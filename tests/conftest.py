@@ -41,6 +41,14 @@ def plan(study) -> Plan:
     return Plan(study)
 
 
+@pytest.fixture(scope="session")
+def few(study) -> Study:
+    """The study with fewer searches and seeds: it claims and draws as much, in less time."""
+    search = study.search.model_copy(update={"searches": 4, "searches_long": 3})
+    training = study.training.model_copy(update={"seeds": 2})
+    return study.model_copy(update={"name": "few", "search": search, "training": training})
+
+
 def changed(nominal: Nominal, **entry) -> Nominal:
     """The robot with keys of its entry changed, in SI units."""
     return nominal.model_copy(update={"robot": nominal.robot.model_copy(update=entry)})

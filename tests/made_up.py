@@ -4,18 +4,21 @@ As they are, they support every claim. Tests change what they are about.
 """
 
 import json
+from collections.abc import Callable
+from functools import partial
 from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
-from recalib.study.evidence.needs import Request
+from recalib.study.evidence.needs import Needs, Request
 from recalib.study.evidence.real import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
@@ -25,20 +28,18 @@ from recalib.study.measured import ERRORS
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, training
 
-SEEDS = 8
 INITIAL = np.array([8.3, 4.7])
 AT_FIRST = {"intact": INITIAL * 0, "translation": INITIAL * [1, 0]}
 FINAL = {
-    "improved": 0.1,
-    "ritter": 0.12,
     "ritter_200": [5.0, 3.0],
     ("improved", "intact"): 1e-9,
     ("improved", "translation"): [0.1, 1e-9],
     **{switch.without: 0.4 for switch in SWITCHES},
     **{switch.added: [4.0, 2.0] for switch in SWITCHES},
-    "ritter_double": 0.3,
 }
-LADDERS = {"improved": 20.0, "ritter": 1200.0}  # error times iterations
+LADDERS = {"improved": 20, "ritter": 1600, "ritter_double": 1600}  # error times iterations
+# Spread of errors: of searches at 0.05 to 0.1 in the experiments, of seeds at 0.05
+OF_SEARCHES, OF_SEEDS = 0.07, 0.05
 
 
 class MadeUp:
@@ -52,37 +53,49 @@ class MadeUp:
     """
 
     def __init__(self, folder: Path, study: Study, final=None, noise: float = 0.0):
-        self.study, self.trainings = study, Trainings(study)
-        self.layout = Layout(str(folder / "results"))
+        self.study, self.plan, self.trainings = study, Plan(study), Trainings(study)
+        self.layout = its = Layout(str(folder / "results"))
         self._final, self._noise = FINAL | (final or {}), noise
         self._samples = folder / "search"
+        self._tables: dict[str, Callable[[], pd.DataFrame]] = {
+            its.assignments(study.robot): self.assignments,
+            its.coverage: self.coverage,
+        }
         for name in ("coupling", "propagation", "visits", "replay"):
-            self.write(self.layout.mapping(name), getattr(self, name)())
-        self.write(self.layout.assignments(study.robot), self.assignments())
+            self._tables[its.mapping(name)] = getattr(self, name)
         for scenario, learner in self.trainings.runs:
-            self.write(self.layout.history(scenario, learner), self.history(learner, scenario))
+            path = its.history(scenario, learner)
+            self._tables[path] = partial(self.history, learner, scenario)
         for learner, series in study.experiments.ensemble.items():
             for name, plan in series.items():
-                self.write(self.layout.ensemble(name, learner), self.ensemble(plan))
-        for learner in dict.fromkeys(learner for _, learner in self.trainings.runs):
-            self.sample(learner)
+                self._tables[its.ensemble(name, learner)] = partial(self.ensemble, plan)
         for scenario in self.trainings.scenarios():
             self.scenario(scenario)
 
     def sample_at(self, name: str) -> str:
-        """Where the sample of the search for a training lies."""
-        return str(self._samples / f"{name}.csv")
+        """Where the searches for a training lie, made up when they are asked for."""
+        path = self._samples / f"{name}.csv"
+        if not path.exists():
+            self.sample(name, self.trials(name))
+        return str(path)
 
     def request(self) -> Request:
         """How to ask for these results."""
         return Request(self.study, self.trainings, self.layout, self.sample_at)
 
-    def needs(self, ask_for):
-        """What something reads of them."""
+    def needs(self, ask_for: Callable[[Request], None]) -> Needs:
+        """What something reads of them, made up where it is not there."""
         ask = self.request()
         ask_for(ask)
         assert ask.lacking == []
-        return ask.needs
+        return self.made(ask.needs)
+
+    def made(self, needs: Needs) -> Needs:
+        """Make up what something reads and is not there."""
+        for path in needs.files:
+            if path in self._tables and not Path(path).exists():
+                self.write(path, self._tables[path]())
+        return needs
 
     def write(self, path: str, table: pd.DataFrame) -> None:
         """Keep a table of measurements, with their noise."""
@@ -93,25 +106,33 @@ class MadeUp:
                 signs = rng.choice([-1.0, 1.0], len(table))
                 table[column] = table[column] * (1 + self._noise * signs)
         Path(path).parent.mkdir(parents=True, exist_ok=True)
-        table.to_parquet(path, index=False)
+        if path.endswith(".csv"):
+            table.to_csv(path, index=False, float_format="%.6g")
+        else:
+            table.to_parquet(path, index=False)
 
-    def history(self, learner: str, scenario: str) -> pd.DataFrame:
+    def history(self, learner: str, scenario: str, repetition: int = 0) -> pd.DataFrame:
+        """A history; each repetition has luck of its own, of searches and of seeds."""
         which = training(self.study, learner)
-        rung = LADDERS.get(which.name, 0) / which.iterations
-        fallback = (learner == str(which) and rung) or 0.3
+        fallback = LADDERS[which.name] / which.iterations if which.name in LADDERS else 0.3
         final = self._final.get((learner, scenario), self._final.get(learner, fallback))
         initial = AT_FIRST.get(scenario, INITIAL)
-        rng = np.random.default_rng(len(learner))
-        last = np.broadcast_to(final, 2) * np.exp(0.02 * rng.normal(size=(SEEDS, 2)))
+        searches, seeds = self.plan.searches(learner), self.study.training.seeds
+        rng = generator(repetition, "made up", scenario, learner)
+        luck = OF_SEARCHES * rng.normal(size=(searches, 1, 2))
+        luck = luck + OF_SEEDS * rng.normal(size=(searches, seeds, 2))
+        last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
+        runs = {"search": np.repeat(np.arange(searches) + 1, seeds), "seed": range(len(last))}
         tables = []
         for part in (0, 0.1, 0.4, 1):
             measured = initial * (1 - part) + last * part
             table = pd.DataFrame(measured, columns=list(ERRORS))
             done = round(which.iterations * part)
-            tables.append(
-                table.assign(seed=range(SEEDS), iteration=done, moves=2 * done, refused=0)
-            )
+            tables.append(table.assign(**runs, iteration=done, moves=2 * done, refused=0))
         return pd.concat(tables)
+
+    def coverage(self) -> pd.DataFrame:
+        return pd.DataFrame({"change": ["maps"], "effect": ["with it"], "inside": [0.95]})
 
     def coupling(self) -> pd.DataFrame:
         rng = np.random.default_rng(1)
@@ -153,7 +174,13 @@ class MadeUp:
         return table
 
     def trials(self, learner: str) -> pd.DataFrame:
-        rng, good = np.random.default_rng(0), np.arange(100) < 30
+        """A hundred trials of each search, of which thirty are good."""
+        searches = range(1, self.plan.searches(learner) + 1)
+        trials = pd.concat([self._trials(learner, number) for number in searches])
+        return trials.reset_index(drop=True)
+
+    def _trials(self, learner: str, search: int) -> pd.DataFrame:
+        rng, good = np.random.default_rng(search), np.arange(100) < 30
         maps = ("position", "orientation") if "improved" in learner else ("pose",)
         narrow = {"position": "g_k", "orientation": "g_kl"}
         table = pd.DataFrame({"round": 1, "initial_width": 1.0}, index=range(100))
@@ -164,13 +191,15 @@ class MadeUp:
             )
         table["initial_rate"], table["final_rate"] = 0.8, 0.4
         table[ERRORS[0]] = np.where(good, 0.3, 3.0) * rng.uniform(1, 1.5, 100)
-        return table.assign(**{ERRORS[1]: 0.1}).map(lambda value: float(f"{value:.4g}"))
+        table = table.assign(**{ERRORS[1]: 0.1}).map(lambda value: float(f"{value:.4g}"))
+        table.insert(0, "search", search)
+        return table
 
-    def sample(self, learner: str, trials: pd.DataFrame | None = None) -> None:
-        path = self.sample_at(str(training(self.study, learner)))
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        its = self.trials(learner) if trials is None else trials
-        write_sample(path, Plan(self.study).sample(learner), its)
+    def sample(self, learner: str, trials: pd.DataFrame) -> None:
+        """Keep the searches for a training."""
+        path = self._samples / f"{training(self.study, learner)}.csv"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_sample(path, self.plan.sample(learner), trials)
 
     def scenario(self, scenario: str) -> None:
         damages = {
@@ -190,25 +219,34 @@ class MadeUp:
 
     def judge(self) -> list[dict]:
         """The claims, judged by these results."""
-        return judge(judging(self.request))
+        job = judging(self.request)
+        for needs in job.claims.values():
+            self.made(needs)
+        return judge(job)
+
+    def judged(self, claim: str) -> dict:
+        """One claim, judged by these results, of which it may lack some."""
+        home = next(each for each in CLAIMS if each.id == claim)
+        ask = self.request()
+        home.ask(ask)
+        return home.judge(Evidence(self.made(ask.needs)))
 
     def verdict(self, claim: str) -> str:
         """The verdict on one claim."""
-        home = next(each for each in CLAIMS if each.id == claim)
-        return home.judge(Evidence(self.needs(home.needs)))["verdict"]
+        return self.judged(claim)["verdict"]
 
     def conclude(self) -> None:
         """Make the tables and verdicts that figures and pages read, as the workflow does."""
-        layout, plan = self.layout, Plan(self.study)
+        layout, plan = self.layout, self.plan
+        for path, table in self._tables.items():
+            self.write(path, table())
         histories = [layout.history(*run) for run in self.trainings.runs]
         scenarios = [layout.scenario(name) for name in self.trainings.scenarios()]
-        tables = {layout.summary: summarise(plan.summary(), histories, scenarios)}
+        self.write(layout.summary, summarise(plan.summary(), histories, scenarios))
         history = self.benchmark()
-        tables[layout.benchmark] = errors(plan.benchmark_table(), history)
-        tables[layout.benchmark_moves] = reached(plan.benchmark_table(), history)
-        tables[layout.real] = real_errors(jobs.RealTable(seed=self.study.seed), self.real())
-        for path, table in tables.items():
-            table.to_csv(path, index=False, float_format="%.6g")
+        self.write(layout.benchmark, errors(plan.benchmark_table(), history))
+        self.write(layout.benchmark_moves, reached(plan.benchmark_table(), history))
+        self.write(layout.real, real_errors(jobs.RealTable(seed=self.study.seed), self.real()))
         Path(layout.claims).write_text(json.dumps(self.judge()), encoding="utf-8")
 
     def benchmark(self) -> pd.DataFrame:
