@@ -5,30 +5,7 @@ import pytest
 from recalib.randomness import generator
 from recalib.storage import whole
 from recalib.study.evidence.checks import CheckFailed, check, expect
-from recalib.study.statistics import bootstrap, first_within
-
-
-def test_the_interval_covers_the_mean_as_often_as_it_says():
-    covered = 0
-    for repetition in range(200):
-        values = np.random.default_rng(repetition).normal(3.0, 1.0, 30)
-        estimate = bootstrap(values, np.random.default_rng(0))
-        assert estimate.low < estimate.mean < estimate.high
-        covered += estimate.low <= 3.0 <= estimate.high
-    assert (
-        178 <= covered <= 198
-    )  # 95 % less the known optimism of the percentile bootstrap at 30 values
-
-
-def test_one_seed_has_no_interval():
-    estimate = bootstrap([2.0], np.random.default_rng(0))
-    assert estimate.mean == 2.0 and np.isnan(estimate.low)
-
-
-def test_a_threshold_counts_where_all_errors_are_within():
-    iterations, errors = np.array([0, 10, 20]), np.array([[3, 3], [1, 3], [1, 1.0]])
-    assert first_within(iterations, errors, np.array([1, 2])) == 20
-    assert first_within(iterations, errors, np.array([0.5, 2])) == np.inf
+from recalib.study.evidence.summary import error_at_these_settings
 
 
 def test_generators_differ_by_key_and_repeat():
@@ -49,13 +26,19 @@ SUMMARY = pd.DataFrame(
         "scenario": ["links", "intact"],
         "learner": ["improved", "improved"],
         "final_position_error_cm": [0.25, 1e-10],
-        "final_position_error_cm_low": [0.24, 1e-11],
-        "final_position_error_cm_high": [0.26, 1e-9],
+        "final_position_error_cm_se": [0.005, 1e-11],
         "final_orientation_error_deg": [0.20, 1e-10],
-        "final_orientation_error_deg_low": [0.19, 1e-11],
-        "final_orientation_error_deg_high": [0.21, 1e-9],
+        "final_orientation_error_deg_se": [0.005, 1e-11],
     }
 )
+
+
+def test_a_band_knows_the_luck_of_seeds_and_not_that_of_searches():
+    values = np.random.default_rng(0).normal(1, 0.1, (40, 5))
+    found = error_at_these_settings(values)
+    assert found == pytest.approx(0.1 / np.sqrt(200), rel=0.1)
+    searches = np.arange(40)[:, None]
+    assert error_at_these_settings(values + searches) == pytest.approx(found)
 
 
 def test_results_pass_their_own_bands_and_a_change_does_not():
@@ -90,7 +73,7 @@ def test_nan_is_outside_of_every_band():
 def test_a_failure_names_the_row_the_value_and_the_band():
     table = check(SUMMARY.assign(final_position_error_cm=[7.0, 0]), expect(SUMMARY))
     with pytest.raises(
-        CheckFailed, match="links improved: position_error_cm is 7, expected 0.2296 to 0.2704"
+        CheckFailed, match="links improved: position_error_cm is 7, expected 0.23 to 0.27"
     ):
         raise CheckFailed(table[~table["ok"]])
 
