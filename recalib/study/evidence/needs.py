@@ -13,7 +13,7 @@ from recalib.errors import UnknownName
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.layout import OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
@@ -194,10 +194,13 @@ class Request:
         """How often intervals held."""
         self._result(self._layout.coverage)
 
-    def outcomes(self) -> None:
+    def outcomes(self) -> bool:
         """What was measured in each universe, where the study is the one that they vary."""
-        if self.study.name == SHIPPED and Path(OUTCOMES).exists():
+        there = self.study.name == SHIPPED and Path(OUTCOMES).exists()
+        if there:
+            self._result(DESIGN)
             self._result(OUTCOMES)
+        return there
 
     def benchmark(self) -> None:
         """Errors of every learner against moves."""

@@ -11,7 +11,7 @@ from recalib.errors import RecalibError
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.evidence.needs import Needs
-from recalib.study.layout import OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
 from recalib.study.measured import errors_of
 
 if TYPE_CHECKING:
@@ -148,6 +148,10 @@ class Evidence:
     def outcomes(self) -> "pd.DataFrame | None":
         """A row for each universe; None for a study without any."""
         return self._table(OUTCOMES) if OUTCOMES in self._needs.files else None
+
+    def design(self) -> "pd.DataFrame":
+        """The factors of each universe."""
+        return self._table(DESIGN)
 
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""

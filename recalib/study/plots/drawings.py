@@ -7,6 +7,7 @@ from recalib.study.plots.ladders import figure9
 from recalib.study.plots.learning import figure1, figure2, figure3
 from recalib.study.plots.mapping import figure5, figure7, figure8, figure10
 from recalib.study.plots.searched import figure6
+from recalib.study.plots.universes import figure14, figure15
 
 DRAWINGS = {
     "figure1": figure1,
@@ -22,4 +23,6 @@ DRAWINGS = {
     "figure11": figure11,
     "figure12": figure12,
     "figure13": figure13,
+    "figure14": figure14,
+    "figure15": figure15,
 }

@@ -10,6 +10,7 @@ from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.speed_up import READINGS
 from recalib.study.evidence.claims.switches import ask_for
 from recalib.study.evidence.needs import Needs, Request
+from recalib.study.layout import SHIPPED
 
 
 @dataclass(frozen=True)
@@ -108,6 +109,12 @@ def _figure13(ask: Request) -> None:
         ask.fact(fact)
 
 
+def _universes(ask: Request) -> None:
+    if not ask.outcomes():
+        ask.lack(f"name: {SHIPPED}")
+    ask.fact("seed")
+
+
 FIGURES: Mapping[str, Figure] = {
     "figure1": Figure(_figure1, "trainings"),
     "figure2": Figure(_figure2, "trainings"),
@@ -122,6 +129,8 @@ FIGURES: Mapping[str, Figure] = {
     "figure11": Figure(_figure11, "evidence"),
     "figure12": Figure(_figure12, "benchmark"),
     "figure13": Figure(_figure13, "real"),
+    "figure14": Figure(_universes, "evidence"),
+    "figure15": Figure(_universes, "evidence"),
 }
 
 

@@ -23,11 +23,13 @@ class Across(NamedTuple):
 
     Attributes:
         column: of the table of outcomes.
+        number: what is in it, in words.
         limit: name of the claim's limit.
         below: whether the claim holds below it; above it otherwise.
     """
 
     column: str
+    number: str
     limit: str = "ratio"
     below: bool = True
 

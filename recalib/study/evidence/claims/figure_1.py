@@ -33,6 +33,6 @@ CLAIM = Claim(
     " a figure would show.",
     needs=needs,
     measure=measure,
-    across={"": Across("left", "left")},
+    across={"": Across("left", "larger share left", "left")},
     figures=("figure1",),
 )

@@ -36,6 +36,6 @@ CLAIM = Claim(
     " sees as much.",
     needs=needs,
     measure=measure,
-    across={"": Across("intact", "error")},
+    across={"": Across("intact", "largest error [cm, degrees]", "error")},
     figures=("figure3",),
 )

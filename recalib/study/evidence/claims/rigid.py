@@ -44,6 +44,6 @@ CLAIM = Claim(
     " 1996 repeats.",
     needs=needs,
     measure=measure,
-    across={"": Across("rigid_left", "left")},
+    across={"": Across("rigid_left", "larger share left", "left")},
     figures=("figure3",),
 )

@@ -30,6 +30,6 @@ CLAIM = Claim(
     " of the error there is not quick.",
     needs=needs,
     measure=measure,
-    across={"": Across("ritter_left", "left", below=False)},
+    across={"": Across("ritter_left", "smaller share left", "left", below=False)},
     figures=("figure9",),
 )

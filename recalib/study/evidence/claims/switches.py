@@ -13,6 +13,7 @@ from recalib.study.statistics import Estimate, combined, ratio
 
 BY_KEY = {switch.key: switch for switch in SWITCHES}
 RATIO = Limit(1.0)
+RATIO_OF = "error with it / without it"
 SYSTEMS = "the improved system", "Ritter's"
 
 
@@ -67,8 +68,8 @@ def claim(switch: Switch, facts: tuple[str, ...] = (), **said) -> Claim:
         needs=needs,
         measure=lambda evidence, limits: found(evidence, limits, switch),
         across={
-            SYSTEMS[0]: Across(f"{switch.key}_improved"),
-            SYSTEMS[1]: Across(f"{switch.key}_ritter"),
+            SYSTEMS[0]: Across(f"{switch.key}_improved", RATIO_OF),
+            SYSTEMS[1]: Across(f"{switch.key}_ritter", RATIO_OF),
         },
         **said,
     )

@@ -50,6 +50,6 @@ CLAIM = Claim(
     " trial and are no independent sample.)",
     needs=needs,
     measure=measure,
-    across={"": Across("width_order")},
+    across={"": Across("width_order", "narrow / wide, the worse map")},
     figures=("figure6",),
 )

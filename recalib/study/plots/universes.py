@@ -1,0 +1,136 @@
+"""The figures of the multiverse: does a claim hold in every reading, and what moves it?"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.across import Across
+from recalib.study.evidence.results import Evidence
+from recalib.study.multiverse.effects import effects
+from recalib.study.plots.steady import LOG
+from recalib.study.plots.style import BORDER, plain, title
+
+COLUMNS = 3
+HOLDS, FAILS = "#0072B2", "#D55E00"
+SHOWN = 5  # factors of each claim
+
+
+class Panel(NamedTuple):
+    """A claim, or its part about one system."""
+
+    claim: str
+    system: str
+    across: Across
+    limit: float
+
+    @property
+    def heading(self) -> str:
+        """What it is about."""
+        name = self.claim.replace("-", " ")
+        return f"{name}, {self.system}" if self.system else name
+
+
+def panels() -> Iterator[Panel]:
+    """All claims that universes vary, in the paper's order."""
+    for claim in CLAIMS:
+        for system, across in claim.across.items():
+            yield Panel(claim.id, system, across, float(claim.limits[across.limit]))
+
+
+def _grid(height: float) -> tuple[Figure, list[Axes], list[Panel]]:
+    shown = list(panels())
+    rows = -(-len(shown) // COLUMNS)
+    figure, axes = plt.subplots(rows, COLUMNS, figsize=(11, height * rows), squeeze=False)
+    for spare in axes.flat[len(shown) :]:
+        spare.remove()
+    return figure, list(axes.flat[: len(shown)]), shown
+
+
+def _within(values: pd.Series) -> pd.Series:
+    """Infinite ones, of what was not reached, a little above the others."""
+    finite = values[np.isfinite(values)]
+    return values.clip(upper=1.3 * finite.max())
+
+
+def figure14(evidence: Evidence) -> Figure:
+    """Specification curves: what was measured for each claim in every universe, in order."""
+    figure, all_axes, shown = _grid(2.2)
+    outcomes = evidence.outcomes()
+    for axes, panel in zip(all_axes, shown, strict=True):
+        holds = panel.across.holds(outcomes, panel.limit)
+        values = _within(outcomes[panel.across.column])
+        order = np.argsort(values, kind="stable")
+        rank = np.empty(len(order))
+        rank[order] = np.arange(1, len(order) + 1)
+        for mask, color, marker in ((holds, HOLDS, "o"), (~holds, FAILS, "x")):
+            axes.scatter(rank[mask], values[mask], s=9, color=color, marker=marker, linewidth=0.8)
+        axes.axhline(panel.limit, **BORDER)
+        axes.set(yscale=LOG, xlim=(0, len(order) + 1))
+        axes.set_xticks([1, len(order)])
+        axes.set_ylabel(panel.across.number, fontsize=8)
+        axes.tick_params(labelsize=8)
+        low, high = values.min(), values.max()
+        plain(axes.yaxis, *_ticks(low, high, panel.limit))
+        side = "below" if panel.across.below else "above"
+        axes.set_title(
+            f"{panel.heading}\nholds {side} {panel.limit:g}: in {holds.sum()} of {len(holds)}",
+            fontsize=9,
+        )
+    title(
+        figure,
+        "Figure 14: does each claim hold, whatever one chooses where the paper is silent?",
+        f"each sign is one of {len(outcomes)} universes: another robot, damage, convention, search"
+        " and seeds; in order of what was measured.\nBlue dots: the claim holds there; orange"
+        " crosses: it does not; the line parts them",
+    )
+    return figure
+
+
+def _ticks(low: float, high: float, limit: float) -> list[float]:
+    """Three numbers of a logarithmic axis: the limit, and where the measurements end."""
+    found = {float(f"{limit:.2g}")}
+    for end in (low, high):
+        if abs(np.log(end / limit)) > 0.25 * np.log(max(high, limit) / min(low, limit)):
+            found.add(float(f"{end:.1g}"))
+    return sorted(found)
+
+
+def figure15(evidence: Evidence) -> Figure:
+    """What each claim depends on: the factors that move its number most."""
+    figure, all_axes, shown = _grid(1.9)
+    outcomes, design = evidence.outcomes(), evidence.design()
+    factors = list(design)
+    for axes, panel in zip(all_axes, shown, strict=True):
+        values = outcomes[panel.across.column]
+        luck = evidence.rng("effects", panel.claim, panel.system)
+        table = effects(values, design[factors], luck).head(SHOWN).iloc[::-1]
+        heights = np.arange(len(table))
+        strong = table["effect"] > table["chance"]
+        axes.hlines(heights, table["low"], table["high"], color=np.where(strong, HOLDS, "0.6"))
+        axes.scatter(table["effect"], heights, s=22, zorder=3, color=np.where(strong, HOLDS, "0.6"))
+        axes.scatter(table["chance"], heights, s=60, marker="|", color="black", zorder=2)
+        names = [
+            f"{row.factor.replace('_', ' ')}: {row.least} < {row.largest}"
+            for row in table.itertuples()
+        ]
+        axes.set_yticks(heights, names, fontsize=7)
+        axes.set(xscale=LOG, xlim=(0.95, None), ylim=(-0.6, len(table) - 0.4))
+        plain(axes.xaxis, 1, 1.2, 1.5, 2, 3, 5, 10)
+        axes.grid(axis="y", visible=False)
+        axes.tick_params(axis="x", labelsize=8)
+        axes.set_title(panel.heading, fontsize=9, loc="right")
+    title(
+        figure,
+        "Figure 15: what does each claim depend on?",
+        "for each claim the five choices that move its number most: from the level where it is"
+        " smallest to the one where it is largest, how many times as large?\nlines: 95 %"
+        " bootstrap intervals over universes; | : what a choice without any effect stays below in"
+        " 95 % of cases; grey: no more than that",
+    )
+    return figure
