@@ -30,8 +30,10 @@ def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
 
 def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
+    # Point by point: in one product of matrices, a point's neighbours change how it is rounded.
+    products = (points[..., None, :] @ centres.T)[..., 0, :]
     # |p - c|^2 without |p|^2, which is the same for every centre
-    return np.argmin((centres**2).sum(axis=1) - 2 * points @ centres.T, axis=-1)
+    return np.argmin((centres**2).sum(axis=1) - 2 * products, axis=-1)
 
 
 class Nets:
