@@ -4,9 +4,10 @@ from typing import TYPE_CHECKING
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.across import RULE
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import measured, n
+from recalib.study.evidence.words import depends, in_universes, measured, n, verdicts
 from recalib.study.measured import ERRORS
 
 if TYPE_CHECKING:
@@ -88,6 +89,11 @@ def context(evidence: Evidence) -> dict:
     return {
         "n": n,
         "measured": measured,
+        "verdicts": verdicts,
+        "in_universes": in_universes,
+        "depends": depends,
+        "rule": RULE,
+        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in evidence.claims()),
         "shipped": evidence.shipped,
         "claims": [_said(claim) for claim in evidence.claims()],
         "iterations": evidence.fact("iterations"),

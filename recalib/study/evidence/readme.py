@@ -3,7 +3,7 @@
 from recalib.study.evidence.claims.speed_up import FACTOR
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts, measured, n, pair
+from recalib.study.evidence.words import amounts, brief, in_universes, n, pair, verdicts
 from recalib.study.measured import ERRORS, UNITS
 
 
@@ -28,7 +28,10 @@ def context(evidence: Evidence) -> dict:
     return {
         "n": n,
         "pair": pair,
-        "measured": measured,
+        "brief": brief,
+        "verdicts": verdicts,
+        "in_universes": in_universes,
+        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims),
         "shipped": evidence.shipped,
         "study": evidence.study,
         "figures": "figures" if evidence.shipped else "../figures",

@@ -39,10 +39,45 @@ def measured(claim: Mapping) -> str:
 
 
 def brief(claim: Mapping) -> str:
-    """The first number that was measured for a claim, without its interval."""
-    label, value = next(iter(claim["measured"].items()))
-    number = "more" if value is None else _rounding(value) or f"{value:.3g}"
-    return f"{label}: {number}"
+    """What was measured first for a claim, with its interval."""
+    label = next(iter(claim["measured"]))
+    return measured({"measured": {label: claim["measured"][label]}, "interval": claim["interval"]})
+
+
+def verdicts(claim: Mapping) -> str:
+    """The verdict on a claim; of one about several systems, that on each of them as well."""
+    text = f"**{claim['verdict']}**"
+    parts = (f"{its['verdict']} for {system}" for system, its in claim["systems"].items())
+    return f"{text}: {', '.join(parts)}" if claim["systems"] else text
+
+
+def in_universes(claim: Mapping) -> str:
+    """In how many universes a claim holds."""
+    systems = {system: its["universes"] for system, its in claim["systems"].items()}
+    found = systems or {"": claim["universes"]}
+    counts = (
+        f"{share['holds']} of {share['of']}{f' ({system})' if system else ''}"
+        for system, share in found.items()
+        if share
+    )
+    return ", ".join(counts) or "cannot vary"
+
+
+def depends(claim: Mapping) -> str:
+    """The choice that moves a claim's number most, and by how much."""
+    shares = [its["universes"] for its in claim["systems"].values()] or [claim["universes"]]
+    texts = []
+    for system, share in zip(claim["systems"] or [""], shares, strict=True):
+        its = share["depends_on"]
+        low, high = its["interval"]
+        text = (
+            f"{its['factor'].replace('_', ' ')}, {its['times']:.2g} times ({low:.2g} to {high:.2g})"
+            f" as large for {its['to']} as for {its['from']}"
+        )
+        if its["times"] <= its["chance"]:
+            text = f"no choice more than chance would show (first: {text})"
+        texts.append(f"{system}: {text}" if system else text)
+    return "; ".join(texts)
 
 
 def amounts(entry: Mapping) -> str:

@@ -40,10 +40,16 @@ class Across(NamedTuple):
 
 
 class Share(NamedTuple):
-    """In how many universes a claim holds."""
+    """In how many universes a claim holds.
+
+    Attributes:
+        holds, of: so many of so many.
+        strongest: the row of `multiverse.effects` for the factor that moves its number most.
+    """
 
     holds: int
     of: int
+    strongest: "pd.Series"
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -56,8 +62,24 @@ class Share(NamedTuple):
     @property
     def said(self) -> dict:
         """As the contract of claims.json has it."""
-        interval = [float(f"{bound:.4g}") for bound in self.interval]
-        return {"holds": self.holds, "of": self.of, "interval": interval}
+        its = self.strongest
+        return {
+            "holds": self.holds,
+            "of": self.of,
+            "interval": [_rounded(bound) for bound in self.interval],
+            "depends_on": {
+                "factor": its["factor"],
+                "from": str(its["least"]),
+                "to": str(its["largest"]),
+                "times": _rounded(its["effect"]),
+                "interval": [_rounded(its["low"]), _rounded(its["high"])],
+                "chance": _rounded(its["chance"]),
+            },
+        }
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.4g}")
 
 
 def over_all(home: bool | None, share: Share | None) -> bool | None:

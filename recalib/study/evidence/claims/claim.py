@@ -171,18 +171,22 @@ class Claim:
     def ask(self, request: Request) -> None:
         """Ask for all that judging it reads."""
         self.needs(request)
-        if self.across:
-            request.outcomes()
+        if self.across and request.outcomes():
+            request.fact("seed")
 
     def shares(self, evidence: Evidence) -> dict[str, Share]:
         """In how many universes it holds, by system; empty for a study without universes."""
         outcomes = evidence.outcomes() if self.across else None
         if outcomes is None:
             return {}
+        from recalib.study.multiverse.effects import effects
+
         found = {}
         for system, across in self.across.items():
             holds = across.holds(outcomes, self.limits[across.limit])
-            found[system] = Share(int(holds.sum()), len(holds))
+            luck = evidence.rng("effects", self.id, system)
+            strongest = effects(outcomes[across.column], evidence.design(), luck).iloc[0]
+            found[system] = Share(int(holds.sum()), len(holds), strongest)
         return found
 
 
