@@ -6,8 +6,8 @@ from recalib.errors import UnknownName
 from recalib.interfaces import Outcome
 from recalib.study.entrants import PEERS, make_peer
 from recalib.study.evidence.guidance import moves_text, where_worse
-from recalib.study.evidence.results import ERRORS
 from recalib.study.experiments.benchmark import Timed, measured_at, moves_to_reach
+from recalib.study.measured import ERRORS
 
 
 def test_a_map_is_measured_where_its_moves_meet_a_budget():

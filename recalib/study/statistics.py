@@ -10,7 +10,6 @@ searches are a training's own.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import ndtr, stdtrit
 
 LEVEL = 0.95
 RESAMPLES = 20_000
@@ -62,6 +61,8 @@ class Draws:
         a repetition has luck of its own (Spence and Stanley 2016). Of many trainings, the two with
         the fewest searches count. NaN for a single search.
         """
+        from scipy.special import ndtr, stdtrit  # a tenth of a second, which only judging needs
+
         fewest, *more = sorted(self._searches)[:2]
         if fewest < 2:
             return Estimate(float(numbers[0]), np.nan, np.nan)
