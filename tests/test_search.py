@@ -1,3 +1,4 @@
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -8,9 +9,12 @@ from recalib.errors import UnknownName
 from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
-from recalib.study.experiments.settings import best, rules_of
+from recalib.study.experiments.settings import best, build_tuned, rules_of
+from recalib.study.experiments.trials import search_for
 from recalib.study.layout import SEARCHED
-from recalib.study.trainings import Trainings, rules, training
+from recalib.study.plants import resolve
+from recalib.study.statistics import combined
+from recalib.study.trainings import Trainings, ritter_short, rules, switched, training
 from tests.conftest import ROOT
 
 RANGES = {
@@ -22,8 +26,12 @@ RANGES = {
 RULES = Rules(True, True, True, True)
 
 
+def rng(seed):
+    return np.random.default_rng(seed)
+
+
 def test_trials_fill_the_ranges_and_widths_and_rates_fall():
-    trials = search.draw(RULES, RANGES, 64, seed=1)
+    trials = search.draw(RULES, RANGES, 64, rng(1))
     assert len(trials) == 64 and list(trials) == search.columns(RULES)
     assert trials["initial_width"].between(0.2, 5).all() and trials["initial_width"].min() < 0.25
     for width in search.columns(RULES)[1:-2]:
@@ -33,15 +41,15 @@ def test_trials_fill_the_ranges_and_widths_and_rates_fall():
     ].max() <= 1
 
 
-def test_trials_follow_from_their_seed():
-    assert search.draw(RULES, RANGES, 8, seed=1).equals(search.draw(RULES, RANGES, 8, seed=1))
-    assert not search.draw(RULES, RANGES, 8, seed=1).equals(search.draw(RULES, RANGES, 8, seed=2))
+def test_trials_follow_from_their_randomness():
+    assert search.draw(RULES, RANGES, 8, rng(1)).equals(search.draw(RULES, RANGES, 8, rng(1)))
+    assert not search.draw(RULES, RANGES, 8, rng(1)).equals(search.draw(RULES, RANGES, 8, rng(2)))
 
 
 @pytest.mark.parametrize("index", range(5))
 def test_the_second_round_surrounds_the_best_and_stays_inside_the_ranges(index):
-    best = search.draw(RULES, RANGES, 8, seed=1).iloc[index]
-    near = search.draw(RULES, RANGES, 64, seed=2, around=best)
+    best = search.draw(RULES, RANGES, 8, rng(1)).iloc[index]
+    near = search.draw(RULES, RANGES, 64, rng(2), around=best)
     spread = np.log(near["initial_width"].max() / near["initial_width"].min())
     assert spread <= search.ZOOM * np.log(5 / 0.2) + 0.01
     assert near["initial_width"].min() <= best["initial_width"] * 1.1
@@ -52,7 +60,7 @@ def test_the_second_round_surrounds_the_best_and_stays_inside_the_ranges(index):
 
 
 def test_a_frame_of_trials_is_a_schedule_of_runs():
-    trials = search.draw(RULES, RANGES, 4, seed=1)
+    trials = search.draw(RULES, RANGES, 4, rng(1))
     schedule = search.schedule(trials, RULES, repeat=3)
     assert np.array_equal(schedule.initial_width, np.repeat(trials["initial_width"], 3))
     assert np.array_equal(
@@ -61,11 +69,49 @@ def test_a_frame_of_trials_is_a_schedule_of_runs():
     assert isinstance(search.schedule(trials.iloc[0], RULES).final_rate, float)
 
 
-def test_the_score_is_the_worse_of_both_errors():
+def test_the_score_is_what_learners_are_compared_by():
     frame = pd.DataFrame(
-        {"position_error_cm": [1.0, 2.0, 4.0], "orientation_error_deg": [4.0, 3.0, 2.0]}
+        {"position_error_cm": [1.0, 2.0, 4.0], "orientation_error_deg": [4.0, 4.5, 9.0]}
     )
-    assert search.score(frame).tolist() == [4.0, 3.0, 4.0]
+    assert search.score(frame).tolist() == [2.0, 3.0, 6.0]
+    assert search.score(frame).tolist() == combined(frame.to_numpy()).tolist()
+
+
+@pytest.fixture
+def searched(plan, tmp_path):
+    """A function that searches in no time: few trials of few iterations, on an easy damage."""
+    resolve(plan.scenario("translation"), []).write(tmp_path / "translation.json")
+    whole = plan.search("improved_200", 0)
+    budget = whole.budget.model_copy(update={"rounds": 2, "trials": 4, "seeds": 1})
+    learner = whole.learner.model_copy(update={"iterations": 3})
+    small = {"budget": budget, "learner": learner, "tests": 5, "first": 0, "last": 3}
+
+    def searched(**update):
+        job = whole.model_copy(update=small | update)
+        return search_for(job, tmp_path / "translation.json")
+
+    return searched
+
+
+def test_every_search_has_a_sequence_of_its_own(searched):
+    trials = searched()
+    assert trials.groupby(["search", "round"]).size().tolist() == [4] * 6
+    assert trials["initial_width"].nunique() == len(trials)
+    others = searched(training="improved_single_map_200")
+    assert not set(others["initial_width"]) & set(trials["initial_width"])
+
+
+def test_every_search_has_poses_of_its_own(searched, monkeypatch):
+    same = search.draw(RULES, RANGES, 4, rng(1))
+    monkeypatch.setattr(search, "draw", lambda *args: same.copy())
+    same_trials = searched().groupby(["round", "initial_width"])["position_error_cm"]
+    assert same_trials.nunique().tolist() == [3] * 8
+
+
+def test_a_search_does_not_depend_on_those_beside_it(searched):
+    alone = searched(first=1, last=2)
+    beside = searched().query("search == 2").reset_index(drop=True)
+    pd.testing.assert_frame_equal(alone, beside)
 
 
 def test_a_training_is_a_learner_and_its_iterations(study):
@@ -94,29 +140,79 @@ def test_a_switch_changes_one_thing_of_each_system(study, switch):
 
 def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(plan, tmp_path):
     path = tmp_path / "improved_200.csv"
-    trials = search.draw(RULES, RANGES, 4, seed=1).assign(position_error_cm=[3.0, 1, 2, 4])
-    trials["orientation_error_deg"] = [1.0, 2, 1.5, 1]
-    samples.write_sample(path, plan.sample("improved_200"), trials)
-    assert samples.searched_for(path) == plan.sample("improved_200")
+    job, trials = plan.sample("improved_200").model_copy(update={"searches": 2}), sample_of_two()
+    samples.write_sample(path, job, trials)
+    assert samples.searched_for(path) == job
     assert samples.read_sample(path).equals(trials)
-    assert samples.best_trial(path) == trials.loc[1].to_dict()
-    assert best(samples.read_sample(path)).name == 1, (
-        "its worse error is the smallest; the first of two"
-    )
     path.write_text("round,initial_width\n1,2\n")
     with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
         samples.read_sample(path)
 
 
-@pytest.mark.parametrize(
-    "path", sorted(Path(ROOT, SEARCHED).glob("*.csv")), ids=lambda path: path.stem
-)
+def sample_of_two() -> pd.DataFrame:
+    """Four trials of each of two searches; two of the second are equally good."""
+    trials = search.draw(RULES, RANGES, 8, rng(1))
+    trials.insert(0, "search", [1] * 4 + [2] * 4)
+    errors = {"position_error_cm": [3.0, 1, 2, 4] * 2, "orientation_error_deg": [1.0, 2, 2, 2] * 2}
+    return trials.assign(**errors).replace({"orientation_error_deg": {4: 1.0}})
+
+
+def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(plan, tmp_path):
+    path, trials = tmp_path / "improved_200.csv", sample_of_two()
+    job = plan.sample("improved_200").model_copy(update={"searches": 2})
+    samples.write_sample(path, job, trials)
+    assert best(trials).index.tolist() == [1, 5]
+    assert samples.winners(path) == best(trials).to_dict("records")
+
+
+def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(
+    study, plan, tmp_path
+):
+    path, trials = tmp_path / "improved_200.csv", sample_of_two()
+    job = plan.sample("improved_200").model_copy(update={"searches": 2})
+    samples.write_sample(path, job, trials)
+    learner = build_tuned(rules(study, "improved"), path, [2, 1, 3])
+    widths = best(trials)["initial_width"].tolist()
+    assert np.ravel(learner.schedule.initial_width).tolist() == [widths[1], widths[0], widths[0]]
+
+
+SHIPPED = sorted(Path(ROOT, SEARCHED).glob("*.csv"))
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_a_shipped_sample_was_searched_for_what_the_study_trains(study, plan, path):
     assert samples.searched_for(path) == plan.sample(path.stem)
-    trials = samples.read_sample(path)
-    assert trials.groupby("round").size().tolist() == [study.search.trials] * study.search.rounds
+    trials, plan_ = samples.read_sample(path), study.search
+    numbers = product(range(1, plan.searches(path.stem) + 1), range(1, plan_.rounds + 1))
+    assert trials.groupby(["search", "round"]).size().to_dict() == dict.fromkeys(
+        numbers, plan_.trials
+    )
+    assert samples.winners(path) == best(trials).to_dict("records")
+
+
+@pytest.mark.skipif(not SHIPPED, reason="needs the sample of the search, which `make tune` leaves")
+def test_all_that_is_compared_has_the_same_budget(study):
+    """Searches, trials, seeds and ranges: for all alike, as the files say and as they hold."""
+    heads = {path.stem: samples.searched_for(path) for path in SHIPPED}
+    assert len({head.budget.model_dump_json() for head in heads.values()}) == 1
+    assert len({(head.robot, head.scenario) for head in heads.values()}) == 1
+    compared = [*(training(study, name) for name in switched(study))]
+    compared += [training(study, "improved"), training(study, ritter_short(study))]
+    rungs = [
+        training(study, f"{learner}_{rung}")
+        for learner, ladder in study.experiments.ladder.items()
+        for rung in ladder
+    ]
+    assert len({str(each) for each in compared}) == 10
+    spent = {}
+    for each in (*compared, *rungs):
+        trials = samples.read_sample(ROOT / SEARCHED / f"{each}.csv")
+        holds = heads[str(each)].searches, tuple(trials.groupby("search").size())
+        spent.setdefault(each.iterations, set()).add(holds)
+    assert all(len(budgets) == 1 for budgets in spent.values()), "equal at equal iterations"
+    fewest = {iterations: min(budgets)[0] for iterations, budgets in spent.items()}
+    assert all(fewest[each] >= (12 if each <= 500 else 4) for each in fewest)
 
 
 def test_there_is_a_shipped_sample_for_every_training(study):
-    shipped = {path.stem for path in Path(ROOT, SEARCHED).glob("*.csv")}
-    assert shipped == set(Trainings(study).tuned())
+    assert {path.stem for path in SHIPPED} == set(Trainings(study).tuned())
