@@ -91,3 +91,11 @@ def score(errors: Mapping):
     It does not depend on the units. Of a trial, or of a frame of trials.
     """
     return np.sqrt(errors["position_error_cm"] * errors["orientation_error_deg"])
+
+
+def worse(errors: Mapping):
+    """The larger of both errors, in cm and degrees: a pair is reached by both."""
+    return np.maximum(errors["position_error_cm"], errors["orientation_error_deg"])
+
+
+SCORES = {"geometric_mean": score, "worse_error": worse}
