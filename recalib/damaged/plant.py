@@ -35,7 +35,8 @@ class Plant:
     ):
         self._controller, self._arms = controller, arms
         self._disturbances, self._generators = disturbances, generators
-        self._chains = len(arms) > 1 and Chain.side_by_side([arm.chain for arm in arms])
+        alone = len(arms) == 1
+        self._together = None if alone else Chain.side_by_side([arm.chain for arm in arms])
         self._home = [arm.forward(controller.robot.home[None])[0] for arm in arms]
         self.moves = self.refused = 0
 
@@ -71,11 +72,11 @@ class Plant:
         """As `achieve`, for commands that the controller has turned into joint angles."""
         angles, executed = targets
         runs, moves, _ = angles.shape
-        if self._chains:
-            standing = [arm.standing(own) for arm, own in zip(self._arms, angles, strict=True)]
-            poses = self._chains.forward(np.stack(standing))
-        else:
+        if self._together is None:
             poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
+        else:
+            standing = [arm.standing(own) for arm, own in zip(self._arms, angles, strict=True)]
+            poses = self._together.forward(np.stack(standing))
         if not executed.all():
             homes = np.broadcast_to(np.stack(self._home)[:, None], poses.shape)
             poses[~executed] = homes[~executed]

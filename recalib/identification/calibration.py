@@ -10,7 +10,6 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
 from recalib.interfaces import State
-from recalib.nominal.chain import to_frames
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.regression import Process, is_time_to_search
@@ -103,10 +102,10 @@ def angles_for(
     def look(runs, angles):
         each = (
             calibrations[run].forward_and_jacobian(own)
-            for run, own in zip(runs, angles.transpose(1, 2, 0), strict=True)
+            for run, own in zip(runs, angles, strict=True)
         )
         reached, jacobians = map(np.stack, zip(*each, strict=True))
-        return to_frames(reached), lambda unsolved: jacobians[unsolved].transpose(2, 3, 0, 1)
+        return reached, jacobians, reached[..., :3, 3]
 
     return solve_groups(look, poses, start, TOLERANCE, STEPS)[0]
 

@@ -1,14 +1,15 @@
-"""Forward kinematics and Jacobians of serial arms for many postures at once, in NumPy.
+"""Forward kinematics and Jacobians of serial arms for many postures in few calls of NumPy.
 
-`recalib.nominal.kinematics` has the same from Pinocchio, posture after posture, and is what this is
-tested against. Here the postures are the last axes of every array, so that each call of NumPy works
-on all of them. Each is computed by itself: what is beside it changes not one bit.
-
-A frame (3, 4, ...) is the upper part of homogeneous matrices, lengths in m.
+As a function of one joint's angle q, a frame on the arm beyond it is a constant plus multiples of
+sin q and cos q. Over three joints it is a sum of their 27 products with constant weights. So an arm
+is taken as two halves of three joints, from the base to the wrist, the frame of the fourth joint
+before it turns, and from there to the tool. The weights follow from Pinocchio's kinematics at 27
+postures of each half. Every posture is computed by itself: what is beside it changes not one bit.
 """
 
 from collections.abc import Sequence
-from typing import Self
+from itertools import product
+from typing import NamedTuple, Self
 
 import numpy as np
 import pinocchio as pin
@@ -16,124 +17,100 @@ import pinocchio as pin
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 
-# A turn about z by q is ALONG + SINE sin q + COSINE cos q.
-ALONG, COSINE = np.diag([0.0, 0, 1, 1]), np.diag([1.0, 1, 0, 0])
-SINE = np.array([[0.0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]])
+WRIST = 4  # a joint
+THIRDS = np.array(list(product(2 * np.pi / 3 * np.arange(3), repeat=3)))  # of a turn, (27, 3) rad
 
-# Of x, y and z the two others, in a circle: the cross product is a[NEXT] b[LAST] - a[LAST] b[NEXT].
-NEXT, LAST = [1, 2, 0], [2, 0, 1]
 
-BLOCK = 256  # postures
+class Motion(NamedTuple):
+    """Where arms stand and how they move.
+
+    Attributes:
+        tools: (share, n, 3, 4) poses [m] of the tools without their last row.
+        jacobians: (share, n, 6, 6) from joint velocities to linear [m/s] and angular [rad/s]
+            velocity of the tool along the base's axes. The linear one is that of a point of the
+            tool's link: the one that is at the wrist now.
+        wrists: (share, n, 3) m.
+    """
+
+    tools: np.ndarray
+    jacobians: np.ndarray
+    wrists: np.ndarray
 
 
 class Chain:
-    """A serial arm as a product of frames, one for each joint, about whose z axis it turns.
+    """A serial arm of six turning joints.
 
     Args:
         arm: the chain does not follow when it changes.
 
-    Raises UnsuitableRobot where a joint does not turn about an axis.
+    Raises UnsuitableRobot where a joint slides.
     """
 
     def __init__(self, arm: Arm):
-        model, tool = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
-        placements = [each.homogeneous for each in (*model.jointPlacements[1:], tool.placement)]
-        for joint, turn in enumerate(_turns_of_z(model)):
-            placements[joint] = placements[joint] @ turn
-            placements[joint + 1] = turn.T @ placements[joint + 1]
-        base, *links = placements
-        # from each joint's frame to the next one, the last to the tool, as functions of its angle
-        steps = np.stack([[part @ link for link in links] for part in (ALONG, SINE, COSINE)])
-        steps[:, 0] = base @ steps[:, 0]
-        self._base, self._steps = (
-            base[:3, :, None, None],
-            steps.reshape(3, 3, 2, 4, 4, 1, 1)[..., :3, :, :, :],
-        )
+        halves = [[_half(arm, half, angles) for angles in THIRDS] for half in (0, 1)]
+        weights = np.linalg.solve(_products(THIRDS), np.reshape(halves, (2, len(THIRDS), -1)))
+        self._weights = weights.reshape(np.shape(halves))
 
     @classmethod
     def side_by_side(cls, chains: Sequence["Chain"]) -> Self:
         """Several chains as one, each of which takes its share of the postures."""
         together = cls.__new__(cls)
-        together._base = np.concatenate([each._base for each in chains], axis=-2)
-        together._steps = np.concatenate([each._steps for each in chains], axis=-2)
+        together._weights = np.stack([each._weights for each in chains])[:, None]
         return together
 
-    def frames(self, angles: np.ndarray) -> np.ndarray:
-        """Frames (7, 3, 4, share, n) of the joints, each before it turns, and of the tool.
-
-        Args:
-            angles: (6, share, n) rad.
-        """
-        # two joints at a time: a call of NumPy costs as much as its work on few postures
-        pairs = np.ascontiguousarray(angles).reshape(3, 2, *angles.shape[1:])
-        still, sine, cosine = self._steps
-        steps = sine * np.sin(pairs)[:, :, None, None]
-        steps += cosine * np.cos(pairs)[:, :, None, None]
-        steps += still
-        _multiply(steps[:, 0], steps[:, 1].copy(), out=steps[:, 1])
-        frames = np.empty((7, *steps.shape[2:]))
-        frames[0], frames[1:3] = self._base, steps[0]
-        _multiply(frames[2], steps[1], out=frames[3:5])
-        _multiply(frames[4], steps[2], out=frames[5:])
-        return frames
-
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (share, n, 4, 4) of the tool at joint angles (share, n, 6) [rad]."""
-        return np.concatenate(
-            [
-                to_poses(self.frames(angles[:, block].transpose(2, 0, 1))[-1])
-                for block in blocks(angles.shape[-2])
-            ],
-            axis=-3,
-        )
+        """Poses (share, n, 4, 4) of the tool [m] at joint angles (share, n, 6) [rad]."""
+        poses = np.zeros((*angles.shape[:-1], 4, 4))
+        poses[..., :3, :] = self._halves(angles, self._weights[..., :4])[..., 1, :, :]
+        poses[..., 3, 3] = 1
+        return poses
+
+    def move(self, angles: np.ndarray) -> Motion:
+        """The motion at joint angles (share, n, 6) [rad]."""
+        postures, halves = angles.shape[:-1], self._halves(angles, self._weights)
+        # (share, n, half, axis, linear or angular, joint), with the halves beside their joints
+        columns = halves[..., 4:].reshape(*postures, 2, 3, 2, 3).transpose(0, 1, 4, 3, 2, 5)
+        return Motion(halves[..., 1, :, :4], columns.reshape(*postures, 6, 6), halves[..., 0, :, 3])
+
+    def _halves(self, angles: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """Both halves' columns (share, n, 2, 3, ...) in the base frame: see `_half`."""
+        products = _products(angles.reshape(*angles.shape[:-1], 2, 3))
+        columns = products[..., None, :] @ weights.reshape(*weights.shape[:-2], -1)
+        halves = columns.reshape(*products.shape[:-1], 3, -1)
+        near, far = halves[..., 0, :, :], halves[..., 1, :, :]
+        far[...] = near[..., :3] @ far
+        far[..., 3] += near[..., 3]
+        return halves
 
 
-def _multiply(left: np.ndarray, right: np.ndarray, out: np.ndarray) -> None:
-    """Products (..., 3, 4, share, n) of frames."""
-    terms = left[..., :3, None, :, :] * right[..., None, :, :, :, :]
-    np.add.reduce(terms, axis=-4, out=out)
-    out[..., 3, :, :] += left[..., 3, :, :]
+def _half(arm: Arm, half: int, angles: np.ndarray) -> np.ndarray:
+    """Of the half's last frame (3, 4) and of its joints' Jacobian at the wrist two (3, 3), (3, 10).
 
+    In the half's first frame.
 
-def blocks(postures: int) -> list[slice]:
-    """Slices of so many postures, each of which the processor's cache holds with all its frames."""
-    return [slice(first, first + BLOCK) for first in range(0, max(postures, 1), BLOCK)]
-
-
-def jacobians(frames: np.ndarray) -> np.ndarray:
-    """Jacobians (6, 6, share, n) of the tool, from the frames of a chain.
-
-    They map joint velocities to the tool's linear [m/s] and angular [rad/s] velocity along the
-    base's axes.
+    Args:
+        half: 0 from the base to the wrist, 1 from there to the tool.
+        angles: (3,) rad of the half's joints; those of the other half are at zero.
     """
-    axes, levers = frames[:-1, :, 2], frames[-1, :, 3] - frames[:-1, :, 3]
-    linear = axes[:, NEXT] * levers[:, LAST] - axes[:, LAST] * levers[:, NEXT]
-    return np.concatenate([linear, axes], axis=1).swapaxes(0, 1)
+    model, data, joints = arm.model, arm.model.createData(), slice(3 * half, 3 * half + 3)
+    posture, frame = np.zeros(6), tool_frame(model, arm.tool)
+    posture[joints] = angles
+    jacobian = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)
+    tool = pin.updateFramePlacement(model, data, frame)
+    wrist = data.oMi[WRIST - 1] * model.jointPlacements[WRIST]
+    linear, angular = np.split(jacobian[:, joints], 2)
+    if not angular.any(axis=0).all():
+        raise UnsuitableRobot(f"a joint of {model.name} slides; valid: joints that turn")
+    linear += np.cross(angular, (wrist.translation - tool.translation)[:, None], axis=0)
+    first, last = (pin.SE3.Identity(), wrist) if half == 0 else (wrist, tool)
+    into = first.rotation.T
+    return np.hstack([first.actInv(last).homogeneous[:3], into @ linear, into @ angular])
 
 
-def to_poses(frames: np.ndarray) -> np.ndarray:
-    """The poses (share, n, 4, 4) of frames (3, 4, share, n)."""
-    poses = np.empty((*frames.shape[2:], 4, 4))
-    poses[..., :3, :] = frames.transpose(2, 3, 0, 1)
-    poses[..., 3, :] = 0, 0, 0, 1
-    return poses
-
-
-def to_frames(poses: np.ndarray) -> np.ndarray:
-    """The frames (3, 4, share, n) of poses (share, n, 4, 4)."""
-    return poses[..., :3, :].transpose(2, 3, 0, 1).copy()
-
-
-def _turns_of_z(model: pin.Model) -> list[np.ndarray]:
-    """For each joint a turn (4, 4) of its frame that takes z to the axis about which it turns."""
-    data, turns = model.createData(), []
-    for joint in range(1, model.njoints):
-        motion = pin.computeJointJacobian(model, data, pin.neutral(model), joint)[:, joint - 1]
-        if motion[:3].any():
-            raise UnsuitableRobot(f"joint {model.names[joint]!r} does not turn about an axis")
-        axis, turn = motion[3:], np.eye(4)
-        across = np.cross(np.eye(3)[np.abs(axis).argmin()], axis)  # exact where z is x, y or z
-        across /= np.linalg.norm(across)
-        turn[:3, :3] = np.column_stack([across, np.cross(axis, across), axis])
-        turns.append(turn)
-    return turns
+def _products(angles: np.ndarray) -> np.ndarray:
+    """The products (..., 27) of 1, sine or cosine of three joints' angles (..., 3) [rad]."""
+    each = angles.reshape(-1, 3).T.copy()  # the postures last: much to do in each call of NumPy
+    waves = np.empty((3, *each.shape))
+    waves[0], waves[1], waves[2] = 1, np.sin(each), np.cos(each)
+    products = (waves[:, None, 0] * waves[:, 1])[:, :, None] * waves[:, 2]
+    return products.reshape(27, -1).T.copy().reshape(*angles.shape[:-1], 27)

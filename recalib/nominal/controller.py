@@ -22,7 +22,7 @@ from recalib.nominal.robots import Robot
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
 DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
-TRUSTED = 1.25  # up to here it is: learners command poses a little beyond the workspace
+TRUSTED = 1.5  # up to here it is: learners command poses a little beyond the workspace
 NOT_REACHED = "no joint angles reach it"
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 
