@@ -22,7 +22,7 @@ from recalib.nominal.robots import Robot
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
 DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
-TRUSTED = 1.5  # up to here it is: learners command poses a little beyond the workspace
+TRUSTED = 1.5  # coordinates for which it serves: learners command a little beyond the workspace
 NOT_REACHED = "no joint angles reach it"
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 
@@ -91,6 +91,7 @@ class Controller:
         return self._solve(poses, self.robot.workspace.to_coordinates(poses))
 
     def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
+        # farther out a polynomial means nothing: the nearest pose of the workspace has to do
         beyond = np.abs(coordinates).max(axis=1, keepdims=True) > TRUSTED
         features = monomials(np.where(beyond, np.clip(coordinates, -1, 1), coordinates), DEGREE)
         # row by row: one product of all would round with the batch's size
