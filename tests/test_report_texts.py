@@ -12,8 +12,8 @@ from tests.made_up import MadeUp
 
 
 @pytest.fixture(scope="module")
-def made_up(study, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("made_up"), study)
+def made_up(few, tmp_path_factory) -> MadeUp:
+    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
     its.conclude()
     return its
 
@@ -25,9 +25,9 @@ def known(made_up, monkeypatch) -> dict:
 
 
 @pytest.fixture
-def figures(study, made_up, tmp_path) -> dict[str, str]:
+def figures(few, made_up, tmp_path) -> dict[str, str]:
     """Drawings of which only the beginning matters."""
-    names = drawn(study, made_up.request)
+    names = drawn(few, made_up.request)
     for name in names:
         (tmp_path / f"{name}.svg").write_text(f"<?xml ?>\n<svg id='{name}'></svg>")
     return {name: str(tmp_path / f"{name}.svg") for name in names}

@@ -80,7 +80,7 @@ def test_the_score_is_what_learners_are_compared_by():
 @pytest.fixture
 def searched(plan, tmp_path):
     """A function that searches in no time: few trials of few iterations, on an easy damage."""
-    resolve(plan.scenario("translation"), []).write(tmp_path / "translation.json")
+    resolve(plan.scenario("rotation"), []).write(tmp_path / "rotation.json")
     whole = plan.search("improved_200", 0)
     budget = whole.budget.model_copy(update={"rounds": 2, "trials": 4, "seeds": 1})
     learner = whole.learner.model_copy(update={"iterations": 3})
@@ -88,7 +88,7 @@ def searched(plan, tmp_path):
 
     def searched(**update):
         job = whole.model_copy(update=small | update)
-        return search_for(job, tmp_path / "translation.json")
+        return search_for(job, tmp_path / "rotation.json")
 
     return searched
 
