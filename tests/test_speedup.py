@@ -42,6 +42,11 @@ def needed_by_one(rungs, errors, target) -> float:
     return np.inf
 
 
+def test_a_ladder_that_never_gets_there_is_no_matter_how_flat():
+    flat = np.array([[2, 2], [2 - 1e-12, 2], [2, 2]])
+    assert iterations_needed(RUNGS, flat, np.array([1, 1])) == np.inf
+
+
 def test_many_ladders_at_once_are_as_one_by_one():
     errors = rng().lognormal(0, 1, (300, 3, 2))
     targets = rng(2).lognormal(0.3, 1, (300, 2))

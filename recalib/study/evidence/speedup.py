@@ -28,8 +28,8 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
     )
     grid = np.log(np.asarray(rungs, dtype=float))
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = missed / (missed - within)
-        needed = np.exp(grid[before] + share * (grid[after] - grid[before]))
+        share = np.clip(missed / (missed - within), 0, 1)
+    needed = np.exp(grid[before] + share * (grid[after] - grid[before]))
     needed = np.where(reached.any(axis=-1), needed, np.inf)
     return np.where(reached[..., 0], np.nan, needed)
 
