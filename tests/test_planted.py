@@ -16,11 +16,10 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments import campaign
 from recalib.study.experiments.settings import build_tuned
+from recalib.study.plan import Plan
 from recalib.study.trainings import rules, training
 from recalib.training import train
 from tests.conftest import ROOT
-
-SEEDS = range(20)
 
 
 def final_errors(study, controller, learner="improved"):
@@ -33,16 +32,18 @@ def final_errors(study, controller, learner="improved"):
         {"encoder": "shoulder_lift_joint", "shift": "-4 deg"},
         {"encoder": "wrist_3_joint", "shift": "3 deg"},
     ]
-    settings = rules(study, learner)
+    settings, plan = rules(study, learner), Plan(study)
+    seeds = np.arange(plan.seeds(learner))  # those of the bands
+    searches = 1 + seeds // study.training.seeds
     sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
     history = train(
         Plant(
             controller,
             [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
         ),
-        build_tuned(settings, sample, len(SEEDS)),
-        campaign.desired_poses(study.seed, "links_encoders", SEEDS, settings.iterations),
-        campaign.test_poses(study.seed, "links_encoders", SEEDS, study.training.tests),
+        build_tuned(settings, sample, searches),
+        campaign.desired_poses(study.seed, "links_encoders", seeds, settings.iterations),
+        campaign.test_poses(study.seed, "links_encoders", seeds, study.training.tests),
         [settings.iterations],
     )
     summary = pd.DataFrame(

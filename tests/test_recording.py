@@ -19,8 +19,9 @@ from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
 from recalib.nominal.poses import position_error
 from recalib.study import jobs
-from recalib.study.experiments import campaign
-from recalib.study.measured import ERRORS
+from recalib.study.experiments import campaign, search
+from recalib.study.experiments.samples import write_sample
+from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import resolve
 from recalib.study.recording import about, arms, scene, story
 from recalib.study.recording.blueprint import arrange
@@ -28,8 +29,9 @@ from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import BrokenRecording, check_recording
 from recalib.study.recording.story import AFTER, BEFORE
 from recalib.study.recording.writing import record, write_recording
+from recalib.study.statistics import typical
 from recalib.training import train
-from tests.conftest import ROOT, changed
+from tests.conftest import changed
 
 RERUN = Path(rerun_cli.__file__).with_name("rerun")
 SEED, ITERATIONS, TESTS = 7, 40, 30
@@ -113,7 +115,7 @@ def write(job, resolved):
 
     def write(path, damages):
         its = resolved(damages)
-        return write_recording(path, job, its, learners(job), experiment(job, its))
+        return write_recording(path, job, its, learners(job), experiment(job, its), 0)
 
     return write
 
@@ -301,8 +303,19 @@ def test_what_is_published_is_shown(job, columns):
         assert np.allclose(10 ** np.ravel(line), value)
 
 
-def test_outliers_and_all_are_recorded_as_the_experiment_of_fifty_seeds_measured_them(
-    job, resolved, tmp_path
+@pytest.fixture
+def sample(plan, tmp_path):
+    """Three searches, of which the first one found the best settings, and the second the worst."""
+    trials = pd.DataFrame({"search": [1, 2, 3], "initial_width": [3.8, 0.3, 1.0]})
+    finals = {f"{name}/{net}": 0.3 for name in ("position", "orientation") for net in search.NETS}
+    trials = trials.assign(**finals, initial_rate=0.8, final_rate=0.4, **dict.fromkeys(ERRORS, 1))
+    path = tmp_path / "improved_40.csv"
+    write_sample(path, plan.sample("improved_40").model_copy(update={"searches": 3}), trials)
+    return path
+
+
+def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outliers_and_all(
+    job, resolved, sample, tmp_path
 ):
     disturbed, undisturbed = resolved((*DAMAGES, *DISTURBANCES)), resolved(DAMAGES[:-1])
     scenario, other = tmp_path / "disturbed.json", tmp_path / "undisturbed.json"
@@ -312,22 +325,27 @@ def test_outliers_and_all_are_recorded_as_the_experiment_of_fifty_seeds_measured
     training = jobs.Training(
         scenario=job.scenario,
         learner=job.learners["improved"],
+        seeds=5,
         first=0,
-        last=50,
+        last=15,
         measuring=job.measuring,
         throughout=True,
         seed=SEED,
     )
-    sample, history = ROOT / "workflow/search/improved_200.csv", tmp_path / "improved.parquet"
+    history = tmp_path / "improved.parquet"
     columns, _, _ = campaign.train_seeds(training, scenario, sample)
     frame = pd.DataFrame(columns)
     frame.to_parquet(history)
+    assert frame.groupby("search")["seed"].unique().map(list).tolist() == [
+        [*range(first, first + 5)] for first in (0, 5, 10)
+    ]
+    assert typical(errors_of(frame)) == 2
     path = tmp_path / "recordings" / "links_encoders.rrd"
     with pytest.raises(BrokenRecording, match="improved at iteration 4: position_error_cm is "):
         record(path, job, other, [sample], [history])
     assert not path.exists()
     record(path, job, scenario, [sample], [history])
-    check_recording(path, {"improved": frame[frame["seed"] == 0]})
+    check_recording(path, {"improved": frame[frame["seed"] == 10]})
 
 
 def test_a_recording_that_differs_from_the_experiment_is_not_written(
