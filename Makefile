@@ -7,7 +7,7 @@ RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help setup test check bench report pictures view tune ship lock clean
+.PHONY: all help setup test check bench report pictures view tune design ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -47,6 +47,11 @@ view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens ano
 tune: setup ## search anew for widths and rates, and ship what is found
 	$(SNAKEMAKE) tune
 	cp results/search/*.csv workflow/search/
+
+design: setup ## draw the universes anew, and ship them
+	$(SNAKEMAKE) --forcerun design -- results/universes/design.csv
+	mkdir -p workflow/universes
+	cp results/universes/design.csv workflow/universes/
 
 ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship

@@ -17,6 +17,7 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/check.smk"
 include: "workflow/rules/benchmark.smk"
 include: "workflow/rules/studies.smk"
+include: "workflow/rules/universes.smk"
 
 
 rule all:

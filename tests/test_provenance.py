@@ -25,7 +25,7 @@ from tests.conftest import ROOT, copy_project
 EVIDENCE = "claims figure page"  # what is said and drawn
 TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
 LONG = "train ensemble_chunk benchmark_run real_twin"  # Ritter's
-NOMINAL = "assignments scenario"  # a robot as its controller believes in it
+NOMINAL = "assignments scenario design"  # a robot as its controller believes in it
 TABLES = "summary benchmark_table real_table"
 
 # What runs again by itself when a leaf changes: rules, for the first pattern that fits its path.
@@ -81,6 +81,7 @@ DEPENDS = {
     "training.seeds_per_job": "run train",
     "training.tests": "train ensemble_chunk benchmark_run real_twin recording search_trials figure",
     "training.*": "train recording",
+    "universes.*": "design",
     "search.rounds": "search",
     "search.trials_per_job": "search_trials",
     "search.*": "search search_trials",
@@ -215,7 +216,7 @@ def depending(tmp_path_factory):
     tree = yaml.safe_load((folder / "config.yaml").read_text(encoding="utf-8"))
     tree = json.loads(json.dumps(tree))  # what an anchor shares is many leaves
     searched = [f"results/search/{name}_200.csv" for name in ("improved", "ritter")]
-    targets = ["all", "benchmark", "real", "ur3", *searched]
+    targets = ["all", "benchmark", "real", "ur3", *searched, "results/universes/design.csv"]
     with mock.patch("workflow.dependencies.code", return_value=""):
         workflow = Workflow(folder, targets)
     before = workflow.asks(studies_of(tree))

@@ -17,6 +17,7 @@ from recalib.study.configuration.study import (
     Series,
     Source,
 )
+from recalib.study.configuration.universes import Universes
 
 
 class Nominal(Frozen):
@@ -33,6 +34,19 @@ class Assignments(Frozen):
     nominal: Nominal
     damage: PaperDamage
     seed: int
+
+
+class Design(Frozen):
+    """The design of the multiverse.
+
+    The robots by name, the study's own first; the damage, and by what the whole robot is moved, are
+    those of the first.
+    """
+
+    plan: Universes
+    robots: tuple[Nominal, ...]
+    damage: PaperDamage
+    moved: tuple[Entry, ...]
 
 
 class Scenario(Frozen):

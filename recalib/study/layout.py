@@ -75,6 +75,11 @@ class Layout:
         """Errors on the real arm."""
         return f"{self.root}/real.csv"
 
+    @property
+    def design(self) -> str:
+        """The design of the multiverse."""
+        return f"{self.root}/universes/design.csv"
+
     def assignments(self, robot: str, suffix: str = ".parquet") -> str:
         """Initial errors of every assignment of the paper's damage; .json: the one that is used."""
         return f"{self.root}/assignments/{robot}{suffix}"

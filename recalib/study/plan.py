@@ -48,6 +48,17 @@ class Plan:
         damage, seed = self.study.paper_damage, self.study.seed
         return jobs.Assignments(nominal=self.nominal(robot), damage=damage, seed=seed)
 
+    def design(self) -> jobs.Design:
+        """The design of the multiverse."""
+        study = self.study
+        names = dict.fromkeys([study.robot, *study.universes.factors.robot])
+        return jobs.Design(
+            plan=study.universes,
+            robots=[self.nominal(name) for name in names],
+            damage=study.paper_damage,
+            moved=study.scenarios["translation_rotation"],
+        )
+
     def scenario(self, scenario: str) -> jobs.Scenario:
         """The damage of `NAME` or `NAME-ROBOT`."""
         name, robot = scenario_of(self.study, scenario)
@@ -105,12 +116,16 @@ class Plan:
         """The chunks of the searches for a training."""
         return chunks(self.searches(learner), self.searches_per_job(learner))
 
+    def budget(self) -> Budget:
+        """What a search may spend."""
+        return _only(Budget, self.study.search)
+
     def search(self, learner: str, chunk: int) -> jobs.Searches:
         """Some of the searches for a training."""
         return jobs.Searches(
             training=learner,
             learner=rules(self.study, learner),
-            budget=_only(Budget, self.study.search),
+            budget=self.budget(),
             **bounds(chunk, self.searches(learner), self.searches_per_job(learner)),
             tests=self.study.training.tests,
         )
@@ -121,7 +136,7 @@ class Plan:
         return jobs.Sample(
             learner=rules(study, learner),
             searches=self.searches(learner),
-            budget=_only(Budget, study.search),
+            budget=self.budget(),
             robot=study.robot,
             scenario=study.scenario,
         )

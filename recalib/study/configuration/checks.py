@@ -37,6 +37,7 @@ def _names(study: Study) -> Iterator[Mistake]:
     for places, valid in (
         ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
+        (_places(("universes", "factors", "robot"), study.universes.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
         (_places(("experiments", "scenarios"), plan.scenarios), [*study.scenarios, *on_robots]),
         (_places(("benchmark", "scenarios"), benchmark.scenarios), [*study.scenarios, *on_robots]),

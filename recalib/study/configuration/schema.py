@@ -84,7 +84,7 @@ class Schema:
         if "patternErrorMessage" in schema:
             return schema["patternErrorMessage"]
         if "enum" in schema:
-            return listed(schema["enum"], "or")
+            return listed(map(str, schema["enum"]), "or")
         if "oneOf" in schema:
             return listed((" + ".join(self.keys(each)) for each in schema["oneOf"]), "or")
         match schema.get("type"):

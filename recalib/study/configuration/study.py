@@ -4,9 +4,10 @@ The shipped replication is one value of `Study`. Which trainings there are, and 
 called, follows from it: see `recalib.study.trainings`.
 """
 
+import math
 from collections.abc import Mapping as AnyMapping
 from functools import cached_property
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field
 
@@ -34,6 +35,7 @@ from recalib.study.configuration.units import (
     Turn,
     Url,
 )
+from recalib.study.configuration.universes import Universes
 
 Several = Field(min_length=1)
 
@@ -47,6 +49,10 @@ class Workspace(Part):
     """Of roll, pitch and yaw, or along the axes of rotation vectors."""
     coordinates: Literal["roll_pitch_yaw", "rotation_vector"] = "roll_pitch_yaw"
     """By which orientations are given."""
+
+    def scale_to(self, other: Self) -> float:
+        """How large this one is, where the other is 1: the cube root of the ratio of volumes."""
+        return round((math.prod(self.position) / math.prod(other.position)) ** (1 / 3), 4)
 
 
 class Robot(Part):
@@ -330,6 +336,8 @@ class Study(Part):
     """How trainings are run and measured."""
     search: Search
     """The search for widths and rates."""
+    universes: Universes
+    """Other readings of the paper, in which all is repeated."""
 
     @cached_property
     def every_learner(self) -> AnyMapping[str, Learner]:

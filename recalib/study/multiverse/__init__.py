@@ -1,0 +1,1 @@
+"""The multiverse: the replication in many universes, each with its own reading of the paper."""

@@ -1,0 +1,144 @@
+"""Drawing the universes of a design: their levels, and where their robots can work."""
+
+import sys
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.transform import Rotation
+
+from recalib.damaged.damage import BaseShift, Damage, apply
+from recalib.errors import RecalibError
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.randomness import generator
+from recalib.study import jobs
+from recalib.study.assignments import TIE, Ways, distance_to, initial_errors
+from recalib.study.configuration.study import Published
+from recalib.study.multiverse.design import Designed
+from recalib.study.multiverse.factors import Row, rows
+from recalib.study.multiverse.homes import random_home
+from recalib.study.plants import nominal_robot
+
+DIGITS = 4  # of a length in m
+
+
+def draw_design(job: jobs.Design) -> Iterator[Designed]:
+    """The universes, one after the other.
+
+    Of the rows of the sequence, those that a robot refuses are left out, and said so.
+    """
+    universe = 0
+    for row in rows(job.plan):
+        try:
+            drawn = draw(job, universe, row)
+        except RecalibError as error:
+            print(f"row {row.number} is refused: {error}", file=sys.stderr)
+            continue
+        yield drawn
+        universe += 1
+        if universe == job.plan.count:
+            return
+    raise RecalibError(f"only {universe} of {job.plan.count} universes are possible")
+
+
+def draw(job: jobs.Design, universe: int, row: Row) -> Designed:
+    """A universe of a row. Raises RecalibError: its robot cannot do it."""
+    plan, levels = job.plan, row.levels
+    random = generator(plan.seed, "universe", row.number)
+    seed = int(random.integers(2**32))
+    nominal = next(each for each in job.robots if each.name == levels["robot"])
+    scale = nominal.robot.workspace.scale_to(job.robots[0].robot.workspace)
+    controller, refused = _controller(nominal, row, plan.home_spread, random)
+    robot, joints = controller.robot, list(nominal.robot.home)
+    tests = robot.workspace.sample(random, job.damage.poses)
+    ways = Ways(
+        nominal.robot.links,
+        [scale * length for length in job.damage.shorten],
+        joints,
+        job.damage.shift,
+        levels["shortening"],
+    )
+    if levels["assignment"] == "any":
+        damage = ways[int(row.share * len(ways))]
+    else:
+        damage = _nearest(
+            controller, ways, job.damage.published, scale, tests[: plan.assignment_poses]
+        )
+    position, orientation = _initial_errors(controller, damage, tests)
+    return Designed(
+        universe=universe,
+        row=row.number,
+        seed=seed,
+        levels={name: str(level) for name, level in levels.items()},
+        home_deg=[
+            float(f"{np.degrees(robot.home[robot.joints.index(each)]):.6g}") for each in joints
+        ],
+        homes_refused=refused,
+        moved=moved(job.moved, scale, random if levels["displacement"] == "random" else None),
+        damage=damage,
+        position_error_cm=float(f"{100 * position:.4g}"),
+        orientation_error_deg=float(f"{np.degrees(orientation):.4g}"),
+    )
+
+
+def moved(
+    shifts: Sequence[BaseShift], scale: float, random: np.random.Generator | None
+) -> list[BaseShift]:
+    """By what the whole robot is moved and turned, in random directions where they are random."""
+    found = []
+    for shift in shifts:
+        lengths, turn = np.array(shift.translation), Rotation.from_euler("xyz", shift.rotation)
+        if random is not None:
+            ways = random.normal(size=(2, 3))
+            way, axis = ways / np.linalg.norm(ways, axis=-1, keepdims=True)
+            lengths = np.linalg.norm(lengths) * way
+            turn = Rotation.from_rotvec(turn.magnitude() * axis)
+        angles = np.degrees(turn.as_euler("xyz"))
+        found.append(
+            BaseShift(
+                tuple((scale * lengths).round(DIGITS).tolist()),
+                tuple(np.radians(angles.round(2)).tolist()),
+            )
+        )
+    return found
+
+
+def _controller(
+    nominal: jobs.Nominal, row: Row, spread: float, random: np.random.Generator
+) -> tuple[Controller, int]:
+    """The controller at its home, and how many homes it refused before."""
+    workspace = nominal.robot.workspace.model_copy(
+        update={"coordinates": row.levels["coordinates"]}
+    )
+    entry = nominal.robot.model_copy(update={"workspace": workspace})
+    robot = nominal_robot(nominal.model_copy(update={"robot": entry}))
+    greatest = nominal.controller.greatest_condition
+    if row.levels["home"] == "configured":
+        return Controller(robot, greatest), 0
+    return random_home(robot, spread, greatest, random)
+
+
+def _nearest(
+    controller: Controller, ways: Ways, published: Published, scale: float, tests: np.ndarray
+) -> tuple[Damage, ...]:
+    """The assignment whose initial errors are nearest to the published ones, of the same scale."""
+    position, orientation = map(
+        np.concatenate, zip(*initial_errors(controller, ways, tests), strict=True)
+    )
+    table = pd.DataFrame(
+        {
+            "position_error_cm": 100 * position / scale,
+            "orientation_error_deg": np.degrees(orientation),
+        }
+    )
+    return ways[int(distance_to(table, published).round(TIE).idxmin())]
+
+
+def _initial_errors(
+    controller: Controller, damage: Sequence[Damage], tests: np.ndarray
+) -> tuple[float, float]:
+    """Mean errors [m, rad] of the uncorrected robot."""
+    desired = controller.robot.workspace.to_poses(tests)
+    achieved = apply(controller.robot, damage).forward(controller.inverse(desired))
+    return position_error(achieved, desired).mean(), orientation_error(achieved, desired).mean()

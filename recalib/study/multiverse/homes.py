@@ -1,0 +1,58 @@
+"""Where the workspace of a robot may lie: random homes that its controller accepts."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from recalib.errors import UnfitWorkspace
+from recalib.nominal.chain import Chain
+from recalib.nominal.controller import Controller
+from recalib.nominal.newton import TOLERANCE, solve_newton
+from recalib.nominal.robots import Robot
+
+CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
+CANDIDATES = 3000  # the pickiest arm accepts one in two hundred
+
+
+def random_home(
+    robot: Robot, spread: float, greatest_condition: float, random: np.random.Generator
+) -> tuple[Controller, int]:
+    """The controller at the first of random homes that it accepts, and how many it refused.
+
+    Args:
+        spread: rad, how far from the robot's home each joint may be, inside its limits.
+        greatest_condition: see `Controller`.
+        random: whole degrees are drawn from it.
+
+    Raises UnfitWorkspace.
+    """
+    low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
+    high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
+    chain = Chain(robot.arm)
+    for refused in range(CANDIDATES):
+        there = at_home(robot, np.radians(random.integers(low, high, endpoint=True)))
+        if _reaches_corners(there, chain):
+            try:
+                return Controller(there, greatest_condition), refused
+            except UnfitWorkspace:
+                pass
+    raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")
+
+
+def at_home(robot: Robot, home: np.ndarray) -> Robot:
+    """The robot with its workspace about another home (6,) [rad]."""
+    centre = robot.arm.forward(home[None])[0]
+    return replace(robot, home=home, workspace=replace(robot.workspace, centre=centre))
+
+
+def _reaches_corners(robot: Robot, chain: Chain) -> bool:
+    """Whether the arm reaches the corners of its workspace: most homes fail here, in no time."""
+    for some in (CORNERS[::9], CORNERS):
+        angles = np.tile(robot.home, (len(some), 1))
+        for part in (0.5, 1):  # so that every corner is on the branch of home
+            angles, residuals = solve_newton(chain, robot.workspace.to_poses(part * some), angles)
+            within = (robot.lower <= angles) & (angles <= robot.upper)
+            if not (np.all(residuals <= TOLERANCE) and within.all()):
+                return False
+    return True

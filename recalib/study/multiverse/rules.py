@@ -1,0 +1,20 @@
+"""Learning as the conventions of a universe have it."""
+
+from dataclasses import replace
+
+from recalib.learners.rules import Rules
+from recalib.study.experiments.settings import rules_of
+from recalib.study.multiverse.universe import Universe
+
+
+def rules_in(universe: Universe, learner: str) -> Rules:
+    """The rules of one of its learners.
+
+    The rate of the improved system is linear (section 7), and so is any with equal visits.
+    """
+    rules, conventions = rules_of(universe.learners[learner]), universe.conventions
+    return replace(
+        rules,
+        **conventions.model_dump(),
+        rate="linear" if rules.equal_visits else universe.ritters_rate,
+    )

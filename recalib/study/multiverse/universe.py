@@ -1,0 +1,116 @@
+"""A universe: a small study of its own, with one reading of all that the paper leaves open."""
+
+import math
+from collections.abc import Mapping
+from typing import Literal
+
+from recalib.study import jobs
+from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.study import Budget, Learner, Study, Workspace
+from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.multiverse.design import Designed
+from recalib.study.plan import Plan
+from recalib.study.trainings import switched
+
+
+class Conventions(Frozen):
+    """Of learning, as fields of `recalib.learners.rules.Rules`."""
+
+    centres: str
+    metric: tuple[float, ...]
+    dimensions: int
+    spread: str
+
+
+class Universe(Frozen):
+    """All that a run of it needs.
+
+    Attributes:
+        nominal: the robot, with home, workspace and pose coordinates.
+        scale: of all lengths, which are those of the paper at 1.
+        scenarios: damages by name, nothing in them to be assigned any more.
+        learners: the two systems, and each with one switch changed, by name.
+        ritters_rate: how the rate of learners with exponential widths falls.
+        score: what the search minimises: the geometric mean of both errors, or the worse of the
+            position error in cm over `scale` and the orientation error in degrees.
+        budget: of a search; its seed is the universe's.
+        seed: of trainings.
+    """
+
+    number: int
+    nominal: jobs.Nominal
+    scale: float
+    scenarios: Mapping[str, tuple[Entry, ...]]
+    learners: Mapping[str, Learner]
+    conventions: Conventions
+    ritters_rate: str
+    score: Literal["geometric_mean", "worse"]
+    budget: Budget
+    seed: int
+
+
+def universe(study: Study, designed: Designed) -> Universe:
+    """The universe that the design describes."""
+    levels, plan = designed.levels, Plan(study)
+    nominal = plan.nominal(levels["robot"])
+    entry, own = nominal.robot, study.robots[study.robot]
+    workspace = entry.workspace.model_copy(update={"coordinates": levels["coordinates"]})
+    home = dict(zip(entry.home, map(math.radians, designed.home_deg), strict=True))
+    robot = entry.model_copy(update={"workspace": workspace, "home": home})
+    translation, rotation = designed.moved
+    return Universe(
+        number=designed.universe,
+        nominal=nominal.model_copy(update={"robot": robot}),
+        scale=entry.workspace.scale_to(own.workspace),
+        scenarios={
+            "intact": (),
+            "translation": (translation,),
+            "rotation": (rotation,),
+            "translation_rotation": (translation, rotation),
+            study.scenario: designed.damage,
+        },
+        learners={
+            name: _with_cells(study.every_learner[name], levels["cells"], own.workspace)
+            for name in (IMPROVED, RITTER, *switched(study))
+        },
+        conventions=Conventions(
+            centres=levels["centres"],
+            metric=metric(levels["norm"], workspace),
+            dimensions=int(levels["dimensions"]),
+            spread=levels["spread"],
+        ),
+        ritters_rate=levels["rate"],
+        score=levels["score"],
+        budget=_budget(plan, levels["budget"], designed.seed),
+        seed=designed.seed,
+    )
+
+
+def metric(norm: str, workspace: Workspace) -> tuple[float, ...]:
+    """Six factors that turn workspace coordinates into the units of the norm in (3) and (8)."""
+    lengths = [side / 2 for side in workspace.position]
+    angles = [side / 2 for side in workspace.orientation]
+    match norm:
+        case "metres_radians":
+            return (*lengths, *angles)
+        case "centimetres_degrees":
+            return (*(100 * length for length in lengths), *map(math.degrees, angles))
+    return (1.0,) * 6
+
+
+def _with_cells(learner: Learner, cells: str, workspace: Workspace) -> Learner:
+    """A learner with its nets; as a whole, a single map has the cells of two, doubled along the
+    longest side of the workspace.
+    """
+    if cells == "each" or learner.maps == "separate":
+        return learner
+    longest = workspace.position.index(max(workspace.position))
+    doubled = [(1 + (axis == longest)) * count for axis, count in enumerate(learner.supernet)]
+    return learner.model_copy(update={"supernet": tuple(doubled)})
+
+
+def _budget(plan: Plan, level: str, seed: int) -> Budget:
+    """What a search may spend."""
+    rough = {"rounds": 1, "trials": plan.study.universes.rough_trials} if level == "rough" else {}
+    return plan.budget().model_copy(update={"seed": seed} | rough)

@@ -1,0 +1,178 @@
+"""The design of the multiverse, and the universes that it describes."""
+
+from itertools import combinations, islice
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.damaged.damage import BaseShift, apply
+from recalib.errors import RecalibError, UnfitWorkspace
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.study.configuration.damages import damages_among
+from recalib.study.configuration.universes import Factors
+from recalib.study.layout import DESIGN
+from recalib.study.multiverse import homes
+from recalib.study.multiverse.design import read_design, write_design
+from recalib.study.multiverse.drawing import draw, draw_design, moved
+from recalib.study.multiverse.factors import rows
+from recalib.study.multiverse.homes import random_home
+from recalib.study.multiverse.rules import rules_in
+from recalib.study.multiverse.universe import metric, universe
+from recalib.study.plants import nominal_controller, nominal_robot
+from tests.conftest import ROOT, changed
+
+FACTORS = list(Factors.model_fields)
+
+
+@pytest.fixture(scope="module")
+def design():
+    return read_design(ROOT / DESIGN)
+
+
+@pytest.fixture(scope="module")
+def universes(study, design):
+    return [universe(study, each) for each in design]
+
+
+def test_levels_have_equal_shares_and_so_have_their_pairs(study, design):
+    table = pd.DataFrame([each.levels for each in design])
+    for factor in FACTORS:
+        shares = table[factor].value_counts()
+        assert len(shares) == len(getattr(study.universes.factors, factor)) >= 2
+        assert np.ptp(shares) <= 1, factor
+    for pair in combinations(FACTORS, 2):
+        counts = pd.crosstab(*(table[factor] for factor in pair)).to_numpy()
+        assert np.abs(counts * counts.size / len(table) - 1).max() < 0.2, pair
+
+
+def test_no_factor_passes_for_two_others(design):
+    table = pd.DataFrame([each.levels for each in design])
+    two = [factor for factor in FACTORS if table[factor].nunique() == 2]
+    signs = {factor: 2 * pd.factorize(table[factor])[0] - 1 for factor in two}
+    for triple in combinations(two, 3):
+        assert abs(np.mean(np.prod([signs[each] for each in triple], axis=0))) < 0.2, triple
+
+
+def test_the_shipped_design_is_drawn_again_byte_by_byte(plan, design, tmp_path):
+    job = plan.design()
+    sequence = {row.number: row for row in rows(job.plan)}
+    for each in design:
+        levels = {name: str(level) for name, level in sequence[each.row].levels.items()}
+        assert each.levels == levels
+    again = list(design)
+    for each in design[3::29]:  # all of them take a minute
+        again[each.universe] = draw(job, each.universe, sequence[each.row])
+    write_design(tmp_path / "again.csv", again)
+    assert (tmp_path / "again.csv").read_bytes() == (ROOT / DESIGN).read_bytes()
+
+
+def test_what_a_robot_refuses_is_replaced_by_the_next_row(plan):
+    job = plan.design()
+    factors = job.plan.factors.model_copy(update={"home": ("configured",), "assignment": ("any",)})
+    few = job.plan.model_copy(update={"count": 2, "factors": factors})
+    first = list(islice(rows(few), 4))
+    name = first[0].levels["robot"]
+    robots = {each.name: each for each in job.robots}
+    wide = robots[name].robot.workspace.model_copy(update={"position": (3.0, 3.6, 3.0)})
+    robots[name] = changed(robots[name], workspace=wide)
+    job = job.model_copy(update={"plan": few, "robots": tuple(robots.values())})
+    expected = [row.number for row in first if row.levels["robot"] != name][:2]
+    assert [(each.universe, each.row) for each in draw_design(job)] == list(enumerate(expected))
+
+
+def test_a_design_that_no_robot_serves_says_so(plan):
+    job = plan.design()
+    strict = job.robots[0].controller.model_copy(update={"greatest_condition": 1.1})
+    robots = tuple(each.model_copy(update={"controller": strict}) for each in job.robots)
+    factors = job.plan.factors.model_copy(update={"home": ("configured",)})
+    few = job.plan.model_copy(update={"count": 1, "factors": factors})
+    with pytest.raises(RecalibError, match="only 0 of 1 universes are possible"):
+        list(draw_design(job.model_copy(update={"plan": few, "robots": robots})))
+
+
+def test_a_random_home_is_near_and_one_that_the_controller_accepts(plan, monkeypatch):
+    robot = nominal_robot(plan.nominal("ur5"))
+    controller, refused = random_home(robot, 0.7, 60, np.random.default_rng(3))
+    turns = controller.robot.home - robot.home
+    assert refused > 0 and 0 < np.abs(turns).max() <= 0.7
+    degrees = np.degrees(controller.robot.home)
+    assert np.allclose(degrees, degrees.round())
+    assert np.allclose(
+        controller.inverse(controller.robot.workspace.centre[None])[0], degrees * np.pi / 180
+    )
+    monkeypatch.setattr(homes, "CANDIDATES", 3)
+    with pytest.raises(UnfitWorkspace, match="refuses all of 3 random homes"):
+        random_home(robot, 0.0, 1.1, np.random.default_rng(3))
+
+
+def test_random_directions_keep_lengths_and_angles():
+    shifts = [BaseShift(translation=(0.05, -0.05, 0.04)), BaseShift(rotation=(0.03, -0.05, 0.05))]
+    assert moved(shifts[:1], 1.0, None) == shifts[:1]
+    translation, rotation = moved(shifts, 0.5, np.random.default_rng(0))
+    assert translation.rotation == rotation.translation == (0, 0, 0)
+    length = 0.5 * np.linalg.norm(shifts[0].translation)
+    assert np.linalg.norm(translation.translation) == pytest.approx(length, abs=1e-4)
+    angles = [
+        Rotation.from_euler("xyz", each.rotation).magnitude() for each in (shifts[1], rotation)
+    ]
+    assert angles[1] == pytest.approx(angles[0], abs=2e-4)
+
+
+def test_a_universe_has_the_initial_errors_of_its_design(study, design, universes):
+    for each, its in list(zip(design, universes, strict=True))[::17]:
+        controller = nominal_controller(its.nominal)
+        robot = controller.robot
+        assert np.allclose(np.degrees(robot.home), each.home_deg)
+        desired = robot.workspace.to_poses(robot.workspace.sample(np.random.default_rng(0), 300))
+        arm = apply(robot, damages_among(its.scenarios[study.scenario]))
+        achieved = arm.forward(controller.inverse(desired))
+        errors = position_error(achieved, desired), orientation_error(achieved, desired)
+        assert 100 * errors[0].mean() == pytest.approx(each.position_error_cm, rel=0.1)
+        assert np.degrees(errors[1].mean()) == pytest.approx(each.orientation_error_deg, rel=0.1)
+
+
+def test_a_universe_is_what_its_levels_say(study, design, universes):
+    for each, its in zip(design, universes, strict=True):
+        levels, workspace = each.levels, its.nominal.robot.workspace
+        assert (its.nominal.name, workspace.coordinates) == (levels["robot"], levels["coordinates"])
+        assert its.scale == {"ur10": 1, "ur5": 0.7, "z1": 0.3, "jaco": 0.4}[levels["robot"]]
+        lost = [damage.length for damage in each.damage if hasattr(damage, "length")]
+        assert sorted(lost) == pytest.approx(
+            sorted(its.scale * each for each in (0.01, 0.01, 0.04))
+        )
+        assert {damage.along for damage in each.damage if hasattr(damage, "along")} == {
+            levels["shortening"]
+        }
+        single = [3, 6, 3] if levels["cells"] == "whole" else [3, 3, 3]
+        assert len(its.learners) == 10
+        for learner in its.learners.values():
+            assert list(learner.supernet) == ([3, 3, 3] if learner.maps == "separate" else single)
+        trials = its.budget.rounds * its.budget.trials
+        assert trials == (16 if levels["budget"] == "rough" else 192)
+        assert its.budget.seed == its.seed == each.seed
+        assert its.conventions.dimensions == int(levels["dimensions"])
+
+
+def test_learners_learn_by_the_conventions_of_their_universe(design, universes):
+    for each, its in zip(design, universes, strict=True):
+        levels = each.levels
+        ritter, improved = (rules_in(its, name) for name in ("ritter", "improved"))
+        assert (ritter.rate, improved.rate) == (levels["rate"], "linear")
+        for rules in (ritter, improved):
+            assert (rules.centres, rules.spread) == (levels["centres"], levels["spread"])
+            assert rules.metric == its.conventions.metric
+            assert rules.dimensions == int(levels["dimensions"])
+
+
+def test_every_universe_has_luck_of_its_own(design):
+    assert len({each.seed for each in design}) == len(design)
+
+
+def test_the_metric_turns_coordinates_into_the_units_of_the_norm(study):
+    workspace = study.robots["ur10"].workspace
+    metres = metric("metres_radians", workspace)
+    assert metric("half_ranges", workspace) == (1,) * 6
+    assert metres == pytest.approx((0.25, 0.3, 0.25, *np.radians([20] * 3)))
+    assert metric("centimetres_degrees", workspace) == pytest.approx((25, 30, 25, 20, 20, 20))
