@@ -111,6 +111,11 @@ class MadeUp:
         else:
             table.to_parquet(path, index=False)
 
+    def train(self, learner: str, repetition: int) -> None:
+        """Repeat a training on the study's own scenario with other luck."""
+        path = self.layout.history(self.study.scenario, learner)
+        self.write(path, self.history(learner, self.study.scenario, repetition))
+
     def history(self, learner: str, scenario: str, repetition: int = 0) -> pd.DataFrame:
         """A history; each repetition has luck of its own, of searches and of seeds."""
         which = training(self.study, learner)
