@@ -7,7 +7,7 @@ RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help setup test check bench report pictures view tune design ship lock clean
+.PHONY: all help setup test check bench report pictures view tune design universes ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -44,7 +44,7 @@ view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens ano
 	$(SNAKEMAKE) $(RESULTS)/recordings/$(SCENARIO).rrd
 	.venv/bin/rerun --bind 127.0.0.1 $(RESULTS)/recordings/$(SCENARIO).rrd
 
-tune: setup ## search anew for widths and rates, and ship what is found
+tune: setup ## repeat all searches for widths and rates, and ship what is found
 	$(SNAKEMAKE) tune
 	cp results/search/*.csv workflow/search/
 
@@ -52,6 +52,10 @@ design: setup ## draw the universes anew, and ship them
 	$(SNAKEMAKE) --forcerun design -- results/universes/design.csv
 	mkdir -p workflow/universes
 	cp results/universes/design.csv workflow/universes/
+
+universes: setup ## measure every universe of the design, and ship what was measured
+	$(SNAKEMAKE) universes
+	cp results/universes/outcomes.csv workflow/universes/
 
 ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship

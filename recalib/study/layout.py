@@ -80,6 +80,15 @@ class Layout:
         """The design of the multiverse."""
         return f"{self.root}/universes/design.csv"
 
+    def universe(self, number: str) -> str:
+        """What was measured in a universe."""
+        return f"{self.root}/chunks/universes/{number}.csv"
+
+    @property
+    def outcomes(self) -> str:
+        """What was measured in every universe."""
+        return f"{self.root}/universes/outcomes.csv"
+
     def assignments(self, robot: str, suffix: str = ".parquet") -> str:
         """Initial errors of every assignment of the paper's damage; .json: the one that is used."""
         return f"{self.root}/assignments/{robot}{suffix}"

@@ -57,3 +57,7 @@ class Universes(Part):
     """Random poses over which initial errors are averaged to find the nearest assignment."""
     rough_trials: Count
     """Trials of a rough search, in a single round."""
+    rungs: SomeDistinct[Count]
+    """Numbers of iterations at which the horizon of Ritter's algorithm is sought, ascending."""
+    seeds: Count
+    """Seeds of a training."""

@@ -98,4 +98,4 @@ def worse(errors: Mapping):
     return np.maximum(errors["position_error_cm"], errors["orientation_error_deg"])
 
 
-SCORES = {"geometric_mean": score, "worse_error": worse}
+SCORES = {"geometric_mean": score, "worse": worse}

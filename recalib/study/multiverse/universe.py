@@ -35,7 +35,12 @@ class Universe(Frozen):
         score: what the search minimises: the geometric mean of both errors, or the worse of the
             position error in cm over `scale` and the orientation error in degrees.
         budget: of a search; its seed is the universe's.
+        rough: budget of a rough one, with which the horizon of Ritter's is sought.
+        rungs: numbers of iterations at which it is.
+        tests: random poses for a measurement.
+        seeds: of a training.
         seed: of trainings.
+        own: name of the scenario with the paper's damage.
     """
 
     number: int
@@ -47,7 +52,12 @@ class Universe(Frozen):
     ritters_rate: str
     score: Literal["geometric_mean", "worse"]
     budget: Budget
+    rough: Budget
+    rungs: tuple[int, ...]
+    tests: int
+    seeds: int
     seed: int
+    own: str
 
 
 def universe(study: Study, designed: Designed) -> Universe:
@@ -83,7 +93,12 @@ def universe(study: Study, designed: Designed) -> Universe:
         ritters_rate=levels["rate"],
         score=levels["score"],
         budget=_budget(plan, levels["budget"], designed.seed),
+        rough=_budget(plan, "rough", designed.seed),
+        rungs=study.universes.rungs,
+        tests=study.training.tests,
+        seeds=study.universes.seeds,
         seed=designed.seed,
+        own=study.scenario,
     )
 
 
