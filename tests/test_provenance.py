@@ -1,7 +1,7 @@
 """What a result depends on: every leaf of the configuration is changed, one at a time.
 
-The workflow is read once. For each change, inputs and parameters of all its jobs are asked for
-again, as Snakemake would: where they differ, the job runs again, and all that follows from it.
+The workflow is read once. For each change, the functions that give inputs and parameters of all
+its jobs are asked again: where they differ, the job runs again, and all that follows from it.
 """
 
 import copy
@@ -11,6 +11,7 @@ from fnmatch import fnmatch
 from functools import partial
 from unittest import mock
 
+import pandas as pd
 import pytest
 import yaml
 from snakemake.api import SnakemakeApi
@@ -18,6 +19,8 @@ from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, Res
 
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
+from recalib.study.experiments.samples import write_sample
+from recalib.study.layout import SEARCHED
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT, copy_project
@@ -25,33 +28,39 @@ from tests.conftest import ROOT, copy_project
 EVIDENCE = "claims figure page"  # what is said and drawn
 TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
 LONG = "train ensemble_chunk benchmark_run real_twin"  # Ritter's
-NOMINAL = "assignments scenario design"  # a robot as its controller believes in it
+NOMINAL = "assignments scenario"  # a robot as its controller believes in it
 TABLES = "summary benchmark_table real_table"
 
 # What runs again by itself when a leaf changes: rules, for the first pattern that fits its path.
 # What follows from these runs again, too. `all` and `ur3` are lists of what a study consists of.
 DEPENDS = {
     "name": "",  # says where results lie, and changes none
-    "seed": f"{NOMINAL} {TRAINED} {TABLES} claims figure study_mapping study_visits real_run",
-    "robot": f"all {EVIDENCE} scenario train ensemble_chunk summary search",
-    "scenario": f"ur3 {EVIDENCE} recording summary search search_trials study_mapping study_replay",
+    "seed": f"{NOMINAL} {TRAINED} {TABLES} claims figure coverage study_mapping study_visits"
+    " real_run",
+    "robot": f"all {EVIDENCE} design scenario train ensemble_chunk summary search_sample",
+    "scenario": f"ur3 {EVIDENCE} coverage recording summary search_sample search study_mapping"
+    " study_replay",
     "settings": f"{TRAINED} {EVIDENCE}",
     "expected": "check",
-    "robots.ur10.*": f"{NOMINAL} ensemble_chunk",
-    "robots.ur5.*": f"{NOMINAL} real_run real_twin",
-    "robots.*": NOMINAL,
-    "controller.*": f"{NOMINAL} ensemble_chunk real_run real_twin",
-    "paper_damage.published.*": f"assignments recording {EVIDENCE}",
-    "paper_damage.poses": f"{NOMINAL} figure",
-    "paper_damage.*": "assignments ensemble_chunk",
+    "robots.ur10.*": f"{NOMINAL} design ensemble_chunk",
+    "robots.ur5.*": f"{NOMINAL} design real_run real_twin",
+    "robots.ur3.*": NOMINAL,
+    "robots.jaco.*": "design",
+    "robots.*": f"{NOMINAL} design",
+    "controller.*": f"{NOMINAL} design ensemble_chunk real_run real_twin",
+    "paper_damage.published.*": f"assignments design recording {EVIDENCE}",
+    "paper_damage.poses": f"{NOMINAL} design figure",
+    "paper_damage.*": "assignments design ensemble_chunk",
+    "scenarios.translation_rotation.*": "scenario design",
     "scenarios.*": "scenario",
-    "learners.improved.iterations": f"all {TRAINED} {EVIDENCE} summary",
-    "learners.improved.*": f"{TRAINED} {EVIDENCE} search search_trials",
+    "learners.improved.iterations": f"all {TRAINED} {EVIDENCE} coverage summary",
+    "learners.improved.*": f"{TRAINED} {EVIDENCE} search_sample search",
     "learners.ritter.iterations": f"{LONG} claims figure summary",
-    "learners.ritter.*": f"{LONG} recording claims figure search search_trials",
+    "learners.ritter.*": f"{LONG} recording claims figure search_sample search",
+    "learners.ritter_double.iterations": "",  # the ladder says how many
     "learners.ritter_double.*": "train",
     "experiments.scenarios": "all figure study_mapping summary",
-    "experiments.learners": f"{EVIDENCE} recording train summary",
+    "experiments.learners": f"{EVIDENCE} coverage recording train summary",
     "experiments.beside": "summary",
     "experiments.switches": "all figure summary",
     "experiments.ladder.*": "claims figure summary",
@@ -75,16 +84,15 @@ DEPENDS = {
     "mapping.balls": "study_mapping figure",
     "mapping.radius": "study_mapping figure",
     "mapping.*": "study_mapping",
-    "training.short": "train",
-    "training.seeds": "run",
-    "training.seeds_long": "train",
+    "training.seeds": "run train",
     "training.seeds_per_job": "run train",
-    "training.tests": "train ensemble_chunk benchmark_run real_twin recording search_trials figure",
+    "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
     "training.*": "train recording",
     "universes.*": "design",
-    "search.rounds": "search",
-    "search.trials_per_job": "search_trials",
-    "search.*": "search search_trials",
+    "search.short": "page",
+    "search.searches": f"{TRAINED} {EVIDENCE} run search_sample search",
+    "search.searches_long": f"{LONG} {EVIDENCE}",
+    "search.*": "search_sample search",
 }
 
 
@@ -92,7 +100,7 @@ DEPENDS = {
 REPORTED = """robot scenario settings paper_damage.published.* paper_damage.poses learners.*
  experiments.scenarios experiments.learners experiments.beside experiments.switches
  experiments.ladder.* experiments.evidence experiments.robots mapping.poses mapping.balls
- mapping.points training.tests training.measure_every""".split()  # noqa: SIM905
+ mapping.points training.tests training.measure_every search.searches*""".split()  # noqa: SIM905
 
 
 def leaves(tree, path=()):
@@ -169,26 +177,32 @@ class Workflow:
             workflow = its._workflow
             workflow._prepare_dag(forceall=True, ignore_incomplete=True, lock_warn_only=True)
             workflow._build_dag()
-            self._jobs = [(job.rule, job.wildcards_dict) for job in workflow.dag.jobs]
+            self._jobs = [(job.rule, job.wildcards) for job in workflow.dag.jobs]
         self._names = workflow.globals
 
-    def asks(self, studies):
-        """Rule, inputs and parameters of every job, were these the studies, by folder."""
+    def _become(self, studies):
         self._names["STUDIES"].update(studies)
         for root, study in studies.items():
             self._names["PLANS"][root] = Plan(study)
             self._names["TRAININGS"][root] = Trainings(study)
         self._names["sample_at"].cache_clear()
+
+    def sample(self, studies, name):
+        """Where the searches for a training of the shipped study lie, were these the studies."""
+        self._become(studies)
+        return self._names["sample_at"]("results", name)
+
+    def asks(self, studies):
+        """Rule, inputs and parameters of every job, were these the studies, by folder."""
+        self._become(studies)
         return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
 
     def _job(self, rule, wildcards):
         try:
-            inputs, *_ = rule.expand_input(wildcards)
-            outputs, *_ = rule.expand_output(wildcards)
-            params, _ = rule.expand_params(wildcards, inputs, outputs, None)
+            answers = [each(wildcards) for each in (*rule.input, *rule.params) if callable(each)]
         except Exception as error:  # a job that no longer makes sense is one that has changed
             return repr(error)
-        return sorted(map(str, inputs)), repr(params)
+        return [sorted(map(str, each)) if isinstance(each, list) else each for each in answers]
 
 
 def studies_of(tree):
@@ -210,15 +224,35 @@ def changed_leaves(tree):
 
 
 @pytest.fixture(scope="module")
-def depending(tmp_path_factory):
-    """By leaf, the rules whose jobs ask for something else when it changes."""
+def project(tmp_path_factory):
+    """A copy of the project with a shipped sample of the search for every training."""
     folder = copy_project(tmp_path_factory.mktemp("provenance"))
-    tree = yaml.safe_load((folder / "config.yaml").read_text(encoding="utf-8"))
-    tree = json.loads(json.dumps(tree))  # what an anchor shares is many leaves
+    study = read_study(folder / "config.yaml", checks=())
+    for name in Trainings(study).tuned():  # of which the workflow reads the head alone
+        path = folder / SEARCHED / f"{name}.csv"
+        path.parent.mkdir(exist_ok=True)
+        write_sample(path, Plan(study).sample(name), pd.DataFrame())
+    return folder
+
+
+@pytest.fixture(scope="module")
+def tree(project):
+    """The configuration; what an anchor shares is many leaves."""
+    tree = yaml.safe_load((project / "config.yaml").read_text(encoding="utf-8"))
+    return json.loads(json.dumps(tree))
+
+
+@pytest.fixture(scope="module")
+def workflow(project):
     searched = [f"results/search/{name}_200.csv" for name in ("improved", "ritter")]
     targets = ["all", "benchmark", "real", "ur3", *searched, "results/universes/design.csv"]
     with mock.patch("workflow.dependencies.code", return_value=""):
-        workflow = Workflow(folder, targets)
+        return Workflow(project, targets)
+
+
+@pytest.fixture(scope="module")
+def depending(workflow, tree):
+    """By leaf, the rules whose jobs ask for something else when it changes."""
     before = workflow.asks(studies_of(tree))
     found = {}
     for leaf, others in changed_leaves(tree):
@@ -234,12 +268,22 @@ def depending(tmp_path_factory):
     return found
 
 
+@pytest.mark.parametrize(("searches", "anew"), [(12, False), (5, False), (13, True)])
+def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(
+    workflow, tree, searches, anew
+):
+    other = copy.deepcopy(tree)
+    other["search"]["searches"] = searches
+    shipped, own = f"{SEARCHED}/improved_200.csv", "results/search/improved_200.csv"
+    assert workflow.sample(studies_of(other), "improved_200") == (own if anew else shipped)
+
+
 def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
     wrong = {}
     for leaf, rules in depending.items():
         texts = next(DEPENDS[pattern] for pattern in DEPENDS if fnmatch(leaf, pattern))
         expected = {*texts.split()}
-        if any(fnmatch(leaf, pattern) for pattern in REPORTED):
+        if expected and any(fnmatch(leaf, pattern) for pattern in REPORTED):
             expected.add("report_pages")
         found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules}
         if found != expected:
@@ -248,7 +292,8 @@ def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
 
 
 def test_every_leaf_makes_a_difference(depending):
-    assert [leaf for leaf, rules in depending.items() if not rules] == ["name"]
+    without = [leaf for leaf, rules in depending.items() if not rules]
+    assert without == [leaf for leaf, rules in DEPENDS.items() if not rules]
     assert len(depending) > 200
 
 
