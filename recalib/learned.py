@@ -71,7 +71,7 @@ def identity(robot: "Robot") -> dict[str, Any]:
     numbers = {
         "kinematics": robot.arm.forward(angles),
         "home": robot.home,
-        "workspace": np.append(robot.workspace.centre, robot.workspace.half_ranges),
+        "workspace": robot.workspace.to_poses(1 - np.eye(6)),
     }
     names = {"joints": [*robot.joints], "tool": robot.arm.tool}
     return names | {name: value.ravel().tolist() for name, value in numbers.items()}

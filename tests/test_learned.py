@@ -118,13 +118,23 @@ def otherwise(robot, change):
             return replace(robot, arm=Arm(model, robot.arm.tool)), "joints are .*, not .*waist"
         case "another home":
             return replace(robot, home=robot.home + 0.1), r"home differs by up to 0\.1 m or rad"
+        case "other coordinates":
+            turned = replace(robot.workspace, coordinates="rotation_vector")
+            return replace(robot, workspace=turned), "workspace differs"
     wider = Workspace(robot.workspace.centre, 1.1 * robot.workspace.half_ranges)
     return replace(robot, workspace=wider), "workspace differs"
 
 
 @pytest.mark.parametrize(
     "change",
-    ["a longer link", "another tool", "other joints", "another home", "another workspace"],
+    [
+        "a longer link",
+        "another tool",
+        "other joints",
+        "another home",
+        "another workspace",
+        "other coordinates",
+    ],
 )
 def test_another_robot_is_refused_with_what_differs(change, robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1, 1), robot)
