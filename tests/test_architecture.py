@@ -7,7 +7,7 @@ import pytest
 from tests.conftest import ROOT
 
 LIBRARY = "nominal", "damaged", "identification", "learners"
-STUDY = "mapping", "experiments", "multiverse", "evidence", "plots", "recording"
+STUDY = "mapping", "experiments", "evidence", "multiverse", "plots", "recording"
 FOR_STUDIES_ALONE = {
     "jinja2",
     "matplotlib",
