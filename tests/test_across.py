@@ -6,7 +6,7 @@ import pytest
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.claims.across import Across, Share, over_all
-from recalib.study.multiverse.effects import effects
+from recalib.study.evidence.effects import effects
 
 UNIVERSES = 128
 

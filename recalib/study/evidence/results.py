@@ -10,6 +10,7 @@ from pydantic import JsonValue
 from recalib.errors import RecalibError
 from recalib.randomness import generator
 from recalib.study import jobs
+from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.needs import Needs
 from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
 from recalib.study.measured import errors_of
@@ -150,8 +151,8 @@ class Evidence:
         return self._table(OUTCOMES) if OUTCOMES in self._needs.files else None
 
     def design(self) -> "pd.DataFrame":
-        """The factors of each universe."""
-        return self._table(DESIGN)
+        """The levels of each universe's factors."""
+        return self._table(DESIGN)[list(Factors.model_fields)]
 
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.claims.across import Across
+from recalib.study.evidence.effects import effects
 from recalib.study.evidence.results import Evidence
-from recalib.study.multiverse.effects import effects
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, plain, title
 
@@ -105,11 +105,10 @@ def figure15(evidence: Evidence) -> Figure:
     """What each claim depends on: the factors that move its number most."""
     figure, all_axes, shown = _grid(1.9)
     outcomes, design = evidence.outcomes(), evidence.design()
-    factors = list(design)
     for axes, panel in zip(all_axes, shown, strict=True):
         values = outcomes[panel.across.column]
         luck = evidence.rng("effects", panel.claim, panel.system)
-        table = effects(values, design[factors], luck).head(SHOWN).iloc[::-1]
+        table = effects(values, design, luck).head(SHOWN).iloc[::-1]
         heights = np.arange(len(table))
         strong = table["effect"] > table["chance"]
         axes.hlines(heights, table["low"], table["high"], color=np.where(strong, HOLDS, "0.6"))

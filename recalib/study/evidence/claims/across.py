@@ -44,7 +44,7 @@ class Share(NamedTuple):
 
     Attributes:
         holds, of: so many of so many.
-        strongest: the row of `multiverse.effects` for the factor that moves its number most.
+        strongest: the row of `evidence.effects` for the factor that moves its number most.
     """
 
     holds: int

@@ -179,7 +179,7 @@ class Claim:
         outcomes = evidence.outcomes() if self.across else None
         if outcomes is None:
             return {}
-        from recalib.study.multiverse.effects import effects
+        from recalib.study.evidence.effects import effects
 
         found = {}
         for system, across in self.across.items():
