@@ -47,8 +47,10 @@ def brief(claim: Mapping) -> str:
 def verdicts(claim: Mapping) -> str:
     """The verdict on a claim; of one about several systems, that on each of them as well."""
     text = f"**{claim['verdict']}**"
-    parts = (f"{its['verdict']} for {system}" for system, its in claim["systems"].items())
-    return f"{text}: {', '.join(parts)}" if claim["systems"] else text
+    by_system = {system: its["verdict"] for system, its in claim["systems"].items()}
+    if set(by_system.values()) <= {claim["verdict"]}:
+        return text
+    return f"{text} ({', '.join(f'{verdict} for {its}' for its, verdict in by_system.items())})"
 
 
 def in_universes(claim: Mapping) -> str:

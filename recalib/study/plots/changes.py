@@ -26,7 +26,9 @@ def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     return rows
 
 
-def _draw(axes: Axes, heights: np.ndarray, ratios: list[Estimate], look, label: str) -> None:
+def _draw(
+    axes: Axes, heights: np.ndarray, ratios: list[Estimate], look, label: str, above: bool
+) -> None:
     means, low, high = np.transpose(ratios)
     axes.hlines(heights, low, high, color=look.color)
     axes.scatter(means, heights, label=label, zorder=3, **look.signs())
@@ -34,9 +36,10 @@ def _draw(axes: Axes, heights: np.ndarray, ratios: list[Estimate], look, label: 
         axes.annotate(
             f"{mean:.2f}",
             (mean, height),
-            (0, 6),
+            (0, 6 if above else -7),
             textcoords="offset points",
             ha="center",
+            va="bottom" if above else "top",
             fontsize=9,
             color=look.color,
         )
@@ -65,7 +68,7 @@ def figure4(evidence: Evidence) -> Figure:
     )
     for case, (learner, offset, label) in enumerate(cases):
         ratios = [estimates[case] for estimates in rows.values()]
-        _draw(axes, heights + offset, ratios, shown[learner], label)
+        _draw(axes, heights + offset, ratios, shown[learner], label, above=offset > 0)
     axes.axvline(1, **BORDER)
     axes.set(xscale=LOG, xlabel="error with the change over error without it")
     if evidence.fact("beside"):
