@@ -11,7 +11,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.plots.looks import DASHED, Look, looks
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import INTERVALS, LABELS, plain, title
+from recalib.study.plots.style import INTERVALS, LABELS, legend_below, plain, title
 from recalib.study.statistics import estimate
 
 LEVELS = (0.3, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.04, 0.03)  # of both initial errors
@@ -37,15 +37,11 @@ def figure9(evidence: Evidence) -> Figure:
         axes.set(xscale=LOG, yscale=LOG, xlabel="iterations, tuned for each number", ylabel=label)
         plain(axes.xaxis, 100, 1000, 10_000)
         plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 4, 8)
-    panels[0].legend(fontsize=8)
     _draw_factors(panels[2], evidence, ladders)
     searches = sorted({len(each) for ladder in ladders.values() for each in ladder.values()})
-    title(
-        figure,
-        "Figure 9: how many times as many iterations does Ritter's map need?",
-        f"means over {' or, for short trainings, '.join(map(str, searches))} searches and their"
-        f" seeds; {INTERVALS}",
-    )
+    title(figure, "Figure 9: how many times as many iterations does Ritter's map need?")
+    means = f"means over {' or, for short trainings, '.join(map(str, searches))} searches"
+    legend_below(figure, panels[0], len(ladders), f"{means} and their seeds; {INTERVALS}")
     return figure
 
 

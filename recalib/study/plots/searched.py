@@ -64,7 +64,14 @@ def figure6(evidence: Evidence) -> Figure:
     plain(panels[1].xaxis, 0.1, 0.3, 1, 3, 10)
     plain(panels[1].yaxis, 0.3, 0.5, 1, 2, 5)
     panels[1].set_title("Which widths does each map want?", fontsize=11)
-    panels[1].legend(fontsize=9, loc="center left", frameon=True, framealpha=0.9, edgecolor="none")
+    panels[1].legend(
+        fontsize=9,
+        loc="center left",
+        markerscale=2,
+        frameon=True,
+        framealpha=0.9,
+        edgecolor="none",
+    )
     title(
         figure,
         "Figure 6: what the searches see",
