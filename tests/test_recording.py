@@ -356,7 +356,7 @@ def test_a_recording_that_differs_from_the_experiment_is_not_written(
     spoilt["ritter"].loc[3, "orientation_error_deg"] *= 1 + 1e-8
     with pytest.raises(BrokenRecording, match="ritter at iteration 12") as caught:
         write_recording(
-            tmp_path / "links_encoders.rrd", job, resolved(DAMAGES), learners(job), spoilt
+            tmp_path / "links_encoders.rrd", job, resolved(DAMAGES), learners(job), spoilt, 0
         )
     assert f"orientation_error_deg is {measured}" in str(caught.value)
     assert str(spoilt["ritter"].loc[3, "orientation_error_deg"]) in str(caught.value)
@@ -382,7 +382,7 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
     )
     path = tmp_path / "links_encoders.rrd"
     measured = experiment(job, its)
-    watched = write_recording(path, job, its, learners(job), measured)
+    watched = write_recording(path, job, its, learners(job), measured, 0)
     check_recording(path, measured)
     entities = {chunk.entity_path for chunk in RrdReader(path).store().stream().to_chunks()}
     assert "/log10/position_error_cm/ritter" in entities
