@@ -112,7 +112,7 @@ def project(tmp_path_factory) -> Path:
         start_new_session=True,
     )
     whole = f"{TINY}/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + 600
     while process.poll() is None and not list(folder.glob(whole)) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert process.poll() is None, "the run ended before it could be interrupted"
