@@ -9,7 +9,7 @@ import pytest
 from recalib.study.evidence.checks import expect
 from recalib.study.evidence.pages import PAGES, render
 from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.evidence.words import amounts, measured, n, pair
+from recalib.study.evidence.words import amounts, brief, measured, n, pair, verdicts
 from tests.conftest import ROOT
 from tests.made_up import MadeUp
 
