@@ -4,15 +4,18 @@ The study is repeated in small within itself: see `recalib.study.statistics`.
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims.switches import ask_for, with_and_without
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.statistics import Draws, combined
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SPLITS = 200
 
@@ -22,11 +25,13 @@ def needs(ask: Request) -> None:
     ask_for(ask, SWITCHES)
 
 
-def coverage(evidence: Evidence) -> pd.DataFrame:
+def coverage(evidence: Evidence) -> "pd.DataFrame":
     """How often the interval from one half of the searches holds the other half's number.
 
     A row for each effect: that of a change on the improved system, or on Ritter's.
     """
+    import pandas as pd  # half a second, which the workflow would pay whenever it starts
+
     rows = []
     for switch in SWITCHES:
         for label, pair in with_and_without(evidence, switch).items():
