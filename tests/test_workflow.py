@@ -38,7 +38,7 @@ def test_the_contract_of_the_outputs_holds(project):
     for scenario in ("intact", "links_encoders"):
         resolved = Resolved.read(results / "scenarios" / f"{scenario}.json")
         assert (results / "recordings" / f"{scenario}.rrd").stat().st_size > 1e6
-        for learner in ("improved", "ritter", "ritter_60"):
+        for learner in ("improved", "ritter"):
             history = pd.read_parquet(results / "runs" / scenario / f"{learner}.parquet")
             searches = 2 if learner == "ritter" else 3  # it is a long training
             runs = history.groupby("search")["seed"].unique().map(sorted).tolist()
@@ -48,7 +48,7 @@ def test_the_contract_of_the_outputs_holds(project):
             )
             assert len(learned.state()) == 2 * searches
     summary = pd.read_csv(results / "summary.csv")
-    assert len(summary) == 6 and (summary["moves"] == 2 * summary["iterations"]).all()
+    assert len(summary) == 4 and (summary["moves"] == 2 * summary["iterations"]).all()
     assert "intact" in (results / "check.txt").read_text(encoding="utf-8")
     for figure in ("figure1", "figure2", "figure3"):
         for suffix in (".svg", ".png"):
@@ -128,7 +128,7 @@ def test_the_search_gives_the_same_file_with_the_same_trials_for_all(project):
     again = "results/studies/again/search/improved_60.csv"
     finished = snakemake(project, "--config", "name=again", "--", again)
     assert finished.returncode == 0, finished.stdout
-    for training, searches in (("improved_60", 3), ("ritter_60", 3), ("ritter_120", 2)):
+    for training, searches in (("improved_60", 3), ("ritter_120", 2)):
         sample = project / TINY / "search" / f"{training}.csv"
         trials = pd.read_csv(sample, skiprows=1).groupby(["search", "round"]).size()
         assert trials.tolist() == [4] * 2 * searches
