@@ -180,7 +180,8 @@ def test_the_table_of_errors_is_the_summary(visit, report):
         for moment in ("initial", "final")
     ]
     assert [row[2:] for row in visit.table] == [
-        [str(run["seeds"]), f"{run['iterations']:,}", *(cell(run, column) for column in columns)]
+        [str(run["searches"]), str(run["seeds"]), f"{run['iterations']:,}"]
+        + [cell(run, column) for column in columns]
         for run in summary
     ]
 
