@@ -22,6 +22,7 @@ from recalib.study.configuration.study import Study
 from recalib.study.jobs import Nominal
 from recalib.study.plan import Plan
 from recalib.study.plants import nominal_controller
+from tests.made_up import NOISE, MadeUp
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2"]
@@ -54,6 +55,22 @@ def few(study) -> Study:
     }
     parts = {part: getattr(study, part).model_copy(update=its) for part, its in less.items()}
     return study.model_copy(update={"name": "few", **parts})
+
+
+@pytest.fixture(scope="session")
+def made_up(few, tmp_path_factory) -> MadeUp:
+    """Results that support every claim."""
+    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
+    its.conclude()
+    return its
+
+
+@pytest.fixture(scope="session")
+def disturbed(few, tmp_path_factory) -> MadeUp:
+    """The same, as another machine would round them."""
+    its = MadeUp(tmp_path_factory.mktemp("disturbed"), few, noise=NOISE)
+    its.conclude()
+    return its
 
 
 def changed(nominal: Nominal, **entry) -> Nominal:

@@ -40,6 +40,7 @@ FINAL = {
 LADDERS = {"improved": 20, "ritter": 1600, "ritter_double": 1600}  # error times iterations
 # Spread of errors: of searches at 0.05 to 0.1 in the experiments, of seeds at 0.05
 OF_SEARCHES, OF_SEEDS = 0.07, 0.05
+NOISE = 1e-9  # relative: more than machines differ by
 
 
 class MadeUp:
@@ -196,7 +197,8 @@ class MadeUp:
             )
         table["initial_rate"], table["final_rate"] = 0.8, 0.4
         table[ERRORS[0]] = np.where(good, 0.3, 3.0) * rng.uniform(1, 1.5, 100)
-        table = table.assign(**{ERRORS[1]: 0.1}).map(lambda value: float(f"{value:.4g}"))
+        table[ERRORS[1]], table["score"] = 0.1, table[ERRORS[0]]
+        table = table.map(lambda value: float(f"{value:.4g}"))
         table.insert(0, "search", search)
         return table
 

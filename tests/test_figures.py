@@ -13,25 +13,10 @@ from recalib.study.plots.steady import LOG, rounded
 from recalib.study.plots.style import STYLE, plt, save
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
-from tests.made_up import OF_SEARCHES, MadeUp
+from tests.made_up import NOISE, OF_SEARCHES, MadeUp
 
-NOISE = 1e-9  # relative: more than machines differ by
 # those of the multiverse are drawn for the shipped study alone
 EVERYWHERE = [name for name in FIGURES if name not in ("figure14", "figure15")]
-
-
-@pytest.fixture(scope="module")
-def made_up(few, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
-    its.conclude()
-    return its
-
-
-@pytest.fixture(scope="module")
-def disturbed(few, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("disturbed"), few, noise=NOISE)
-    its.conclude()
-    return its
 
 
 def bytes_of(figure: str, needs, folder) -> list[bytes]:

@@ -42,20 +42,6 @@ def test_numbers_are_written_for_people():
     assert amounts({"translate": ["5 cm", "0 cm", "1 cm"]}) == "5 cm, 0 cm, 1 cm"
 
 
-@pytest.fixture(scope="module")
-def made_up(few, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
-    its.conclude()
-    return its
-
-
-@pytest.fixture(scope="module")
-def disturbed(few, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("disturbed"), few, noise=1e-9)
-    its.conclude()
-    return its
-
-
 def rendered(page: str, made_up: MadeUp) -> str:
     context = PAGES[page].context(Evidence(made_up.needs(PAGES[page].needs)))
     return render(ROOT / "workflow" / "templates" / f"{page}.j2", context)

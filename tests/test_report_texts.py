@@ -8,14 +8,6 @@ from recalib.study.evidence import report
 from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.plots.registry import FIGURES, drawn
 from tests.conftest import ROOT
-from tests.made_up import MadeUp
-
-
-@pytest.fixture(scope="module")
-def made_up(few, tmp_path_factory) -> MadeUp:
-    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
-    its.conclude()
-    return its
 
 
 @pytest.fixture

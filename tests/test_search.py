@@ -13,7 +13,6 @@ from recalib.study.experiments.settings import best, build_tuned, rules_of
 from recalib.study.experiments.trials import search_for
 from recalib.study.layout import SEARCHED
 from recalib.study.plants import resolve
-from recalib.study.statistics import combined
 from recalib.study.trainings import Trainings, ritter_short, rules, switched, training
 from tests.conftest import ROOT
 
@@ -69,12 +68,15 @@ def test_a_frame_of_trials_is_a_schedule_of_runs():
     assert isinstance(search.schedule(trials.iloc[0], RULES).final_rate, float)
 
 
-def test_the_score_is_what_learners_are_compared_by():
-    frame = pd.DataFrame(
-        {"position_error_cm": [1.0, 2.0, 4.0], "orientation_error_deg": [4.0, 4.5, 9.0]}
-    )
-    assert search.score(frame).tolist() == [2.0, 3.0, 6.0]
-    assert search.score(frame).tolist() == combined(frame.to_numpy()).tolist()
+@pytest.mark.parametrize(
+    ("score", "expected"), [("worse", [2.0, 0.75]), ("geometric_mean", [1.0, 0.75])]
+)
+def test_the_score_is_the_part_left_of_the_initial_errors(study, score, expected):
+    errors = pd.DataFrame({"position_error_cm": [4.0, 1.5], "orientation_error_deg": [2.0, 3.0]})
+    initial = {"position_error_cm": 2.0, "orientation_error_deg": 4.0}
+    published = study.search.initial.model_copy(update=initial)
+    budget = study.search.model_copy(update={"score": score, "initial": published})
+    assert search.scores(errors, budget).tolist() == expected
 
 
 @pytest.fixture
@@ -153,15 +155,14 @@ def sample_of_two() -> pd.DataFrame:
     """Four trials of each of two searches; two of the second are equally good."""
     trials = search.draw(RULES, RANGES, 8, rng(1))
     trials.insert(0, "search", [1] * 4 + [2] * 4)
-    errors = {"position_error_cm": [3.0, 1, 2, 4] * 2, "orientation_error_deg": [1.0, 2, 2, 2] * 2}
-    return trials.assign(**errors).replace({"orientation_error_deg": {4: 1.0}})
+    return trials.assign(score=[0.1, 0.2, 0.4, 0.3, 0.3, 0.2, 0.2, 0.4])
 
 
 def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(plan, tmp_path):
     path, trials = tmp_path / "improved_200.csv", sample_of_two()
     job = plan.sample("improved_200").model_copy(update={"searches": 2})
     samples.write_sample(path, job, trials)
-    assert best(trials).index.tolist() == [1, 5]
+    assert best(trials).index.tolist() == [0, 5]
     assert samples.winners(path) == best(trials).to_dict("records")
 
 

@@ -53,7 +53,7 @@ class DamagedArm:
         """Its kinematics for many postures at once, once all damages are done."""
         from recalib.nominal.chain import Chain
 
-        return Chain(self.arm)
+        return Chain.of(self.arm)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
         """Joint angles (n, 6) [rad] at which the arm stands.

@@ -104,8 +104,7 @@ def angles_for(
             calibrations[run].forward_and_jacobian(own)
             for run, own in zip(runs, angles, strict=True)
         )
-        reached, jacobians = map(np.stack, zip(*each, strict=True))
-        return reached, jacobians, reached[..., :3, 3]
+        return tuple(map(np.stack, zip(*each, strict=True)))
 
     return solve_groups(look, poses, start, TOLERANCE, STEPS)[0]
 

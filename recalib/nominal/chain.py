@@ -1,116 +1,204 @@
-"""Forward kinematics and Jacobians of serial arms for many postures in few calls of NumPy.
+"""Serial arms of turning joints in compiled loops, posture by posture.
 
-As a function of one joint's angle q, a frame on the arm beyond it is a constant plus multiples of
-sin q and cos q. Over three joints it is a sum of their 27 products with constant weights. So an arm
-is taken as two halves of three joints, from the base to the wrist, the frame of the fourth joint
-before it turns, and from there to the tool. The weights follow from Pinocchio's kinematics at 27
-postures of each half. Every posture is computed by itself: what is beside it changes not one bit.
+Pinocchio says where joints and tool are placed, and stays the reference. What is beside a posture
+changes not one bit of it. Numba compiles the loops once and keeps them in a file.
 """
 
 from collections.abc import Sequence
-from itertools import product
 from typing import NamedTuple, Self
 
 import numpy as np
 import pinocchio as pin
+from numba import njit
 
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 
-WRIST = 4  # a joint
-THIRDS = np.array(list(product(2 * np.pi / 3 * np.arange(3), repeat=3)))  # of a turn, (27, 3) rad
+TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
+STEPS = 25
+LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
+SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
+
+compiled = njit(cache=True, error_model="numpy")
 
 
-class Motion(NamedTuple):
-    """Where arms stand and how they move.
+class Chain(NamedTuple):
+    """Serial arms of n turning joints, side by side.
 
     Attributes:
-        tools: (share, n, 3, 4) poses [m] of the tools without their last row.
-        jacobians: (share, n, 6, 6) from joint velocities to linear [m/s] and angular [rad/s]
-            velocity of the tool along the base's axes. The linear one is that of a point of the
-            tool's link: the one that is at the wrist now.
-        wrists: (share, n, 3) m.
+        placements: (arm, n + 1, 3, 4) of each joint in the frame of the one before it, and of the
+            tool in that of the last one: turns, and translations [m].
+        axes: (arm, n, 3) about which the joints turn, in their own frames.
     """
 
-    tools: np.ndarray
-    jacobians: np.ndarray
-    wrists: np.ndarray
-
-
-class Chain:
-    """A serial arm of six turning joints.
-
-    Args:
-        arm: the chain does not follow when it changes.
-
-    Raises UnsuitableRobot where a joint slides.
-    """
-
-    def __init__(self, arm: Arm):
-        halves = [[_half(arm, half, angles) for angles in THIRDS] for half in (0, 1)]
-        weights = np.linalg.solve(_products(THIRDS), np.reshape(halves, (2, len(THIRDS), -1)))
-        self._weights = weights.reshape(np.shape(halves))
+    placements: np.ndarray
+    axes: np.ndarray
 
     @classmethod
-    def side_by_side(cls, chains: Sequence["Chain"]) -> Self:
-        """Several chains as one, each of which takes its share of the postures."""
-        together = cls.__new__(cls)
-        together._weights = np.stack([each._weights for each in chains])[:, None]
-        return together
+    def of(cls, arm: Arm) -> Self:
+        """A single arm; the chain does not follow when it changes.
+
+        Raises UnsuitableRobot where a joint slides.
+        """
+        model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
+        axes = [_axis(model, joint) for joint in range(1, model.njoints)]
+        placements = [*list(model.jointPlacements)[1:], frame.placement]
+        matrices = [placement.homogeneous[:3] for placement in placements]
+        return cls(np.array([matrices]), np.array([axes]))
+
+    @classmethod
+    def side_by_side(cls, chains: Sequence[Self]) -> Self:
+        """The arms of several chains, with equally many joints."""
+        return cls(*map(np.concatenate, zip(*chains, strict=True)))
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (share, n, 4, 4) of the tool [m] at joint angles (share, n, 6) [rad]."""
-        poses = np.zeros((*angles.shape[:-1], 4, 4))
-        poses[..., :3, :] = self._halves(angles, self._weights[..., :4])[..., 1, :, :]
-        poses[..., 3, 3] = 1
-        return poses
+        """Poses (arm, posture, 4, 4) of the tools [m] at joint angles (arm, posture, n) [rad]."""
+        return _forward(self, angles)
 
-    def move(self, angles: np.ndarray) -> Motion:
-        """The motion at joint angles (share, n, 6) [rad]."""
-        postures, halves = angles.shape[:-1], self._halves(angles, self._weights)
-        # (share, n, half, axis, linear or angular, joint), with the halves beside their joints
-        columns = halves[..., 4:].reshape(*postures, 2, 3, 2, 3).transpose(0, 1, 4, 3, 2, 5)
-        return Motion(halves[..., 1, :, :4], columns.reshape(*postures, 6, 6), halves[..., 0, :, 3])
+    def jacobians(self, angles: np.ndarray) -> np.ndarray:
+        """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad].
 
-    def _halves(self, angles: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """Both halves' columns (share, n, 2, 3, ...) in the base frame: see `_half`."""
-        products = _products(angles.reshape(*angles.shape[:-1], 2, 3))
-        columns = products[..., None, :] @ weights.reshape(*weights.shape[:-2], -1)
-        halves = columns.reshape(*products.shape[:-1], 3, -1)
-        near, far = halves[..., 0, :, :], halves[..., 1, :, :]
-        far[...] = near[..., :3] @ far
-        far[..., 3] += near[..., 3]
-        return halves
+        From joint velocities to linear [m/s] and angular [rad/s] velocity of the tool along the
+        base's axes.
+        """
+        return _jacobians(self, angles)
+
+    def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Joint angles (posture, 6) [rad] that take the tool of the first arm to poses.
+
+        By Newton's method, each pose by itself.
+
+        Args:
+            poses: (posture, 4, 4) m.
+            start: (posture, 6) rad nearby.
+
+        Returns the angles and what is left of each residual (posture,), the largest of its numbers
+        in m and rad: above TOLERANCE, the pose was not reached.
+        """
+        return _solve(self, poses, start)
 
 
-def _half(arm: Arm, half: int, angles: np.ndarray) -> np.ndarray:
-    """Of the half's last frame (3, 4) and of its joints' Jacobian at the wrist two (3, 3), (3, 10).
-
-    In the half's first frame.
-
-    Args:
-        half: 0 from the base to the wrist, 1 from there to the tool.
-        angles: (3,) rad of the half's joints; those of the other half are at zero.
-    """
-    model, data, joints = arm.model, arm.model.createData(), slice(3 * half, 3 * half + 3)
-    posture, frame = np.zeros(6), tool_frame(model, arm.tool)
-    posture[joints] = angles
-    jacobian = pin.computeFrameJacobian(model, data, posture, frame, pin.LOCAL_WORLD_ALIGNED)
-    tool = pin.updateFramePlacement(model, data, frame)
-    wrist = data.oMi[WRIST - 1] * model.jointPlacements[WRIST]
-    linear, angular = np.split(jacobian[:, joints], 2)
-    if not angular.any(axis=0).all():
+def _axis(model: pin.Model, joint: int) -> np.ndarray:
+    """About which axis (3,) a joint turns, in its own frame."""
+    data, at = model.createData(), np.zeros(model.nq)
+    pin.computeJointJacobians(model, data, at)
+    angular = pin.getJointJacobian(model, data, joint, pin.LOCAL)[3:]
+    column = model.joints[joint].idx_v
+    if not angular[:, column].any():
         raise UnsuitableRobot(f"a joint of {model.name} slides; valid: joints that turn")
-    linear += np.cross(angular, (wrist.translation - tool.translation)[:, None], axis=0)
-    first, last = (pin.SE3.Identity(), wrist) if half == 0 else (wrist, tool)
-    into = first.rotation.T
-    return np.hstack([first.actInv(last).homogeneous[:3], into @ linear, into @ angular])
+    return angular[:, column]
 
 
-def _products(angles: np.ndarray) -> np.ndarray:
-    """The products (..., 27) of 1, sine or cosine of three joints' angles (..., 3) [rad]."""
-    each = angles.reshape(-1, 3).T.copy()  # the postures last: much to do in each call of NumPy
-    waves = np.empty((3, *each.shape))
-    waves[0], waves[1], waves[2] = 1, np.sin(each), np.cos(each)
-    products = (waves[:, None, 0] * waves[:, 1])[:, :, None] * waves[:, 2]
-    return products.reshape(27, -1).T.copy().reshape(*angles.shape[:-1], 27)
+@compiled
+def _forward(chain, angles):
+    arms, postures, joints = angles.shape
+    poses = np.zeros((arms, postures, 4, 4))
+    origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
+    for arm in range(arms):
+        for posture in range(postures):
+            pose = poses[arm, posture]
+            _stand(chain, arm, angles[arm, posture], pose, origins, directions)
+            pose[3, 3] = 1
+    return poses
+
+
+@compiled
+def _stand(chain, arm, angles, pose, origins, directions):
+    """Write the tool's pose (3 or 4, 4), and where the joints lie and turn, both (n, 3)."""
+    joints = len(angles)
+    pose[:3] = chain.placements[arm, 0]
+    for joint in range(joints):
+        axis, angle = chain.axes[arm, joint], angles[joint]
+        for row in range(3):
+            origins[joint, row] = pose[row, 3]
+            directions[joint, row] = (
+                pose[row, 0] * axis[0] + pose[row, 1] * axis[1] + pose[row, 2] * axis[2]
+            )
+        sine, cosine = np.sin(angle), np.cos(angle)
+        versine = 1 - cosine
+        x, y, z = axis
+        placement = chain.placements[arm, joint + 1]
+        for row in range(3):
+            a, b, c = pose[row, 0], pose[row, 1], pose[row, 2]
+            # Rodrigues' formula: each row of the frame is turned about the axis, the other way
+            along = versine * directions[joint, row]
+            d = cosine * a + sine * (b * z - c * y) + along * x
+            e = cosine * b + sine * (c * x - a * z) + along * y
+            f = cosine * c + sine * (a * y - b * x) + along * z
+            for column in range(4):
+                turned = (
+                    d * placement[0, column] + e * placement[1, column] + f * placement[2, column]
+                )
+                pose[row, column] = turned + (pose[row, 3] if column == 3 else 0)
+
+
+@compiled
+def _jacobians(chain, angles):
+    postures, joints = angles.shape
+    jacobians, pose = np.empty((postures, 6, joints)), np.empty((3, 4))
+    origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
+    for posture in range(postures):
+        _stand(chain, 0, angles[posture], pose, origins, directions)
+        _turn(pose, origins, directions, jacobians[posture])
+    return jacobians
+
+
+@compiled
+def _turn(pose, origins, directions, jacobian):
+    """Write how the tool moves (6, n) with joints that lie and turn as `_stand` says."""
+    for joint in range(len(origins)):
+        a, b, c = directions[joint]
+        x, y, z = pose[:3, 3] - origins[joint]
+        jacobian[:, joint] = b * z - c * y, c * x - a * z, a * y - b * x, a, b, c
+
+
+@compiled
+def _solve(chain, poses, start):
+    joints = start.shape[1]
+    found, left = start.copy(), np.full(len(start), np.inf)
+    origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
+    reached, jacobian, missing = np.empty((3, 4)), np.empty((6, joints)), np.empty(6)
+    for index in range(len(start)):
+        angles, goal = start[index].copy(), poses[index]
+        for _ in range(STEPS):
+            _stand(chain, 0, angles, reached, origins, directions)
+            residual = _missing(reached, goal, missing)
+            if residual < left[index]:
+                found[index], left[index] = angles, residual
+            if left[index] <= TOLERANCE:
+                break
+            _turn(reached, origins, directions, jacobian)
+            turns = _solution(jacobian, missing)
+            angles += turns * (LONGEST_STEP / max(LONGEST_STEP, np.abs(turns).max()))
+    return found, left
+
+
+@compiled
+def _missing(pose, goal, missing):
+    """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
+
+    The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
+    angle itself where Newton's method ends.
+    """
+    for row in range(3):
+        missing[row] = goal[row, 3] - pose[row, 3]
+        one, other = (row + 1) % 3, (row + 2) % 3
+        turn = 0.0
+        for column in range(3):
+            turn += (
+                goal[other, column] * pose[one, column] - goal[one, column] * pose[other, column]
+            )
+        missing[3 + row] = turn / 2
+    return np.abs(missing).max()
+
+
+@compiled
+def _solution(matrix, vector):
+    """The solution of linear equations; of singular ones the smallest."""
+    try:
+        solution = np.linalg.solve(matrix, vector)
+        if np.abs(solution).max() <= SINGULAR:
+            return solution
+    except Exception:  # exactly singular
+        pass
+    return np.linalg.pinv(matrix, 1 / SINGULAR) @ vector

@@ -14,8 +14,7 @@ import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.monomials import monomials
-from recalib.nominal.chain import Chain
-from recalib.nominal.newton import TOLERANCE, solve_newton
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import ORIENTATION
 from recalib.nominal.robots import Robot
 
@@ -73,12 +72,12 @@ class Controller:
     """
 
     def __init__(self, robot: Robot, greatest_condition: float = GREATEST_CONDITION):
-        self.robot, self._chain = robot, Chain(robot.arm)
+        self.robot, self._chain = robot, Chain.of(robot.arm)
         grid = np.array(list(product(np.linspace(-1, 1, KNOTS), repeat=6)))
         knots, solved = np.tile(robot.home, (len(grid), 1)), []
         for part in BOXES:  # from home outwards, so that every knot is on the branch of home
             poses = robot.workspace.to_poses(grid * part)
-            knots, residuals = solve_newton(self._chain, poses, knots)
+            knots, residuals = self._chain.solve(poses, knots)
             solved.append(knots)
         self._check_reach(poses, residuals)
         self._check_limits(knots)
@@ -96,7 +95,7 @@ class Controller:
         features = monomials(np.where(beyond, np.clip(coordinates, -1, 1), coordinates), DEGREE)
         # row by row: one product of all would round with the batch's size
         start = (features[:, None] @ self._guess)[:, 0]
-        angles, residuals = solve_newton(self._chain, poses, start)
+        angles, residuals = self._chain.solve(poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
 
@@ -150,7 +149,7 @@ class Controller:
             )
 
     def _check_condition(self, knots: np.ndarray, greatest: float) -> None:
-        _, jacobians = self.robot.arm.forward_and_jacobian(knots)
+        jacobians = self._chain.jacobians(knots)
         condition = np.linalg.cond(jacobians / self.robot.workspace.half_ranges[:, None]).max()
         if condition > greatest:
             raise UnfitWorkspace(

@@ -284,6 +284,10 @@ class Budget(Part):
     """Of trials and poses: each search has its own, and its poses are used nowhere else."""
     ranges: Ranges
     """Lowest and highest values."""
+    score: Literal["worse", "geometric_mean"]
+    """What is minimised: the larger or the geometric mean of both errors over `initial`."""
+    initial: Published
+    """The errors before learning, as the score has them."""
 
 
 class Search(Budget):

@@ -36,7 +36,7 @@ class Factors(Part):
     """How Ritter's learning rate falls."""
     cells: SomeDistinct[Literal["each", "whole"]]
     """Whether each map has the cells of the nets, or all maps of a learner as a whole."""
-    score: SomeDistinct[Literal["geometric_mean", "worse"]]
+    score: SomeDistinct[Literal["worse", "geometric_mean"]]
     """What the search minimises."""
     budget: SomeDistinct[Literal["ours", "rough"]]
     """Of a search."""

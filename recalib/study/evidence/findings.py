@@ -94,7 +94,6 @@ def context(evidence: Evidence) -> dict:
         "depends": depends,
         "rule": RULE,
         "universes": max((claim["universes"] or {"of": 0})["of"] for claim in evidence.claims()),
-        "shipped": evidence.shipped,
         "claims": [_said(claim) for claim in evidence.claims()],
         "iterations": evidence.fact("iterations"),
         "ritter_iterations": ritter.max(),

@@ -45,8 +45,6 @@ def winners(path: str | Path) -> list[dict[str, float]]:
     As `best(read_sample(path))`, without a table: every training starts with
     this.
     """
-    from recalib.study.experiments.search import score
-
     found: dict[float, dict[str, float]] = {}
     for number in range(1, searched_for(path).searches + 1):
         found[number] = {}
@@ -55,7 +53,7 @@ def winners(path: str | Path) -> list[dict[str, float]]:
         for row in csv.DictReader(lines):
             trial = {name: float(text) for name, text in row.items()}
             best = found[trial["search"]]
-            if not best or score(trial) < score(best):
+            if not best or trial["score"] < best["score"]:
                 found[trial["search"]] = trial
     return list(found.values())
 

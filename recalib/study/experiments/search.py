@@ -17,6 +17,8 @@ from recalib.learners.schedules import Schedule
 if TYPE_CHECKING:
     import pandas as pd
 
+    from recalib.study.configuration.study import Budget
+
 NETS = ("g_k", "g_kl")
 ZOOM = 1 / 3
 DIGITS = 4  # of the numbers tried, so that the files that keep them are exact
@@ -85,17 +87,12 @@ def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
     return Schedule(column("initial_width"), final, column("initial_rate"), column("final_rate"))
 
 
-def score(errors: Mapping):
-    """What the search minimises: the geometric mean of both errors, by which learners are compared.
-
-    It does not depend on the units. Of a trial, or of a frame of trials.
-    """
-    return np.sqrt(errors["position_error_cm"] * errors["orientation_error_deg"])
+SCORES = {"worse": np.maximum, "geometric_mean": lambda first, second: np.sqrt(first * second)}
 
 
-def worse(errors: Mapping):
-    """The larger of both errors, in cm and degrees: a pair is reached by both."""
-    return np.maximum(errors["position_error_cm"], errors["orientation_error_deg"])
-
-
-SCORES = {"geometric_mean": score, "worse": worse}
+def scores(trials: Mapping, budget: "Budget") -> "pd.Series":
+    """What the search minimises, of trials with their errors: the part left of the initial ones."""
+    return SCORES[budget.score](
+        trials["position_error_cm"] / budget.initial.position_error_cm,
+        trials["orientation_error_deg"] / budget.initial.orientation_error_deg,
+    )

@@ -28,7 +28,7 @@ def rules_of(learner: Learner) -> Rules:
 
 def best(trials: "pd.DataFrame") -> "pd.DataFrame":
     """The trials that the searches keep, one each."""
-    return trials.loc[search.score(trials).groupby(trials["search"]).idxmin()]
+    return trials.loc[trials.groupby("search")["score"].idxmin()]
 
 
 def build(learner: Learner, trials: Sequence[Mapping]) -> HierarchicalLearner:

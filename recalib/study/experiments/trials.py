@@ -1,6 +1,6 @@
 """Independent searches for the widths and rates of a training, on poses that nothing else uses."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,7 @@ from recalib.study.experiments.settings import rules_of
 from recalib.study.plants import Resolved
 from recalib.training import train
 
-DIGITS = 4  # of an error, so that the files that keep it are the same on every machine
+DIGITS = 4  # of errors and scores
 
 
 def search_for(job: jobs.Searches, scenario: str | Path) -> pd.DataFrame:
@@ -50,7 +50,6 @@ def search_once(
     budget: Budget,
     tests: int,
     luck: str,
-    score: Callable[[Mapping], pd.Series] = search.score,
 ) -> pd.DataFrame:
     """All trials of one search, round after round, a row each.
 
@@ -59,7 +58,6 @@ def search_once(
         iterations: of a training.
         tests: poses on which a trial is measured.
         luck: the scope of its randomness.
-        score: of a frame of trials, what the search minimises.
     """
     seeds = range(budget.seeds)
     poses = desired_poses(budget.seed, luck, seeds, iterations)
@@ -67,7 +65,7 @@ def search_once(
     rounds: list[pd.DataFrame] = []
     for round_ in range(1, budget.rounds + 1):
         so_far = pd.concat(rounds, ignore_index=True) if rounds else None
-        centre = None if so_far is None else so_far.loc[score(so_far).idxmin()]
+        centre = None if so_far is None else so_far.loc[so_far["score"].idxmin()]
         random = generator(budget.seed, luck, "trials", round_)
         trials = search.draw(rules, dict(budget.ranges), budget.trials, random, centre)
         runs = len(trials) * len(seeds)
@@ -83,8 +81,13 @@ def search_once(
             ("orientation_error_deg", np.degrees(history.orientation)),
         ):
             by_trial = np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds))
-            means = np.exp(by_trial.mean(axis=1))  # geometric, over the seeds
-            trials[column] = [float(f"{mean:.{DIGITS}g}") for mean in means]
+            trials[column] = _short(np.exp(by_trial.mean(axis=1)))  # geometric, over the seeds
+        trials["score"] = _short(search.scores(trials, budget))
         trials.insert(0, "round", round_)
         rounds.append(trials)
     return pd.concat(rounds, ignore_index=True)
+
+
+def _short(values: Iterable[float]) -> list[float]:
+    """Values with so few digits that every machine writes the same."""
+    return [float(f"{value:.{DIGITS}g}") for value in values]

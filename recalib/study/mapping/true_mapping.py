@@ -3,8 +3,8 @@
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
+from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.controller import Controller
-from recalib.nominal.newton import TOLERANCE, solve_newton
 
 STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
 
@@ -17,7 +17,7 @@ def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) 
     workspace = controller.robot.workspace
     poses = workspace.to_poses(desired)
     start = controller.solve(poses).angles + arm.offsets
-    angles, residuals = solve_newton(arm.chain, poses, start)
+    angles, residuals = arm.chain.solve(poses, start)
     commands = workspace.to_coordinates(controller.robot.arm.forward(angles - arm.offsets))
     commands[residuals > TOLERANCE] = np.nan
     return commands

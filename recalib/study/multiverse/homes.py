@@ -6,9 +6,8 @@ from itertools import product
 import numpy as np
 
 from recalib.errors import UnfitWorkspace
-from recalib.nominal.chain import Chain
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
-from recalib.nominal.newton import TOLERANCE, solve_newton
 from recalib.nominal.robots import Robot
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
@@ -29,7 +28,7 @@ def random_home(
     """
     low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
     high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
-    chain = Chain(robot.arm)
+    chain = Chain.of(robot.arm)
     for refused in range(CANDIDATES):
         there = at_home(robot, np.radians(random.integers(low, high, endpoint=True)))
         if _reaches_corners(there, chain):
@@ -51,7 +50,7 @@ def _reaches_corners(robot: Robot, chain: Chain) -> bool:
     for some in (CORNERS[::9], CORNERS):
         angles = np.tile(robot.home, (len(some), 1))
         for part in (0.5, 1):  # so that every corner is on the branch of home
-            angles, residuals = solve_newton(chain, robot.workspace.to_poses(part * some), angles)
+            angles, residuals = chain.solve(robot.workspace.to_poses(part * some), angles)
             within = (robot.lower <= angles) & (angles <= robot.upper)
             if not (np.all(residuals <= TOLERANCE) and within.all()):
                 return False

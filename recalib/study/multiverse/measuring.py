@@ -3,7 +3,7 @@
 Luck is new in every universe: of the searches, of the poses and of the seeds.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -47,18 +47,11 @@ class World:
         arm = apply(self._controller.robot, damages)
         return lambda runs: Plant(self._controller, [arm])
 
-    def score(self, errors: Mapping) -> pd.Series:
-        """What the searches minimise, of a frame of trials."""
-        lengths = errors["position_error_cm"] / self.universe.scale
-        angles = errors["orientation_error_deg"]
-        scaled = {"position_error_cm": lengths, "orientation_error_deg": angles}
-        return search.SCORES[self.universe.score](scaled)
-
     def tune(self, learner: str, iterations: int, budget: Budget) -> pd.DataFrame:
         """All trials of the search for a learner, on the paper's damage."""
         rules, robots = rules_in(self.universe, learner), self.robots(self.universe.own)
         luck = f"search for {learner}_{iterations}"
-        return search_once(robots, rules, iterations, budget, self.universe.tests, luck, self.score)
+        return search_once(robots, rules, iterations, budget, self.universe.tests, luck)
 
     def train(
         self, learner: str, iterations: int, trials: pd.DataFrame, scenario: str = ""
@@ -70,7 +63,7 @@ class World:
         """
         universe, seeds = self.universe, range(self.universe.seeds)
         rules = rules_in(universe, learner)
-        best = trials.loc[self.score(trials).idxmin()]
+        best = trials.loc[trials["score"].idxmin()]
         history = train(
             self.robots(scenario or universe.own)(len(seeds)),
             HierarchicalLearner(len(seeds), rules, search.schedule(best, rules)),
@@ -102,7 +95,7 @@ def measure(universe: Universe) -> dict[str, float]:
     rigid = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in RIGID)
     row["rigid_left"] = max(_left(each).max() for each in rigid)
     row["intact"] = world.train(IMPROVED, iterations, trials[IMPROVED], "intact").max()
-    row["width_order"] = _width_order(trials[IMPROVED], world.score)
+    row["width_order"] = _width_order(trials[IMPROVED])
     return row
 
 
@@ -122,13 +115,13 @@ def _ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
     return float(np.exp(np.subtract(*logs).mean()))
 
 
-def _width_order(trials: pd.DataFrame, score: Callable[[Mapping], pd.Series]) -> float:
+def _width_order(trials: pd.DataFrame) -> float:
     """Narrow over wide, as section 4 has them, in the map that shows it less.
 
     Of the best tenth of the first round, as in the claim.
     """
     first = trials[trials["round"] == 1]
-    best = first.loc[score(first).nsmallest(-(-len(first) // 10)).index]
+    best = first.nsmallest(-(-len(first) // 10), "score")
     ratios = [np.exp(np.log(best[f"{kind}/g_k"] / best[f"{kind}/g_kl"]).mean()) for kind in KINDS]
     return float(max(ratios[0], 1 / ratios[1]))
 

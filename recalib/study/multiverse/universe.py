@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from typing import Literal
 
 from recalib.study import jobs
 from recalib.study.configuration.damages import Entry
@@ -28,13 +27,10 @@ class Universe(Frozen):
 
     Attributes:
         nominal: the robot, with home, workspace and pose coordinates.
-        scale: of all lengths, which are those of the paper at 1.
         scenarios: damages by name, nothing in them to be assigned any more.
         learners: the two systems, and each with one switch changed, by name.
         ritters_rate: how the rate of learners with exponential widths falls.
-        score: what the search minimises: the geometric mean of both errors, or the worse of the
-            position error in cm over `scale` and the orientation error in degrees.
-        budget: of a search; its seed is the universe's.
+        budget: of a search, and what it minimises; its seed is the universe's.
         rough: budget of a rough one, with which the horizon of Ritter's is sought.
         rungs: numbers of iterations at which it is.
         tests: random poses for a measurement.
@@ -45,12 +41,10 @@ class Universe(Frozen):
 
     number: int
     nominal: jobs.Nominal
-    scale: float
     scenarios: Mapping[str, tuple[Entry, ...]]
     learners: Mapping[str, Learner]
     conventions: Conventions
     ritters_rate: str
-    score: Literal["geometric_mean", "worse"]
     budget: Budget
     rough: Budget
     rungs: tuple[int, ...]
@@ -69,10 +63,12 @@ def universe(study: Study, designed: Designed) -> Universe:
     home = dict(zip(entry.home, map(math.radians, designed.home_deg), strict=True))
     robot = entry.model_copy(update={"workspace": workspace, "home": home})
     translation, rotation = designed.moved
+    scale = entry.workspace.scale_to(own.workspace)
+    budget = _budget(plan.budget(), levels["score"], designed.seed, scale)
+    rough = budget.model_copy(update={"rounds": 1, "trials": study.universes.rough_trials})
     return Universe(
         number=designed.universe,
         nominal=nominal.model_copy(update={"robot": robot}),
-        scale=entry.workspace.scale_to(own.workspace),
         scenarios={
             "intact": (),
             "translation": (translation,),
@@ -91,9 +87,8 @@ def universe(study: Study, designed: Designed) -> Universe:
             spread=levels["spread"],
         ),
         ritters_rate=levels["rate"],
-        score=levels["score"],
-        budget=_budget(plan, levels["budget"], designed.seed),
-        rough=_budget(plan, "rough", designed.seed),
+        budget=budget if levels["budget"] == "ours" else rough,
+        rough=rough,
         rungs=study.universes.rungs,
         tests=study.training.tests,
         seeds=study.universes.seeds,
@@ -125,7 +120,8 @@ def _with_cells(learner: Learner, cells: str, workspace: Workspace) -> Learner:
     return learner.model_copy(update={"supernet": tuple(doubled)})
 
 
-def _budget(plan: Plan, level: str, seed: int) -> Budget:
-    """What a search may spend."""
-    rough = {"rounds": 1, "trials": plan.study.universes.rough_trials} if level == "rough" else {}
-    return plan.budget().model_copy(update={"seed": seed} | rough)
+def _budget(own: Budget, score: str, seed: int, scale: float) -> Budget:
+    """What a search may spend, and what it minimises; all lengths are `scale` times the study's."""
+    length = scale * own.initial.position_error_cm
+    initial = own.initial.model_copy(update={"position_error_cm": length})
+    return own.model_copy(update={"seed": seed, "score": score, "initial": initial})

@@ -13,14 +13,12 @@ def needs(ask):
 
 
 def measure(evidence, limits):
-    from recalib.study.experiments.search import score
-
     shares = {}
     for label, role in (("improved", "improved"), ("Ritter", "ritter")):
         within = []
         for _, trials in evidence.sample(evidence.fact(role)).groupby("search"):
             first = trials[trials["round"] == 1]
-            within.append(np.mean(score(first) <= limits["factor"] * score(trials).min()))
+            within.append(np.mean(first["score"] <= limits["factor"] * trials["score"].min()))
         # a search's share has the luck of its trials in it already
         shares[label] = estimate(np.array(within)[:, None], evidence.rng("rough", label))
     return Finding.of(above(shares["improved"], limits["share"]), shares)

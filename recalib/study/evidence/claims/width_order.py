@@ -15,13 +15,11 @@ def needs(ask):
 
 
 def measure(evidence, limits):
-    from recalib.study.experiments.search import score
-
     # later rounds surround one trial, and are not independent
     trials = evidence.sample(evidence.fact("improved")).query("round == 1")
     searches = [own for _, own in trials.groupby("search")]
     count = int(np.ceil(limits["best"] * len(searches[0])))
-    best = [own.loc[score(own).nsmallest(count).index] for own in searches]
+    best = [own.nsmallest(count, "score") for own in searches]
     estimates = {
         f"{name} map, g_k over g_kl": geometric(
             np.array([own[f"{name}/g_k"] / own[f"{name}/g_kl"] for own in best]),
