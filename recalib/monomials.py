@@ -3,22 +3,48 @@
 from functools import cache
 
 import numpy as np
+from numba import njit
 
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
     """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
-    levels = [np.ones((*points.shape[:-1], 1))]
-    for shorter, coordinates in _factors(points.shape[-1], degree):
-        levels.append(levels[-1][..., shorter] * points[..., coordinates])
-    return np.concatenate(levels, axis=-1)
+    shorter, last = _factors(points.shape[-1], degree)
+    products = _products(points.reshape(-1, points.shape[-1]), shorter, last)
+    return products.reshape(*points.shape[:-1], -1)
+
+
+def polynomial(weights: np.ndarray, points: np.ndarray, degree: int) -> np.ndarray:
+    """Sums (n, m) of the monomials of points (n, d) with weights (F, m), each point by itself."""
+    return _sums(monomials(points, degree), weights)
 
 
 @cache
-def _factors(dimensions: int, degree: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """For each degree: which monomial of the degree below and which coordinate make each of its."""
-    factors, last = [], np.zeros(1, int)
+def _factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """The monomial (F,) and the coordinate (F,) whose product is each but the first, which is 1."""
+    shorter, last, before = [0], [0], range(1)
     for _ in range(degree):
-        shorter = np.repeat(np.arange(len(last)), dimensions - last)
-        last = np.concatenate([np.arange(first, dimensions) for first in last])
-        factors.append((shorter, last))
-    return factors
+        longer = [(which, each) for which in before for each in range(last[which], dimensions)]
+        before = range(len(last), len(last) + len(longer))
+        shorter += [which for which, _ in longer]
+        last += [each for _, each in longer]
+    return np.array(shorter), np.array(last)
+
+
+@njit(cache=True)
+def _products(points, shorter, last):
+    products = np.empty((len(points), len(shorter)))
+    for row in range(len(points)):
+        products[row, 0] = 1
+        for index in range(1, len(shorter)):
+            products[row, index] = products[row, shorter[index]] * points[row, last[index]]
+    return products
+
+
+@njit(cache=True)
+def _sums(products, weights):
+    sums = np.zeros((len(products), weights.shape[1]))
+    for row in range(len(products)):
+        for index in range(len(weights)):
+            for column in range(weights.shape[1]):
+                sums[row, column] += products[row, index] * weights[index, column]
+    return sums

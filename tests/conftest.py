@@ -13,6 +13,7 @@ os.environ["OMP_NUM_THREADS"] = "1"
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
@@ -23,6 +24,9 @@ from recalib.study.jobs import Nominal
 from recalib.study.plan import Plan
 from recalib.study.plants import nominal_controller
 from tests.made_up import NOISE, MadeUp
+
+settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
+settings.load_profile("untimed")
 
 ROOT = Path(__file__).parents[1]
 SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2"]

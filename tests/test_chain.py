@@ -36,7 +36,7 @@ def arms(plan) -> list[tuple[Arm, Chain]]:
     return [(arm, Chain.of(arm)) for arm in (*arms, Arm(askew, "tool"))]
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(angles=POSTURES)
 def test_the_chain_moves_as_pinocchio_says(arms, angles):
     for arm, chain in arms:

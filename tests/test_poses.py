@@ -28,6 +28,22 @@ def test_coordinates_survive_the_round_trip(workspace, u):
     assert np.allclose(workspace.to_coordinates(workspace.to_poses(u)), u, atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("numbers", "turn"),
+    [
+        ("roll_pitch_yaw", lambda angles: Rotation.from_euler("xyz", angles)),
+        ("rotation_vector", Rotation.from_rotvec),
+    ],
+)
+@given(vectors=arrays(float, (5, 3), elements=st.floats(-7, 7)))
+def test_orientations_are_those_of_scipy(numbers, turn, vectors):
+    workspace = Workspace(np.eye(4), np.ones(6), numbers)
+    poses = workspace.to_poses(np.pad(vectors, ((0, 0), (3, 0))))
+    np.testing.assert_allclose(poses[:, :3, :3], turn(vectors).as_matrix(), rtol=0, atol=1e-12)
+    again = turn(workspace.to_coordinates(poses)[:, 3:]).as_matrix()
+    np.testing.assert_allclose(again, poses[:, :3, :3], rtol=0, atol=1e-12)
+
+
 @both
 @given(u=coordinates)
 def test_poses_are_rigid(workspace, u):

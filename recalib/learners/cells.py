@@ -5,6 +5,7 @@ matrix product: memory is passed through once in `KEPT` iterations. What is read
 """
 
 import numpy as np
+from numba import njit
 
 KEPT = 32  # updates, at most: more make reading one cell slower than they make updates faster
 
@@ -23,7 +24,6 @@ class Cells:
         supernet, subnet, *self._shape = start.shape
         self._cells = np.tile(start.reshape(supernet, subnet, -1), (runs, 1, 1, 1))
         self._increments = increments
-        self._runs = np.arange(runs)
         self._kept = 0
         self._g_k, self._g_kl, self._targets = (
             np.empty((runs, KEPT, size)) for size in (supernet, subnet, self._cells.shape[-1])
@@ -41,14 +41,8 @@ class Cells:
 
     def at(self, k: np.ndarray, l: np.ndarray) -> np.ndarray:
         """(run, ...) in one cell (k, l) of each run, each (run,)."""
-        held = self._cells[self._runs, k, l]
-        if self._kept:
-            kept = slice(self._kept)
-            weights = self._g_k[self._runs, kept, k] * self._g_kl[self._runs, kept, l]
-            if not self._increments:
-                held *= _outlast(weights.T)[:, None]
-            held += np.einsum("rb,rbn->rn", weights, self._targets[:, kept])
-        return held.reshape(-1, *self._shape)
+        kept = self._g_k, self._g_kl, self._targets, self._kept
+        return _read(self._cells, k, l, self._increments, *kept).reshape(-1, *self._shape)
 
     def update(
         self, rate: np.ndarray, g_k: np.ndarray, g_kl: np.ndarray, target: np.ndarray
@@ -82,6 +76,20 @@ class Cells:
                 cells *= _outlast(weights)[:, :, None]
                 change = weights.reshape(len(g_k), -1).T @ targets
             cells += change.reshape(cells.shape)
+
+
+@njit(cache=True)
+def _read(cells, k, l, increments, g_k, g_kl, targets, kept):
+    """What is held by one cell of each run, with the updates made that were kept back."""
+    held = np.empty((len(cells), cells.shape[-1]))
+    for run in range(len(cells)):
+        held[run] = cells[run, k[run], l[run]]
+        for update in range(kept):
+            weight = g_k[run, update, k[run]] * g_kl[run, update, l[run]]
+            for number in range(held.shape[1]):
+                target = targets[run, update, number]
+                held[run, number] += weight * (target if increments else target - held[run, number])
+    return held
 
 
 def _outlast(weights: np.ndarray) -> np.ndarray:

@@ -147,9 +147,12 @@ def _jacobians(chain, angles):
 def _turn(pose, origins, directions, jacobian):
     """Write how the tool moves (6, n) with joints that lie and turn as `_stand` says."""
     for joint in range(len(origins)):
-        a, b, c = directions[joint]
-        x, y, z = pose[:3, 3] - origins[joint]
-        jacobian[:, joint] = b * z - c * y, c * x - a * z, a * y - b * x, a, b, c
+        for row in range(3):
+            one, other = (row + 1) % 3, (row + 2) % 3
+            jacobian[row, joint] = directions[joint, one] * (
+                pose[other, 3] - origins[joint, other]
+            ) - directions[joint, other] * (pose[one, 3] - origins[joint, one])
+            jacobian[3 + row, joint] = directions[joint, row]
 
 
 @compiled
@@ -158,6 +161,7 @@ def _solve(chain, poses, start):
     found, left = start.copy(), np.full(len(start), np.inf)
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
     reached, jacobian, missing = np.empty((3, 4)), np.empty((6, joints)), np.empty(6)
+    turns = np.empty(joints)
     for index in range(len(start)):
         angles, goal = start[index].copy(), poses[index]
         for _ in range(STEPS):
@@ -168,8 +172,13 @@ def _solve(chain, poses, start):
             if left[index] <= TOLERANCE:
                 break
             _turn(reached, origins, directions, jacobian)
-            turns = _solution(jacobian, missing)
-            angles += turns * (LONGEST_STEP / max(LONGEST_STEP, np.abs(turns).max()))
+            turns[:] = missing
+            if not _eliminate(jacobian, turns):  # singular: the smallest solution
+                _turn(reached, origins, directions, jacobian)
+                turns[:] = np.linalg.pinv(jacobian, 1 / SINGULAR) @ missing
+            shorter = LONGEST_STEP / max(LONGEST_STEP, _longest(turns))
+            for joint in range(joints):
+                angles[joint] += shorter * turns[joint]
     return found, left
 
 
@@ -189,16 +198,41 @@ def _missing(pose, goal, missing):
                 goal[other, column] * pose[one, column] - goal[one, column] * pose[other, column]
             )
         missing[3 + row] = turn / 2
-    return np.abs(missing).max()
+    return _longest(missing)
 
 
 @compiled
-def _solution(matrix, vector):
-    """The solution of linear equations; of singular ones the smallest."""
-    try:
-        solution = np.linalg.solve(matrix, vector)
-        if np.abs(solution).max() <= SINGULAR:
-            return solution
-    except Exception:  # exactly singular
-        pass
-    return np.linalg.pinv(matrix, 1 / SINGULAR) @ vector
+def _longest(vector):
+    """Its largest number; nan if there is one."""
+    longest = 0.0
+    for number in vector:
+        if not abs(number) <= longest:
+            longest = abs(number)
+    return longest
+
+
+@compiled
+def _eliminate(matrix, vector):
+    """Solve linear equations in place, and say whether they can be solved."""
+    size = len(vector)
+    for column in range(size):
+        pivot = column
+        for row in range(column + 1, size):
+            if abs(matrix[row, column]) > abs(matrix[pivot, column]):
+                pivot = row
+        for other in range(column, size):
+            matrix[column, other], matrix[pivot, other] = (
+                matrix[pivot, other],
+                matrix[column, other],
+            )
+        vector[column], vector[pivot] = vector[pivot], vector[column]
+        for row in range(column + 1, size):
+            factor = matrix[row, column] / matrix[column, column]
+            for other in range(column + 1, size):
+                matrix[row, other] -= factor * matrix[column, other]
+            vector[row] -= factor * vector[column]
+    for row in range(size - 1, -1, -1):
+        for other in range(row + 1, size):
+            vector[row] -= matrix[row, other] * vector[other]
+        vector[row] /= matrix[row, row]
+    return _longest(vector) <= SINGULAR

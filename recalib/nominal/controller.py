@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
-from recalib.monomials import monomials
+from recalib.monomials import monomials, polynomial
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import ORIENTATION
 from recalib.nominal.robots import Robot
@@ -92,9 +92,8 @@ class Controller:
     def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
         # farther out a polynomial means nothing: the nearest pose of the workspace has to do
         beyond = np.abs(coordinates).max(axis=1, keepdims=True) > TRUSTED
-        features = monomials(np.where(beyond, np.clip(coordinates, -1, 1), coordinates), DEGREE)
-        # row by row: one product of all would round with the batch's size
-        start = (features[:, None] @ self._guess)[:, 0]
+        near = np.where(beyond, np.clip(coordinates, -1, 1), coordinates)
+        start = polynomial(self._guess, near, DEGREE)
         angles, residuals = self._chain.solve(poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)

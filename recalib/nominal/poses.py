@@ -11,18 +11,12 @@ mixes metres with radians.
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnknownName
 
-# From three numbers for an orientation to it, and back.
-COORDINATES = {
-    "roll_pitch_yaw": (
-        lambda angles: Rotation.from_euler("xyz", angles),
-        lambda rotation: rotation.as_euler("xyz"),
-    ),
-    "rotation_vector": (Rotation.from_rotvec, Rotation.as_rotvec),
-}
+COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
 POSITION, ORIENTATION = slice(0, 3), slice(3, 6)
 
 
@@ -49,31 +43,122 @@ class Workspace:
 
     def to_poses(self, coordinates: np.ndarray) -> np.ndarray:
         """Poses (..., 4, 4) at the coordinates (..., 6)."""
-        turn, _ = COORDINATES[self.coordinates]
-        raw = coordinates * self.half_ranges
-        poses = np.empty((*coordinates.shape[:-1], 4, 4))
-        relative = turn(raw[..., ORIENTATION].reshape(-1, 3)).as_matrix()
-        poses[..., :3, :3] = (self.centre[:3, :3] @ relative).reshape(poses[..., :3, :3].shape)
-        poses[..., :3, 3] = self.centre[:3, 3] + raw[..., POSITION]
-        poses[..., 3, :] = 0, 0, 0, 1
-        return poses
+        poses = _poses(coordinates.reshape(-1, 6), self.centre, self.half_ranges, self._vectors)
+        return poses.reshape(*coordinates.shape[:-1], 4, 4)
 
     def to_coordinates(self, poses: np.ndarray) -> np.ndarray:
         """Coordinates (..., 6) of the poses (..., 4, 4).
 
         From the centre's orientation, a pitch must stay below 90 degrees, a turn below 180.
         """
-        _, numbers = COORDINATES[self.coordinates]
-        coordinates = np.empty((*poses.shape[:-2], 6))
-        coordinates[..., POSITION] = poses[..., :3, 3] - self.centre[:3, 3]
-        relative = (self.centre[:3, :3].T @ poses[..., :3, :3]).reshape(-1, 3, 3)
-        angles = numbers(Rotation.from_matrix(relative, assume_valid=True))
-        coordinates[..., ORIENTATION] = angles.reshape(coordinates[..., ORIENTATION].shape)
-        return coordinates / self.half_ranges
+        numbers = _coordinates(
+            poses.reshape(-1, 4, 4), self.centre, self.half_ranges, self._vectors
+        )
+        return numbers.reshape(*poses.shape[:-2], 6)
+
+    @property
+    def _vectors(self) -> bool:
+        return self.coordinates == "rotation_vector"
 
     def sample(self, generator: np.random.Generator, *shape: int) -> np.ndarray:
         """Coordinates (*shape, 6) drawn uniformly from the box."""
         return generator.uniform(-1, 1, (*shape, 6))
+
+
+# What follows is compiled, since a robot's every move needs both. SciPy's `Rotation`, which spends
+# most of its time on what is no arithmetic, says in the tests what they are to return.
+compiled = njit(cache=True, error_model="numpy")
+
+
+@compiled
+def _poses(coordinates, centre, half_ranges, vectors):
+    poses = np.zeros((len(coordinates), 4, 4))
+    relative = np.empty((3, 3))
+    for index in range(len(coordinates)):
+        numbers, pose = coordinates[index] * half_ranges, poses[index]
+        if vectors:
+            _write_turn_by_vector(numbers[3:], relative)
+        else:
+            _write_turn_by_angles(numbers[3:], relative)
+        _write_product(centre, relative, pose)
+        pose[:3, 3] = centre[:3, 3] + numbers[:3]
+        pose[3, 3] = 1
+    return poses
+
+
+@compiled
+def _coordinates(poses, centre, half_ranges, vectors):
+    coordinates, relative = np.empty((len(poses), 6)), np.empty((3, 3))
+    for index in range(len(poses)):
+        pose, numbers = poses[index], coordinates[index]
+        numbers[:3] = pose[:3, 3] - centre[:3, 3]
+        _write_product(centre.T, pose, relative)
+        if vectors:
+            _write_vector(relative, numbers[3:])
+        else:
+            numbers[3] = np.arctan2(relative[2, 1], relative[2, 2])
+            numbers[4] = np.arctan2(-relative[2, 0], np.hypot(relative[0, 0], relative[1, 0]))
+            numbers[5] = np.arctan2(relative[1, 0], relative[0, 0])
+        numbers /= half_ranges
+    return coordinates
+
+
+@compiled
+def _write_product(one, other, product):
+    """Of two orientations, each the first three rows and columns."""
+    for row in range(3):
+        for column in range(3):
+            product[row, column] = (
+                one[row, 0] * other[0, column]
+                + one[row, 1] * other[1, column]
+                + one[row, 2] * other[2, column]
+            )
+
+
+@compiled
+def _write_turn_by_angles(angles, turn):
+    """Rz(yaw) Ry(pitch) Rx(roll)."""
+    (a, b, c), (d, e, f) = np.cos(angles), np.sin(angles)
+    turn[0] = c * b, c * e * d - f * a, c * e * a + f * d
+    turn[1] = f * b, f * e * d + c * a, f * e * a - c * d
+    turn[2] = -e, b * d, b * a
+
+
+@compiled
+def _write_turn_by_vector(vector, turn):
+    """exp([r]), by Rodrigues' formula."""
+    angle = np.sqrt((vector**2).sum())
+    x, y, z = vector
+    part = np.sin(angle) / angle if angle > 0 else 1.0
+    turn[0] = 0.0, -part * z, part * y
+    turn[1] = part * z, 0.0, -part * x
+    turn[2] = -part * y, part * x, 0.0
+    half = np.sin(angle / 2) / (angle / 2) if angle > 0 else 1.0
+    for row in range(3):
+        turn[row, row] += np.cos(angle)
+        for column in range(3):
+            turn[row, column] += half**2 / 2 * vector[row] * vector[column]
+
+
+@compiled
+def _write_vector(turn, vector):
+    """Of exp([r]), by its quaternion: of four ways to it, one divides by no small number."""
+    trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
+    first = np.argmax(np.array([turn[0, 0], turn[1, 1], turn[2, 2], trace]))
+    if first == 3:
+        real = 1 + trace
+        for axis in range(3):
+            one, other = (axis + 1) % 3, (axis + 2) % 3
+            vector[axis] = turn[other, one] - turn[one, other]
+    else:
+        one, other = (first + 1) % 3, (first + 2) % 3
+        real = turn[other, one] - turn[one, other]
+        vector[first] = 1 - trace + 2 * turn[first, first]
+        vector[one] = turn[one, first] + turn[first, one]
+        vector[other] = turn[other, first] + turn[first, other]
+    length = np.sqrt((vector**2).sum())
+    angle = 2 * np.arctan2(length, abs(real))
+    vector *= np.copysign(angle / length if length > 0 else 1.0, real)
 
 
 def position_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
