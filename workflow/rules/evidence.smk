@@ -59,12 +59,12 @@ rule coverage:
     output:
         LAYOUT.coverage,
     params:
-        code=code("coverage.py"),
+        code=code("study_coverage.py"),
         job=lambda w: as_text(coverage_needs(w)),
     message:
         "Repeat the study in small, within itself: do its intervals hold?"
     script:
-        "../scripts/coverage.py"
+        "../scripts/study_coverage.py"
 
 
 def page_needs(wildcards):
