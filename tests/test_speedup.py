@@ -68,23 +68,35 @@ SLOW, FAST = ladder([1000, 4000, 16_000, 64_000], 5000, searches=4), ladder([50,
 
 @pytest.mark.parametrize("target", [200, np.array([0.7, 0.7])], ids=["rung", "errors"])
 def test_a_learner_fifty_times_as_slow_is_found_to_be(target):
-    found = speed_up(SLOW, FAST, target, rng())
+    [found] = speed_up(SLOW, FAST, [target], rng())
     assert found.low < found.mean < found.high and found.mean == pytest.approx(50, rel=0.1)
 
 
 def test_the_factor_is_that_of_the_means():
     goal = FAST[200].mean(axis=(0, 1))
     means = np.stack([errors.mean(axis=(0, 1)) for errors in SLOW.values()])
-    found = speed_up(SLOW, FAST, 200, rng())
+    [found] = speed_up(SLOW, FAST, [200], rng())
     assert found.mean == pytest.approx(needed_by_one([*SLOW], means, goal) / 200)
 
 
 def test_a_learner_that_never_gets_there_has_no_finite_factor():
-    assert speed_up(ladder([100, 200], 5000), FAST, 200, rng()).mean == np.inf
-    assert np.isnan(speed_up(SLOW, FAST, np.array([0.01, 0.01]), rng()).mean), "nor does the fast"
+    assert speed_up(ladder([100, 200], 5000), FAST, [200], rng())[0].mean == np.inf
+    neither = speed_up(SLOW, FAST, [np.array([0.01, 0.01])], rng())
+    assert np.isnan(neither[0].mean), "nor does the fast"
+
+
+def test_where_the_fast_learner_sometimes_does_not_get_there_the_lower_end_is_open():
+    [found] = speed_up(SLOW, FAST, [np.array([0.51, 0.51])], rng())
+    assert found.low == 0 and np.isfinite(found.mean)
+
+
+def test_targets_together_are_those_alone():
+    targets = [200, np.array([0.7, 0.7])]
+    alone = [speed_up(SLOW, FAST, [target], rng())[0] for target in targets]
+    assert speed_up(SLOW, FAST, targets, rng()) == alone
 
 
 def test_where_some_draws_do_not_get_there_the_upper_end_is_open():
     barely = {1000: SLOW[1000], 11_000: ladder([11_000], 5500, searches=4)[11_000]}
-    found = speed_up(barely, FAST, 200, rng())
+    [found] = speed_up(barely, FAST, [200], rng())
     assert np.isinf(found.high) and np.isfinite(found.low)

@@ -2,8 +2,10 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims import CLAIMS, speed_up
 from recalib.study.evidence.claims.across import RULE
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SHORT = ("cm", "deg")
+DECILES = (0.1, 0.25, 0.5, 0.75, 0.9)
 ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown in the README
 
 
@@ -22,6 +25,7 @@ def needs(ask: Request) -> None:
     ask.summary()
     ask.claims()
     ask.coverage()
+    ask.outcomes()
     for series in ("assignments", "scaled"):
         ask.ensemble(IMPROVED, series)
     ask.ensemble(RITTER, "assignments")
@@ -63,6 +67,22 @@ def _refused(summary: "pd.DataFrame") -> str:
     return "; ".join(cases) or "none"
 
 
+def _multiverse(evidence: Evidence) -> dict:
+    """What is said of the universes beside the claims; empty for a study without any."""
+    outcomes = evidence.outcomes()
+    if outcomes is None:
+        return {}
+    factors = outcomes["factor"].quantile(DECILES, interpolation="lower")
+    rows = evidence.rows_of_design()
+    return {
+        "count": len(outcomes),
+        "refused": rows.max() + 1 - len(rows),
+        "factors": [f"{factor:.0f}" if np.isfinite(factor) else "more" for factor in factors],
+        "beyond": int(np.isinf(outcomes["factor"]).sum()),
+        "most": speed_up.CLAIM.limits["factor"],
+    }
+
+
 def _said(claim: dict) -> dict:
     """A judged claim, with what its home says of it besides."""
     home = next(each for each in CLAIMS if each.id == claim["id"])
@@ -93,7 +113,7 @@ def context(evidence: Evidence) -> dict:
         "in_universes": in_universes,
         "depends": depends,
         "rule": RULE,
-        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in evidence.claims()),
+        "universes": _multiverse(evidence),
         "claims": [_said(claim) for claim in evidence.claims()],
         "iterations": evidence.fact("iterations"),
         "ritter_iterations": ritter.max(),

@@ -154,6 +154,10 @@ class Evidence:
         """The levels of each universe's factors."""
         return self._table(DESIGN)[list(Factors.model_fields)]
 
+    def rows_of_design(self) -> "pd.Series":
+        """Of each universe, its row in the sequence that it was drawn from."""
+        return self._table(DESIGN)["row"]
+
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""
         return self._table(self._layout.benchmark)

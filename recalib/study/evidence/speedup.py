@@ -1,6 +1,6 @@
 """How many iterations a learner needs for a pair of errors, and how many times another's."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -37,30 +37,37 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
 def speed_up(
     slow: Mapping[int, np.ndarray],
     fast: Mapping[int, np.ndarray],
-    target,
+    targets: Iterable,
     random: np.random.Generator,
-) -> Estimate:
-    """Iterations that the slow learner needs over those of the fast one.
+) -> list[Estimate]:
+    """Iterations that the slow learner needs over those of the fast one, for each target.
 
     Args:
         slow, fast: for each rung of iterations, final errors (search, seed, 2).
-        target: a pair of errors (2,), or a rung of the fast learner: the errors that it reaches.
-        random: of the interval.
+        targets: pairs of errors (2,), or rungs of the fast learner: the errors that it reaches.
+        random: of the intervals.
 
     NaN where the first rung of a ladder is within the target already, or the fast learner does not
-    get there. An infinite bound says that the slow learner does not get there on its rungs, so
-    that it needs more than the highest of them: nothing else is known.
+    get there: all that is known is that the factor is not large. So an interval begins at 0 where
+    that happens in its studies. An infinite bound says that the slow learner does not get there on
+    its rungs, so that it needs more than the highest of them: nothing else is known.
     """
     draws = Draws(random)
     means = [
         np.stack([draws.means(errors) for errors in ladder.values()], axis=1)
         for ladder in (slow, fast)
     ]
-    if np.isscalar(target):
-        goal, quick = means[1][:, list(fast).index(target)], float(target)
-    else:
-        goal = np.asarray(target)
-        quick = iterations_needed(np.array(list(fast)), means[1], goal)
-        quick = np.where(np.isinf(quick), np.nan, quick)
-    needed = iterations_needed(np.array(list(slow)), means[0], goal)
-    return draws.estimate(needed / quick)
+
+    def estimate(target) -> Estimate:
+        if np.isscalar(target):
+            goal, quick = means[1][:, list(fast).index(target)], float(target)
+        else:
+            goal = np.asarray(target)
+            quick = iterations_needed(np.array(list(fast)), means[1], goal)
+            quick = np.where(np.isinf(quick), np.nan, quick)
+        factors = iterations_needed(np.array(list(slow)), means[0], goal) / quick
+        if not np.isnan(factors[0]):
+            factors[np.isnan(factors)] = 0
+        return draws.estimate(factors)
+
+    return [estimate(target) for target in targets]

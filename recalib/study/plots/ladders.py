@@ -55,13 +55,13 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     initial = evidence.errors(evidence.fact("improved"), moment="first").mean(axis=(0, 1))
     for place, (name, look) in enumerate(looks(claim.READINGS).items()):
         aside = 1.02 ** (1 if place else -1)  # so that the lines of both can be seen
-        for level in LEVELS:
-            luck = evidence.rng("level", name, str(level))
-            factor = speed_up(ladders[name], fast, level * initial, luck)
+        goals, luck = [level * initial for level in LEVELS], evidence.rng("levels", name)
+        factors = speed_up(ladders[name], fast, goals, luck)
+        for level, factor in zip(LEVELS, factors, strict=True):
             if np.isfinite(factor.mean):
-                # beyond the top where Ritter's, in some resamples, does not get there
-                high = min(factor.high, 10 * TOP)
-                axes.vlines(100 * level * aside, factor.low, high, color=look.color)
+                # beyond the ends where a learner, in some studies, does not get there
+                low, high = np.clip(factor[1:], 0.1, 10 * TOP)
+                axes.vlines(100 * level * aside, low, high, color=look.color)
                 axes.scatter(100 * level * aside, factor.mean, zorder=3, **look.signs())
         ours = claim.factor(evidence, name)
         if np.isfinite(ours.mean):

@@ -27,7 +27,8 @@ def needs(ask):
 def factor(evidence, reading: str) -> Estimate:
     """How many times as many iterations Ritter's needs, in a reading, for our errors."""
     ladders = evidence.ladder(reading), evidence.ladder(IMPROVED)
-    return speed_up(*ladders, evidence.fact("iterations"), evidence.rng("speed-up", reading))
+    luck = evidence.rng("speed-up", reading)
+    return speed_up(*ladders, [evidence.fact("iterations")], luck)[0]
 
 
 def measure(evidence, limits):
