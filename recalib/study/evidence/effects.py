@@ -12,7 +12,7 @@ RESAMPLES = 1000
 
 
 def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator) -> pd.DataFrame:
-    """How much each factor moves a positive number, the largest effect first.
+    """How much each factor moves a positive number, first the one that most exceeds chance.
 
     Args:
         values: (universe,) what was measured; infinity stands for twice the largest of the others.
@@ -45,7 +45,9 @@ def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator
                 "chance": np.exp(np.quantile(_spread(_means(shuffled, one_hot)), LEVEL)),
             }
         )
-    return pd.DataFrame(rows).sort_values("effect", ascending=False, ignore_index=True)
+    table = pd.DataFrame(rows)
+    clearest = np.argsort(-table["effect"] / table["chance"], kind="stable")
+    return table.iloc[clearest].reset_index(drop=True)
 
 
 def _means(logs: np.ndarray, one_hot: np.ndarray) -> np.ndarray:

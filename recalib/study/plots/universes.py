@@ -19,6 +19,7 @@ from recalib.study.plots.style import BORDER, plain, title
 COLUMNS = 3
 HOLDS, FAILS = "#0072B2", "#D55E00"
 SHOWN = 5  # factors of each claim
+TICKS = {1.25: (1, 1.1, 1.2), 2.2: (1, 1.2, 1.5, 2), np.inf: (1, 2, 3, 5, 10)}  # by an axis's end
 
 
 class Panel(NamedTuple):
@@ -120,14 +121,15 @@ def figure15(evidence: Evidence) -> Figure:
         ]
         axes.set_yticks(heights, names, fontsize=7)
         axes.set(xscale=LOG, xlim=(0.95, None), ylim=(-0.6, len(table) - 0.4))
-        plain(axes.xaxis, 1, 1.2, 1.5, 2, 3, 5, 10)
+        end = axes.get_xlim()[1]
+        plain(axes.xaxis, *next(ticks for most, ticks in TICKS.items() if end < most))
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="x", labelsize=8)
         axes.set_title(panel.heading, fontsize=9, loc="right")
     title(
         figure,
         "Figure 15: what does each claim depend on?",
-        "for each claim the five choices that move its number most: from the level where it is"
+        "for each claim the five choices that move its number most, beyond chance: from the level where it is"
         " smallest to the one where it is largest, how many times as large?\nlines: 95 %"
         " bootstrap intervals over universes; | : what a choice without any effect stays below in"
         " 95 % of cases; grey: no more than that",
