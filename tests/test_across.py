@@ -69,7 +69,7 @@ def test_the_factor_that_matters_is_found_with_how_much_it_matters():
     first = table.iloc[0]
     assert (first["factor"], first["least"], first["largest"]) == ("home", "0", "1")
     assert first["low"] < 2 < first["high"] and first["effect"] > first["chance"]
-    assert len(table) == 3 and table["effect"].is_monotonic_decreasing
+    assert len(table) == 3 and (table["effect"] / table["chance"]).is_monotonic_decreasing
 
 
 def test_a_factor_without_effect_stays_below_chance_in_95_percent():
