@@ -131,7 +131,7 @@ def figure15(evidence: Evidence) -> Figure:
         "Figure 15: what does each claim depend on?",
         "for each claim the five choices that move its number most, beyond chance: from the level"
         " where it is smallest to the one where it is largest, how many times as large?\nlines:"
-        " 95 % bootstrap intervals over universes; | : what a choice without any effect stays below in"
-        " 95 % of cases; grey: no more than that",
+        " 95 % bootstrap intervals over universes; | : what a choice without any effect stays below"
+        " in 95 % of cases; grey: no more than that",
     )
     return figure
