@@ -79,7 +79,7 @@ def _multiverse(evidence: Evidence) -> dict:
         "refused": rows.max() + 1 - len(rows),
         "factors": [f"{factor:.0f}" if np.isfinite(factor) else "more" for factor in factors],
         "beyond": int(np.isinf(outcomes["factor"]).sum()),
-        "most": speed_up.CLAIM.limits["factor"],
+        "most": f"{speed_up.CLAIM.limits['factor']:g}",
     }
 
 
