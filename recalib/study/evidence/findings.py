@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SHORT = ("cm", "deg")
-DECILES = (0.1, 0.25, 0.5, 0.75, 0.9)
+PARTS = (0.1, 0.25, 0.5, 0.75, 0.9)  # of the universes
 ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown in the README
 
 
@@ -72,12 +72,12 @@ def _multiverse(evidence: Evidence) -> dict:
     outcomes = evidence.outcomes()
     if outcomes is None:
         return {}
-    factors = outcomes["factor"].quantile(DECILES, interpolation="lower")
+    factors = outcomes["factor"].quantile(PARTS, interpolation="lower")
     rows = evidence.rows_of_design()
     return {
         "count": len(outcomes),
         "refused": rows.max() + 1 - len(rows),
-        "factors": [f"{factor:.0f}" if np.isfinite(factor) else "more" for factor in factors],
+        "factors": {f"{100 * p:.0f} %": f"{f:.0f}" for p, f in factors.items() if np.isfinite(f)},
         "beyond": int(np.isinf(outcomes["factor"]).sum()),
         "most": f"{speed_up.CLAIM.limits['factor']:g}",
     }
