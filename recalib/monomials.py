@@ -3,7 +3,8 @@
 from functools import cache
 
 import numpy as np
-from numba import njit
+
+from recalib.compiled import compiled
 
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
@@ -30,7 +31,7 @@ def _factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
     return np.array(shorter), np.array(last)
 
 
-@njit(cache=True)
+@compiled
 def _products(points, shorter, last):
     products = np.empty((len(points), len(shorter)))
     for row in range(len(points)):
@@ -40,7 +41,7 @@ def _products(points, shorter, last):
     return products
 
 
-@njit(cache=True)
+@compiled
 def _sums(products, weights):
     sums = np.zeros((len(products), weights.shape[1]))
     for row in range(len(products)):

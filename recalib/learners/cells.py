@@ -5,7 +5,8 @@ matrix product: memory is passed through once in `KEPT` iterations. What is read
 """
 
 import numpy as np
-from numba import njit
+
+from recalib.compiled import compiled
 
 KEPT = 32  # updates, at most: more make reading one cell slower than they make updates faster
 
@@ -78,7 +79,7 @@ class Cells:
             cells += change.reshape(cells.shape)
 
 
-@njit(cache=True)
+@compiled
 def _read(cells, k, l, increments, g_k, g_kl, targets, kept):
     """What is held by one cell of each run, with the updates made that were kept back."""
     held = np.empty((len(cells), cells.shape[-1]))

@@ -9,8 +9,8 @@ from typing import NamedTuple, Self
 
 import numpy as np
 import pinocchio as pin
-from numba import njit
 
+from recalib.compiled import compiled
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 
@@ -18,8 +18,6 @@ TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked
 STEPS = 25
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
-
-compiled = njit(cache=True, error_model="numpy")
 
 
 class Chain(NamedTuple):

@@ -11,9 +11,9 @@ mixes metres with radians.
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from scipy.spatial.transform import Rotation
 
+from recalib.compiled import compiled
 from recalib.errors import UnknownName
 
 COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
@@ -67,7 +67,6 @@ class Workspace:
 
 # What follows is compiled, since a robot's every move needs both. SciPy's `Rotation`, which spends
 # most of its time on what is no arithmetic, says in the tests what they are to return.
-compiled = njit(cache=True, error_model="numpy")
 
 
 @compiled
