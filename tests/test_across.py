@@ -72,14 +72,14 @@ def test_the_factor_that_matters_is_found_with_how_much_it_matters():
     assert len(table) == 3 and (table["effect"] / table["chance"]).is_monotonic_decreasing
 
 
-def test_a_factor_without_effect_stays_below_chance_in_95_percent():
+def test_in_95_percent_no_factor_without_effect_exceeds_chance():
     found = []
     for repetition in range(40):
         random = np.random.default_rng(repetition)
         values = pd.Series(np.exp(random.normal(size=UNIVERSES)))
         table = effects(values, design(random), random)
-        found += list(table["effect"] > table["chance"])
-    assert np.mean(found) < 0.12
+        found.append((table["effect"] > table["chance"]).any())
+    assert np.mean(found) < 0.15
 
 
 def test_what_was_not_reached_counts_as_twice_the_largest():

@@ -8,7 +8,7 @@ import pandas as pd
 
 from recalib.study.statistics import LEVEL
 
-RESAMPLES = 1000
+RESAMPLES = 2000
 
 
 def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator) -> pd.DataFrame:
@@ -20,12 +20,12 @@ def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator
         random: of intervals and permutations.
 
     Returns a row for each factor: the level with the least and that with the largest geometric
-    mean, `effect`, the largest over the least, with its bootstrap interval, and `chance`: what 95 %
-    of factors without any effect stay below.
+    mean, `effect`, the largest over the least, with its bootstrap interval, and `chance`: in 95 %
+    of cases no factor without any effect exceeds its own (Bonferroni).
     """
     finite = values[np.isfinite(values)]
     logs = np.log(values.clip(upper=2 * finite.max())).to_numpy()
-    rows = []
+    rows, rarely = [], (1 - LEVEL) / design.shape[1]
     for factor, levels in design.items():
         codes, names = pd.factorize(levels, sort=True)
         one_hot = np.eye(len(names))[codes]
@@ -42,7 +42,7 @@ def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator
                 "effect": np.exp(np.ptp(means)),
                 "low": np.exp(low),
                 "high": np.exp(high),
-                "chance": np.exp(np.quantile(_spread(_means(shuffled, one_hot)), LEVEL)),
+                "chance": np.exp(np.quantile(_spread(_means(shuffled, one_hot)), 1 - rarely)),
             }
         )
     table = pd.DataFrame(rows)

@@ -73,10 +73,11 @@ def _multiverse(evidence: Evidence) -> dict:
     if outcomes is None:
         return {}
     factors = outcomes["factor"].quantile(PARTS, interpolation="lower")
-    rows = evidence.rows_of_design()
+    design = evidence.whole_design()
     return {
         "count": len(outcomes),
-        "refused": rows.max() + 1 - len(rows),
+        "refused": design["row"].max() + 1 - len(design),
+        "homes": design["homes_refused"].sum(),
         "factors": {f"{100 * p:.0f} %": f"{f:.0f}" for p, f in factors.items() if np.isfinite(f)},
         "beyond": int(np.isinf(outcomes["factor"]).sum()),
         "most": f"{speed_up.CLAIM.limits['factor']:g}",

@@ -152,11 +152,11 @@ class Evidence:
 
     def design(self) -> "pd.DataFrame":
         """The levels of each universe's factors."""
-        return self._table(DESIGN)[list(Factors.model_fields)]
+        return self.whole_design()[list(Factors.model_fields)]
 
-    def rows_of_design(self) -> "pd.Series":
-        """Of each universe, its row in the sequence that it was drawn from."""
-        return self._table(DESIGN)["row"]
+    def whole_design(self) -> "pd.DataFrame":
+        """A row for each universe, as `recalib.study.multiverse.design.Designed` has it."""
+        return self._table(DESIGN)
 
     def benchmark(self) -> "pd.DataFrame":
         """Errors of every learner against moves."""

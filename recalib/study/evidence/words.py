@@ -76,7 +76,9 @@ def depends(claim: Mapping) -> str:
             f"{its['factor'].replace('_', ' ')}, {its['times']:.2g} times ({low:.2g} to {high:.2g})"
             f" as large for {its['to']} as for {its['from']}"
         )
-        if its["times"] <= its["chance"]:
+        if its["times"] == 1:
+            text = "none, it is the same in all"
+        elif its["times"] <= its["chance"]:
             text = f"no choice more than chance would show (first: {text})"
         texts.append(f"{system}: {text}" if system else text)
     return "; ".join(texts)

@@ -76,6 +76,9 @@ def figure14(evidence: Evidence) -> Figure:
         axes.set_xticks([1, len(order)])
         axes.set_ylabel(panel.across.number, fontsize=8)
         axes.tick_params(labelsize=8)
+        if np.isinf(outcomes[panel.across.column]).any():
+            above = {"xy": (0.98, 0.86), "xycoords": "axes fraction", "ha": "right", "fontsize": 8}
+            axes.annotate(f"not reached: above {panel.limit:g}", **above)
         low, high = values.min(), values.max()
         plain(axes.yaxis, *_ticks(low, high, panel.limit))
         side = "below" if panel.across.below else "above"
@@ -108,6 +111,10 @@ def figure15(evidence: Evidence) -> Figure:
     outcomes, design = evidence.outcomes(), evidence.design()
     for axes, panel in zip(all_axes, shown, strict=True):
         values = outcomes[panel.across.column]
+        axes.set_title(panel.heading, fontsize=9, loc="right")
+        if values.nunique() == 1:
+            axes.set(xticks=[], yticks=[], xlabel="the same in all universes")
+            continue
         luck = evidence.rng("effects", panel.claim, panel.system)
         table = effects(values, design, luck).head(SHOWN).iloc[::-1]
         heights = np.arange(len(table))
@@ -125,13 +132,12 @@ def figure15(evidence: Evidence) -> Figure:
         plain(axes.xaxis, *next(ticks for most, ticks in TICKS.items() if end < most))
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="x", labelsize=8)
-        axes.set_title(panel.heading, fontsize=9, loc="right")
     title(
         figure,
         "Figure 15: what does each claim depend on?",
         "for each claim the five choices that move its number most, beyond chance: from the level"
         " where it is smallest to the one where it is largest, how many times as large?\nlines:"
-        " 95 % bootstrap intervals over universes; | : what a choice without any effect stays below"
-        " in 95 % of cases; grey: no more than that",
+        " 95 % bootstrap intervals over universes; | : in 95 % of cases no choice without any"
+        " effect goes beyond; grey: no more than that",
     )
     return figure
