@@ -156,8 +156,8 @@ def test_a_mistake_in_an_overlay_names_the_overlay(here):
     with pytest.raises(InvalidConfiguration) as caught:
         read_study(SHIPPED, "mine.yaml", {"sede": 3, "training": {"tests": "many"}})
     assert caught.value.mistakes == [
-        "mine.yaml:3:3: training.seeds is 1; valid: a whole number from 2 to 1000000",
-        "the command line: training.tests is 'many'; valid: a whole number from 1 to 1000000",
+        "mine.yaml:3:3: training.seeds is 1; valid: a whole number from 2 to 10000",
+        "the command line: training.tests is 'many'; valid: a whole number from 1 to 10000",
         "the command line: sede: unknown key; did you mean seed?",
     ]
 

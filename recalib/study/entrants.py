@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from recalib.nominal.controller import Controller
 
 Make = Callable[[int, "Controller"], "Learner"]
+MOVES = 2  # of an iteration of the paper's learners
 POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
 TWO_MOVES = f"{POSES}, two moves for each"
 

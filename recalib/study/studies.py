@@ -10,7 +10,7 @@ from typing import Any
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.checks import check
-from recalib.study.configuration.messages import Mistake
+from recalib.study.configuration.messages import Mistake, unlike
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
 from recalib.study.layout import SHIPPED, root_of
@@ -66,8 +66,8 @@ def read_studies(
 
     Raises InvalidConfiguration, NotShipped, NameTaken.
     """
-    base, checks = project / CONFIGURATION, (check, partial(_check_robots_once, project))
-    read = partial(read_study, base, checks=checks)
+    checks = check, partial(named_files, project), partial(_check_robots_once, project)
+    read = partial(read_study, project / CONFIGURATION, checks=checks)
     main = read(*files, *([_typed(changes)] if changes else []))
     others = [read(path) for path in sorted((project / OTHERS).glob("*.yaml"))]
     studies = {root_of(main.name): main}
@@ -93,6 +93,17 @@ def _typed(value: Any) -> Any:
                 meant = json.loads(value)
                 return meant if meant is None or isinstance(meant, int | float) else value
     return value
+
+
+def named_files(project: Path, study: Study) -> list[Mistake]:
+    """Files that a study names and that are not there."""
+    named = {("expected",): study.expected}
+    named |= {("real", "data", part, "file"): its.file for part, its in study.real.data}
+    return [
+        unlike(path, file, "a file that is there, or null")
+        for path, file in named.items()
+        if file is not None and not (project / file).is_file()
+    ]
 
 
 def _check_robots_once(project: Path, study: Study) -> list[Mistake]:

@@ -3,21 +3,27 @@
 What depends on a robot's geometry is in `recalib.study.configuration.robot_checks`.
 """
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 
+from recalib.damaged.damage import BaseShift
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.errors import UnknownName
-from recalib.study.configuration.damages import Assigned, describe
+from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
+from recalib.study.configuration.sizes import check_sizes
 from recalib.study.configuration.study import Study
-from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.entrants import PEERS
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
+from recalib.study.entrants import MOVES, PEERS
+from recalib.study.plan import Plan
 from recalib.study.trainings import elsewhere, scenario_of, training
+
+IN_HALVES = 4  # searches: fewer, and an interval from half of them would be none
 
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _amounts, _evidence):
+    for kind in (_names, _meanings, _amounts, check_sizes, _evidence):
         if found := list(kind(study)):
             return found
     return []
@@ -62,9 +68,10 @@ def _names(study: Study) -> Iterator[Mistake]:
         for name in (IMPROVED, RITTER):
             if name not in study.learners:
                 yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
+    taken = {*PEERS, *(name for each in SWITCHES for name in (each.without, each.added))}
     for name in study.learners:
         stem, _, end = name.rpartition("_")
-        if name in PEERS or (stem in study.learners and end.isdecimal()):
+        if name in taken or (stem in study.learners and end.isdecimal()):
             yield Mistake(("learners", name), ": a name with another meaning; valid: a new one")
 
 
@@ -76,8 +83,38 @@ def _is_training(study: Study, name: str) -> bool:
     return True
 
 
+def _meanings(study: Study) -> Iterator[Mistake]:
+    """What would not be what it is called, or be there twice under two names."""
+    plan, benchmark = study.experiments, study.benchmark
+    for path, names in (
+        (("experiments", "learners"), plan.learners),
+        (("experiments", "beside"), plan.beside),
+        (("benchmark", "learners"), benchmark.learners),
+        (("real", "twin"), study.real.twin),
+    ):
+        first: dict[tuple, str] = {}
+        for place, name in _places(path, names).items():
+            which = (name,) if name in PEERS else training(study, name)
+            if (other := first.setdefault(which, name)) != name:
+                yield unlike(place, name, f"another than {other}, which it is")
+    if plan.switches:
+        for switch in SWITCHES:
+            for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
+                stood = getattr(study.learners[name], switch.key)
+                if stood != valid:
+                    when = "while experiments.switches is true"
+                    yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
+    path = "scenarios", "translation_rotation"
+    if [type(entry) for entry in study.scenarios.get(path[1], ())] != [BaseShift, BaseShift]:
+        yield Mistake(path, " is something else; valid: translate, then rotate, for the universes")
+    if list(study.universes.rungs) != sorted(study.universes.rungs):
+        yield unlike(("universes", "rungs"), study.universes.rungs, "the lowest first")
+
+
 def _amounts(study: Study) -> Iterator[Mistake]:
-    """More of something than there can be."""
+    """More of something than there can be, or less than it takes."""
+    yield from _budgets(study)
+    yield from _scales(study)
     if study.robot in study.experiments.robots:
         path = "experiments", "robots", study.experiments.robots.index(study.robot)
         yield unlike(path, study.robot, "robots beside the study's own")
@@ -98,6 +135,33 @@ def _amounts(study: Study) -> Iterator[Mistake]:
             yield Mistake(("paper_damage", key), fault)
 
 
+def _budgets(study: Study) -> Iterator[Mistake]:
+    """Budgets of moves at which a learner cannot be measured."""
+    plan = study.benchmark
+    for place, moves in _places(("benchmark", "longer"), plan.longer).items():
+        if moves in plan.moves:
+            yield unlike(place, moves, "a budget that is not among benchmark.moves")
+    for name in plan.learners:
+        most = 0 if name in PEERS else MOVES * training(study, name).iterations
+        if most and not any(
+            each <= most and each % MOVES == 0 for each in (*plan.moves, *plan.longer)
+        ):
+            valid = f"a list with an even number up to {most}, after which {name} can be measured"
+            yield unlike(("benchmark", "moves"), plan.moves, valid)
+
+
+def _scales(study: Study) -> Iterator[Mistake]:
+    """Damages that turn an encoder by more than there is."""
+    most = math.pi / max(study.paper_damage.shift)
+    places = _places(("mapping", "scales"), study.mapping.scales)
+    for learner, series in study.experiments.ensemble.items():
+        for name, its in series.items():
+            places |= _places(("experiments", "ensemble", learner, name, "scales"), its.scales)
+    for place, scale in places.items():
+        if scale > most * (1 + 1e-9):
+            yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")
+
+
 def used_scenarios(study: Study) -> list[tuple[str, str]]:
     """The scenarios that are trained on, each with its robot."""
     plan = study.experiments
@@ -115,6 +179,11 @@ def assigned_robots(study: Study) -> list[str]:
     return list(dict.fromkeys(assigned))
 
 
+def _is_idle(entry: Entry | None) -> bool:
+    """Whether it moves the robot by nothing."""
+    return isinstance(entry, BaseShift) and not any((*entry.translation, *entry.rotation))
+
+
 def _evidence(study: Study) -> Iterator[Mistake]:
     """What the claims need."""
     from recalib.study.evidence.claims import missing  # they know what a study is
@@ -124,9 +193,20 @@ def _evidence(study: Study) -> Iterator[Mistake]:
     when = "while experiments.evidence is true"
     if study.scenarios.get("intact"):
         yield Mistake(("scenarios", "intact"), f" is damaged; valid: an empty list {when}")
-    for name in ("translation", "rotation", "translation_rotation", study.scenario):
-        if not study.scenarios.get(name, True):
-            yield Mistake(("scenarios", name), f" is an empty list; valid: damages {when}")
+    for name in ("translation", "rotation", "translation_rotation"):
+        entries = study.scenarios.get(name, [None])  # what is missing is told below
+        if all(map(_is_idle, entries)):
+            what = "moves nothing" if entries else "is an empty list"
+            yield Mistake(("scenarios", name), f" {what}; valid: damages {when}")
+    own = study.scenarios[study.scenario]
+    for part in ("links", "encoders"):
+        if Assigned(assigned=part) not in own:
+            fault = f" has no assigned: {part}; valid: the paper's damage {when}"
+            yield Mistake(("scenarios", study.scenario), fault)
     if lacking := missing(study):
         with_ = "; ".join(lacking)
         yield unlike(("experiments", "evidence"), True, f"false, or true with {with_}")
+    elif (searches := Plan(study).searches(IMPROVED)) < IN_HALVES:
+        short = study.learners[IMPROVED].iterations <= study.search.short
+        path = "search", "searches" if short else "searches_long"
+        yield unlike(path, searches, f"{IN_HALVES} or more {when}: halves are compared")

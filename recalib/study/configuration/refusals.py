@@ -64,6 +64,6 @@ def _refusal(schema: Schema, error: Mapping) -> Mistake:
             path = (*path, next(iter(stood)))
             return Mistake(path, f": unknown key; valid: {schema.valid(its)}")
     mistake = unlike(path, stood, schema.valid(its))
-    words = schema.resolved(its).get("enum", ())
+    words = map(str, schema.resolved(its).get("enum", ()))
     near = nearest(stood, words) if isinstance(stood, str) else None
     return Mistake(path, f"{mistake.fault}; did you mean {near}?") if near else mistake

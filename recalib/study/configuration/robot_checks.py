@@ -20,20 +20,23 @@ from recalib.study.configuration.checks import assigned_robots, used_scenarios
 from recalib.study.configuration.damages import describe
 from recalib.study.configuration.messages import Mistake, unknown, unlike
 from recalib.study.configuration.study import Study
-from recalib.study.plants import nominal_controller
+from recalib.study.plants import nominal_controller, nominal_robot
 
 
 def check_robots(study: Study) -> list[Mistake]:
     """The mistakes that only the robots know of. The study must have passed `check`."""
     used = used_scenarios(study)
+    working = {*(robot for _, robot in used), study.real.robot, *study.universes.factors.robot}
     robots: dict[str, Robot] = {}
     found: list[Mistake] = []
-    for name in dict.fromkeys([*(robot for _, robot in used), study.real.robot]):
-        nominal = jobs.Nominal(name=name, robot=study.robots[name], controller=study.controller)
+    for name, entry in study.robots.items():
+        nominal = jobs.Nominal(name=name, robot=entry, controller=study.controller)
         try:
-            robots[name] = _served(nominal.model_dump_json())
+            robots[name] = _loaded(nominal.model_dump_json(), name in working)
         except RecalibError as error:
             found.append(_of_robot(name, error))
+        else:
+            found += _of_links(robots[name], entry.links)
     if not found:
         for scenario, robot in used:
             found += _of_scenario(study, scenario, robots[robot])
@@ -44,9 +47,10 @@ def check_robots(study: Study) -> list[Mistake]:
 
 
 @cache
-def _served(nominal: str) -> Robot:
-    """The robot, once it is known that its controller serves its workspace."""
-    return nominal_controller(jobs.Nominal.model_validate_json(nominal)).robot
+def _loaded(nominal: str, works: bool) -> Robot:
+    """The robot; if it works, once it is known that its controller serves its workspace."""
+    job = jobs.Nominal.model_validate_json(nominal)
+    return nominal_controller(job).robot if works else nominal_robot(job)
 
 
 def _of_robot(name: str, error: RecalibError) -> Mistake:
@@ -85,16 +89,20 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
                 yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
 
 
+def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
+    """Links that a robot lacks."""
+    for index, link in enumerate(links):
+        if link not in robot.links:
+            yield unknown(("robots", robot.name, "links", index), link, robot.links)
+
+
 def _of_assignment(study: Study, robots: Iterable[Robot]) -> Iterator[Mistake]:
-    """Links that a robot lacks, or that are too short for the paper's damage."""
+    """Links that are too short for the paper's damage."""
     whole = {}
     for robot in robots:
-        for index, link in enumerate(study.robots[robot.name].links):
-            if link not in robot.links:
-                yield unknown(("robots", robot.name, "links", index), link, robot.links)
-            else:
-                end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
-                whole[robot.name, link] = np.linalg.norm(end)
+        for link in study.robots[robot.name].links:
+            end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+            whole[robot.name, link] = np.linalg.norm(end)
     name, link = min(whole, key=whole.get, default=(None, None))
     for index, length in enumerate(study.paper_damage.shorten):
         if whole and length >= whole[name, link]:
@@ -106,10 +114,11 @@ def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:
     """Series of more robots than there are assignments that leave something of every link."""
     damage, links = study.paper_damage, study.robots[robot.name].links
     ways = Ways(links, damage.shorten, robot.joints, damage.shift)
+    refused = cache(lambda damage: _refused(robot, damage))
     for learner, series in study.experiments.ensemble.items():
         for name, its in series.items():
             scaled = ([each.scaled(max(its.scales)) for each in short] for short in ways.short)
-            fit = sum(not any(_refused(robot, each) for each in short) for short in scaled)
+            fit = sum(not any(map(refused, short)) for short in scaled)
             most = fit * len(ways.shifted)
             if its.draws > most:
                 path = "experiments", "ensemble", learner, name, "draws"

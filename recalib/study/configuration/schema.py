@@ -5,6 +5,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema
@@ -23,6 +24,7 @@ class _WithoutTitles(GenerateJsonSchema):
         return False
 
 
+@cache  # making it takes longer than reading a study
 def json_schema() -> dict:
     """The schema of a configuration."""
     return Study.model_json_schema(schema_generator=_WithoutTitles)

@@ -19,25 +19,28 @@ from recalib.study.configuration.units import (
     Checksum,
     Count,
     Distinct,
+    Error,
     Fraction,
     Name,
     Number,
     Ordered,
-    Positive,
     Range,
+    Scale,
     Seed,
     SeriesName,
+    Several,
     Size,
     SomeDistinct,
     StudyName,
     Switch,
     Text,
+    Times,
     Turn,
     Url,
 )
 from recalib.study.configuration.universes import Universes
 
-Several = Field(min_length=1)
+Filled = Field(min_length=1)
 
 
 class Workspace(Part):
@@ -62,7 +65,7 @@ class Robot(Part):
     """File name of a URDF of example-robot-data."""
     tool: Text
     """Link whose frame is the pose."""
-    home: Annotated[dict[str, Angle], Several]
+    home: Annotated[dict[str, Angle], Filled]
     """Joint angles at the centre of the workspace."""
     limits: dict[str, Ordered[Angle]] = Field(default={})
     """Joint limits that replace those of the URDF."""
@@ -82,18 +85,18 @@ class Controller(Part):
 class Published(Part):
     """Initial errors in the paper."""
 
-    position_error_cm: Positive
+    position_error_cm: Error
     """In centimetres."""
-    orientation_error_deg: Positive
+    orientation_error_deg: Error
     """In degrees."""
 
 
 class Amounts(Part):
     """By how much the paper's robot was damaged (section 7)."""
 
-    shorten: Annotated[tuple[Size, ...], Several]
+    shorten: Annotated[tuple[Size, ...], Filled]
     """Lengths taken off as many links."""
-    shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Several]
+    shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Filled]
     """Angles by which as many encoders are shifted, in either direction."""
 
 
@@ -102,7 +105,7 @@ class PaperDamage(Amounts):
 
     published: Published
     """Initial errors in the paper."""
-    poses: Count
+    poses: Times
     """Random poses over which initial errors are averaged."""
 
 
@@ -132,9 +135,9 @@ class Learner(Part):
 class Series(Part):
     """Robots with other assignments, or other amounts, of the paper's damage."""
 
-    draws: Count
+    draws: Times
     """Assignments drawn."""
-    scales: SomeDistinct[Positive]
+    scales: SomeDistinct[Scale]
     """Factors of all amounts."""
 
 
@@ -157,7 +160,7 @@ class Experiments(Part):
     """Other robots for the study's own scenario."""
     ensemble: dict[Name, dict[SeriesName, Series]]
     """For each learner, robots with other assignments or amounts of the paper's damage."""
-    draws_per_job: Count
+    draws_per_job: Times
     """Robots of a series that one job trains."""
 
 
@@ -168,13 +171,13 @@ class Benchmark(Part):
     """On the study's robot, or NAME-ROBOT."""
     learners: SomeDistinct[Name]
     """Today's learners, the paper's, or NAME_ITERATIONS."""
-    seeds: Count
+    seeds: Several
     """Seeds of each learner on each scenario."""
-    moves: SomeDistinct[Count]
+    moves: SomeDistinct[Times]
     """Budgets of moves at which to measure."""
     longer: Distinct[Count]
     """More budgets, for trainings that go on."""
-    thresholds: SomeDistinct[Positive]
+    thresholds: SomeDistinct[Error]
     """Errors to reach, in cm and degrees; the smallest of them is the page's."""
 
 
@@ -201,9 +204,9 @@ class Recordings(Part):
 class PublishedReal(Part):
     """Mean position errors on the test poses, as published with the recordings."""
 
-    before_mm: Positive
+    before_mm: Error
     """Before calibration."""
-    after_mm: Positive
+    after_mm: Error
     """After a calibration from all poses."""
 
 
@@ -220,48 +223,48 @@ class Real(Part):
     """Those that can learn from recorded poses."""
     twin: Distinct[Name]
     """Those that choose their poses, and so learn on a twin."""
-    poses: SomeDistinct[Count]
+    poses: SomeDistinct[Several]
     """How many poses to learn from."""
-    subsets: Count
+    subsets: Several
     """Random subsets for each number of poses."""
 
 
 class Mapping(Part):
     """Measurements of the true mapping, without a learner."""
 
-    poses: Count
+    poses: Times
     """Where the Jacobian of the mapping is taken."""
-    balls: Count
+    balls: Times
     """Balls of section 5."""
-    points: Count
+    points: Times
     """Random points of a ball."""
     radius: Fraction
     """Of a ball, in workspace coordinates."""
-    scales: SomeDistinct[Positive]
+    scales: SomeDistinct[Scale]
     """Factors of the damage."""
 
 
 class Training(Part):
     """How trainings are run and measured."""
 
-    seeds: Annotated[Count, Field(ge=2)]
+    seeds: Several
     """Seeds for the winner of each search: two at least, or there is no interval."""
-    seeds_per_job: Count
+    seeds_per_job: Times
     """Seeds that one job trains."""
-    tests: Count
+    tests: Times
     """Random poses for a measurement."""
     measure_every: Count
     """Iterations between two measurements."""
     measure_evenly: Count
     """Longer trainings are measured on a logarithmic grid."""
-    measurements: Annotated[Count, Field(ge=2)]
+    measurements: Several
     """Points of that grid."""
 
 
 class Ranges(Part):
     """Lowest and highest values of what is searched for."""
 
-    initial_width: Ordered[Positive]
+    initial_width: Ordered[Scale]
     """Of all neighbourhoods; the workspace is 2 wide."""
     final_width: Ordered[Fraction]
     """As a fraction of the initial one."""
@@ -276,9 +279,9 @@ class Budget(Part):
 
     rounds: Annotated[int, Field(strict=True, ge=1, le=9)]
     """Of trials, each around the best of those before."""
-    trials: Count
+    trials: Times
     """Trials of a round."""
-    seeds: Count
+    seeds: Times
     """Seeds over which a trial is averaged."""
     seed: Seed
     """Of trials and poses: each search has its own, and its poses are used nowhere else."""
@@ -295,9 +298,9 @@ class Search(Budget):
 
     short: Count
     """Trainings of up to so many iterations have `searches`."""
-    searches: Annotated[Count, Field(ge=2)]
+    searches: Several
     """Independent searches for a short training: two at least, or there is no interval."""
-    searches_long: Annotated[Count, Field(ge=2)]
+    searches_long: Several
     """Independent searches for a longer training."""
     iterations_per_job: Count
     """A job does as many searches as have so many iterations together, and one at least."""
@@ -318,15 +321,15 @@ class Study(Part):
     """Widths and rates: those searched for the shipped study, where there are any, or its own."""
     expected: Text | None
     """File with the bands in which final errors are expected; null: no check."""
-    robots: Annotated[dict[Name, Robot], Several]
+    robots: Annotated[dict[Name, Robot], Filled]
     """Robots by name."""
     controller: Controller
     """The nominal controller."""
     paper_damage: PaperDamage
     """The damage of section 7."""
-    scenarios: Annotated[dict[Name, tuple[Entry, ...]], Several]
+    scenarios: Annotated[dict[Name, tuple[Entry, ...]], Filled]
     """Lists of damages by name."""
-    learners: Annotated[dict[Name, Learner], Several]
+    learners: Annotated[dict[Name, Learner], Filled]
     """Learners of the paper by name."""
     experiments: Experiments
     """Which learners are trained on which scenarios."""

@@ -21,7 +21,8 @@ from pydantic_core import PydanticCustomError
 from recalib.errors import InvalidQuantity
 from recalib.quantities import ANGLE, COMPLIANCE, LENGTH, Quantity
 
-MOST = 1_000_000  # of whatever is counted: more would run for days
+MOST = 1_000_000  # iterations: more would run for days
+MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
 
 
 def _quantity(quantity: Quantity, limits: str, example: str, *bounds: Any) -> Any:
@@ -63,11 +64,14 @@ Turn = _quantity(ANGLE, "from 0 to 180 deg", "0.02 deg", Ge(0.0), Le(3.15))
 Compliance = _quantity(COMPLIANCE, "from 0 to 1 rad/Nm", "0.0002 rad/Nm", Ge(0.0), Le(1.0))
 
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
+Times = Annotated[int, Field(strict=True, ge=1, le=MOST_TIMES)]
+Several = Annotated[Times, Field(ge=2)]
 Seed = Annotated[int, Field(strict=True, ge=0, le=2**32 - 1)]
 Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0, le=1e6)]
+Error = Annotated[Number, Field(ge=1e-6, le=1e4)]  # cm, mm, degrees: less is rounding
+Scale = Annotated[Number, Field(ge=1e-3, le=1e3)]
 Share = Annotated[Number, Field(ge=0, lt=1)]
-Fraction = Annotated[Number, Field(gt=0, le=1)]
+Fraction = Annotated[Number, Field(ge=1e-3, le=1)]
 Name = _text(  # of a robot, a scenario, a learner: it becomes part of paths
     r"^[A-Za-z][A-Za-z0-9_]*$", "a name (letters, digits and _, beginning with a letter)", 60
 )

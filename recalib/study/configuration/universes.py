@@ -6,7 +6,7 @@ A level's reason stands beside it in config.yaml.
 from typing import Literal
 
 from recalib.study.configuration.part import Part
-from recalib.study.configuration.units import Count, Name, Seed, SomeDistinct, Turn
+from recalib.study.configuration.units import Count, Name, Seed, SomeDistinct, Times, Turn
 
 
 class Factors(Part):
@@ -45,7 +45,7 @@ class Factors(Part):
 class Universes(Part):
     """A sample of all defensible readings of the paper, balanced over their factors."""
 
-    count: Count
+    count: Times
     """Universes."""
     seed: Seed
     """Of their design."""
@@ -53,11 +53,11 @@ class Universes(Part):
     """What the paper leaves open."""
     home_spread: Turn
     """How far from the configured home each joint of a random one may be."""
-    assignment_poses: Count
+    assignment_poses: Times
     """Random poses over which initial errors are averaged to find the nearest assignment."""
-    rough_trials: Count
+    rough_trials: Times
     """Trials of a rough search, in a single round."""
     rungs: SomeDistinct[Count]
     """Numbers of iterations at which the horizon of Ritter's algorithm is sought, ascending."""
-    seeds: Count
+    seeds: Times
     """Seeds of a training."""

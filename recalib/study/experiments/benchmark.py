@@ -9,14 +9,12 @@ import pandas as pd
 
 from recalib.interfaces import Learner
 from recalib.study import jobs
-from recalib.study.entrants import make_peer
+from recalib.study.entrants import MOVES, make_peer
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
 from recalib.training import train
-
-MOVES = 2  # of an iteration of the paper's learners
 
 
 class Timed:
