@@ -6,14 +6,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from recalib.errors import RecalibError
+from workflow.digests import check, keep
 
 
 @contextmanager
 def job(snakemake) -> Iterator[None]:
-    """Say at the end what was made and how long it took; show an error of recalib as a line."""
+    """Check what is read, note what was written, and say how long it took.
+
+    An error of recalib is shown as a line.
+    """
     start = time.perf_counter()
     try:
+        check(snakemake.input)
         yield
+        keep(snakemake.output)
     except RecalibError as error:
         sys.exit(f"{snakemake.rule}: {error}")
     made = snakemake.output[0] if len(snakemake.output) else snakemake.rule
