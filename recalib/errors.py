@@ -35,6 +35,18 @@ class InvalidSetting(RecalibError):
         super().__init__(f"{key} is {value!r}; valid: {valid}")
 
 
+class BadMeasurement(RecalibError):
+    """A measurement from which nothing can be learned.
+
+    Attributes: which one it is, what was measured, and what would be valid.
+    """
+
+    def __init__(self, which: str, measured: Iterable[float], valid: str):
+        self.which, self.measured, self.valid = which, [*measured], valid
+        numbers = ", ".join(f"{number:.4g}" for number in self.measured)
+        super().__init__(f"{which} measured ({numbers}); valid: {valid}")
+
+
 class UnsuitableRobot(RecalibError):
     """A robot that is no arm of six bounded revolute joints."""
 

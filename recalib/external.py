@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from recalib.interfaces import Outcome
+from recalib.measurements import check_pose
 from recalib.nominal.poses import Workspace
 
 
@@ -28,7 +29,10 @@ class ExternalRobot:
         self.moves = self.refused = 0
 
     def execute(self, commands: np.ndarray) -> Outcome:
-        """Command poses, coordinates (run, move, 6), and take what the robot measures."""
+        """Command poses, coordinates (run, move, 6), and take what the robot measures.
+
+        Raises BadMeasurement, as `achieve`.
+        """
         poses, executed = self.achieve(commands)
         self.moves += executed.shape[1]
         self.refused = self.refused + np.sum(~executed, axis=1)
@@ -37,12 +41,15 @@ class ExternalRobot:
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Measured poses (run, move, 4, 4) and whether each was executed (run, move), not counted.
 
-        A refused move counts as the centre of the workspace.
+        A refused move counts as the centre of the workspace. Raises BadMeasurement where what is
+        measured is no pose, or grossly off.
         """
         poses = self.workspace.to_poses(commands)
         executed = np.ones(commands.shape[:-1], dtype=bool)
         for index in np.ndindex(executed.shape):
             measured = self._move(poses[index])
             executed[index] = measured is not None
+            if executed[index]:
+                check_pose(measured, self.workspace.centre)
             poses[index] = measured if executed[index] else self.workspace.centre
         return poses, executed

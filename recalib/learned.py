@@ -110,6 +110,8 @@ def read(path: Path) -> tuple[dict[str, Any], list[State]]:
         found = header["format"], header["version"]
     except (AttributeError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile):
         raise InvalidFile(path, "it is not whole, or not written by recalib.save") from None
+    if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
+        raise InvalidFile(path, "it holds numbers that are none")
     if found != (FORMAT, VERSION):
         raise InvalidFile(path, f"it is of format {found}; valid: {(FORMAT, VERSION)}")
     state = _nested(arrays)

@@ -128,6 +128,8 @@ def calibrate(
         measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
             process are kept until the number of measurements has doubled.
+
+    Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
     best = None
     for terms in candidates:

@@ -25,6 +25,7 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from recalib.identification.error_model import ErrorModel
+from recalib.measurements import check_table
 
 DOUBTED = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 # Degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide.
@@ -91,7 +92,10 @@ def identify(
         measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
         start: an estimate to start from, for speed; the nominal arm unless given. It may be that
             of a model with the same first terms and fewer or more of them.
+
+    Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
+    check_table(angles, measured)
     scale, kinds = model.deviations, 1 if measured.ndim == 2 else 2
     parameters, variances = _initial(scale, start)
     noise, weights = np.full(kinds, FIRST_NOISE), np.ones(len(angles))

@@ -12,6 +12,7 @@ from recalib.learners.maps import HierarchicalMap
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
+from recalib.measurements import WIDEST, check_coordinates
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
@@ -52,7 +53,8 @@ class HierarchicalLearner:
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
 
-        Nothing is learned from a refused move.
+        Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
+        number, or grossly off.
         """
         k, l = self.nets.winner(desired)
         maps = self.maps.values()
@@ -65,7 +67,10 @@ class HierarchicalLearner:
         second = execute((command + correction)[:, None])
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
         learn_theta = first.executed[:, 0]
-        far = np.square(moved).sum(axis=-1) > SHORTEST_MOVE**2
+        squares = np.square(moved).sum(axis=-1)
+        if not squares.max() <= WIDEST**2:  # not so where one is NaN
+            check_coordinates(np.concatenate([first.achieved, second.achieved], axis=1))
+        far = squares > SHORTEST_MOVE**2
         learn_jacobian = learn_theta & second.executed[:, 0] & far
         # du^T / |du|^2 in the units of the metric; the Jacobian's columns are back in coordinates.
         direction = np.square(self.rules.metric) * moved

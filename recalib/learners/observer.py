@@ -22,6 +22,8 @@ class Observer(ABC):
             commands: (run, move, 6) what was sent.
             achieved: (run, move, 6) what came of it.
             executed: (run, move) whether it was carried out.
+
+        Raises BadMeasurement where what came of it is no number, or grossly off.
         """
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:

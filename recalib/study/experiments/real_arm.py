@@ -22,13 +22,14 @@ from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study import jobs
-from recalib.study.experiments.benchmark import MOVES
+from recalib.study.entrants import MOVES
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import Measurements, read_measurements
+from recalib.study.experiments.tracker import Measurements, WrongData, read_measurements
 from recalib.study.plants import nominal_robot
 from recalib.training import train
 
+ALIKE = 0.01  # m: nominal positions that differ by less are of the same robot
 TOOL_POINT = 0.0, 0.00007, 0.031  # m, in the flange's frame: where the tracker's target was
 
 
@@ -43,6 +44,23 @@ def with_tool_point(robot: Robot, point: tuple[float, float, float] = TOOL_POINT
     arm = Arm(model, robot.arm.tool)
     workspace = Workspace(arm.forward(robot.home[None])[0], robot.workspace.half_ranges)
     return replace(robot, arm=arm, workspace=workspace)
+
+
+def read_of(robot: Robot, path: str | PathLike) -> Measurements:
+    """The measurements in the table at `path`, of this robot and no other.
+
+    Raises WrongData where the robot does not get to the nominal positions in the table: it is that
+    of another robot, or in other units.
+    """
+    measurements = read_measurements(path)
+    reached = robot.arm.forward(measurements.angles)[:, :3, 3]
+    gap = np.linalg.norm(reached - measurements.nominal, axis=1).max()
+    if gap > ALIKE:
+        raise WrongData(
+            f"{path} is of another robot than the {robot.name}, or not in deg and mm: nominal"
+            f" positions differ by {1e3 * gap:.0f} mm; valid: up to {1e3 * ALIKE:.0f} mm"
+        )
+    return measurements
 
 
 def calibrate_geometric(arm: Arm, measurements: Measurements) -> Calibration:
@@ -78,8 +96,8 @@ def _black_box(
     centre = commanded[
         np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
     ]
-    raw = Workspace(centre, np.ones(6)).to_coordinates(commanded)
-    workspace = Workspace(centre, np.abs(raw).max(axis=0))
+    reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
+    workspace = Workspace(centre, np.where(reach > 0, reach, 1.0))  # equal poses have no extent
     learner = make(1)
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
@@ -135,7 +153,7 @@ def learn_from_tables(job: jobs.RealRun, fit: str | PathLike, test: str | PathLi
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
     robot = with_tool_point(nominal_robot(job.nominal))
-    known, tests = read_measurements(fit), read_measurements(test)
+    known, tests = (read_of(robot, path) for path in (fit, test))
     rows = []
     for poses in job.poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
@@ -157,7 +175,7 @@ def learn_on_twin(job: jobs.RealTwin, fit: str | PathLike, sample: str | PathLik
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
     robot = with_tool_point(nominal_robot(job.nominal))
-    twin = calibrate_hybrid(robot.arm, read_measurements(fit))
+    twin = calibrate_hybrid(robot.arm, read_of(robot, fit))
     iterations, runs = job.learner.iterations, range(job.subsets)
     met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
     history = train(

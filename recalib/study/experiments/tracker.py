@@ -59,6 +59,7 @@ def read_measurements(path: str | PathLike) -> Measurements:
     for column in (*ANGLES, *NOMINAL, *MISSED):
         if (
             column not in table
+            or table.empty
             or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all()
         ):
             raise InvalidSetting(

@@ -1,0 +1,158 @@
+"""Bad measurements are refused by their name, or survived: never a quiet wrong answer."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+from recalib.errors import BadMeasurement, InvalidFile
+from recalib.external import ExternalRobot
+from recalib.identification.calibration import calibrate
+from recalib.identification.error_model import OFFSETS
+from recalib.interfaces import Outcome
+from recalib.learned import save
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.geometric import GeometricLearner
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.hybrid import HybridLearner
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
+from recalib.loading import load
+from recalib.nominal.poses import position_error
+
+SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
+RUNS = 2
+DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))
+TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 5, 6))
+
+
+@pytest.fixture(scope="module")
+def makers(controller) -> dict:
+    return {
+        "maps": partial(
+            HierarchicalLearner, rules=Rules(True, True, True, True), schedule=SCHEDULE
+        ),
+        "affine": partial(PolynomialLearner, degree=1),
+        "quadratic": partial(PolynomialLearner, degree=2),
+        "gaussian_process": GaussianProcessLearner,
+        "geometric": partial(GeometricLearner, controller=controller),
+        "hybrid": partial(HybridLearner, controller=controller),
+    }
+
+
+LEARNERS = "maps", "affine", "quadratic", "gaussian_process", "geometric", "hybrid"
+
+
+@pytest.mark.parametrize("executed", [True, False], ids=["executed", "refused"])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e7])
+@pytest.mark.parametrize("name", LEARNERS)
+def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, executed, makers):
+    learner = makers[name](RUNS)
+    before = learner.command(TESTS)
+
+    def execute(commands):
+        achieved = commands + 0.1
+        achieved[1, 0, 4] = bad
+        return Outcome(achieved, np.full(commands.shape[:2], executed))
+
+    with pytest.raises(BadMeasurement, match=r"move 0 of run 1 measured \(.*; valid: six coord"):
+        learner.learn(DESIRED, execute, 0.0)
+    assert np.array_equal(learner.command(TESTS), before)
+
+
+@pytest.mark.parametrize("name", LEARNERS)
+def test_a_learner_survives_equal_poses(name, makers):
+    learner = makers[name](RUNS)
+    for step in range(20):
+        learner.learn(
+            DESIRED,
+            lambda commands: Outcome(commands + 0.01, np.ones(commands.shape[:2], dtype=bool)),
+            step / 20,
+        )
+    left = learner.command(DESIRED[:, None]) + 0.01 - DESIRED[:, None]
+    assert np.abs(left).max() < 0.005
+    assert np.isfinite(learner.command(TESTS)).all()
+
+
+def scaled(pose, factor):
+    far = pose.copy()
+    far[:3, 3] *= factor
+    return far
+
+
+@pytest.mark.parametrize(
+    ("spoil", "valid"),
+    [
+        (lambda pose: np.where(np.eye(4) > 0, np.nan, pose), "numbers"),
+        (lambda pose: scaled(pose, np.inf), "numbers"),
+        (lambda pose: scaled(pose, 1000), "m in the base frame, at most 10 m"),
+        (lambda pose: pose[:3], r"a matrix \(4, 4\)"),
+        (lambda pose: pose[:3, 3], r"a matrix \(4, 4\)"),
+        (lambda pose: pose * [[-1, 1, 1, 1]] * 1.0, "a rotation"),
+        (lambda pose: 2 * pose, "a rotation"),
+        (lambda pose: pose.T, "a rotation"),
+    ],
+    ids=["NaN", "infinity", "mm", "no last row", "position", "mirrored", "twice", "transposed"],
+)
+def test_an_external_robot_that_measures_no_pose_is_told_so(spoil, valid, robot):
+    external = ExternalRobot(robot.workspace, spoil)
+    with pytest.raises(BadMeasurement, match=rf"^the robot measured \(.*; valid: {valid}"):
+        external.execute(DESIRED[:, None])
+
+
+@pytest.fixture(scope="module")
+def table(robot, damaged):
+    """Joint angles [rad] and poses measured at 0.1 mm."""
+    random = np.random.default_rng(3)
+    angles = robot.home + random.uniform(-0.5, 0.5, (20, 6))
+    measured = damaged.forward(angles)
+    measured[:, :3, 3] += random.normal(scale=1e-4, size=(20, 3))
+    return angles, measured
+
+
+def spoilt(values, bad):
+    values = values.copy()
+    values[7, 1] = bad
+    return values
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda q, p: (spoilt(q, np.nan), p), r"joint angles of measurement 7 .*12\.6 \(rad\)"),
+        (lambda q, p: (np.degrees(q), p), r"joint angles of measurement 0 .*12\.6 \(rad\)"),
+        (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
+        (lambda q, p: (q, spoilt(p, 1e6)), r"measurement 7 .*10 \(m in the base frame\)"),
+        (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
+        (lambda q, p: (q, p[:19]), r"shapes: .*n at least 1"),
+        (lambda q, p: (q[:, :5], p), r"shapes: .*n at least 1"),
+        (lambda q, p: (q[:0], p[:0]), r"shapes: .*n at least 1"),
+    ],
+    ids=["NaN", "degrees", "no pose", "far off", "mm", "one less", "five joints", "none"],
+)
+def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
+    with pytest.raises(BadMeasurement, match=said):
+        calibrate(robot.arm, [OFFSETS], *spoil(*table))
+
+
+@pytest.mark.parametrize("rows", [[0], [0] * 20], ids=["one", "twenty times the same"])
+def test_little_is_learned_from_little_and_nothing_is_spoilt(rows, table, robot, damaged):
+    angles, measured = table
+    found = calibrate(robot.arm, [OFFSETS], angles[rows], measured[rows])
+    before, after = (
+        position_error(arm.forward(angles), damaged.forward(angles)) for arm in (robot.arm, found)
+    )
+    assert after[0] < 0.1 * before[0]
+    assert after.mean() < 1.5 * before.mean()
+
+
+def test_a_file_with_numbers_that_are_none_is_refused(robot, tmp_path):
+    path = tmp_path / "a.npz"
+    save(path, PolynomialLearner(1, 1), robot)
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files}
+    arrays["0/coefficients"][0, 0] = np.nan
+    np.savez(path, **arrays)
+    with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are none"):
+        load(path, robot)
