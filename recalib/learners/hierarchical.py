@@ -12,7 +12,7 @@ from recalib.learners.maps import HierarchicalMap
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.measurements import WIDEST, check_coordinates
+from recalib.measurements import check_coordinates
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
@@ -62,15 +62,14 @@ class HierarchicalLearner:
         jacobian = np.concatenate([each.jacobian.at(k, l) for each in maps], axis=-2)
         command = theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
         first = execute(command[:, None])
+        check_coordinates(first.achieved)
         # A_kl (u - u'): the correction of the second movement, and the increment of (6)
         correction = applied(jacobian, desired - first.achieved[:, 0])
         second = execute((command + correction)[:, None])
+        check_coordinates(second.achieved)
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
         learn_theta = first.executed[:, 0]
-        squares = np.square(moved).sum(axis=-1)
-        if not squares.max() <= WIDEST**2:  # not so where one is NaN
-            check_coordinates(np.concatenate([first.achieved, second.achieved], axis=1))
-        far = squares > SHORTEST_MOVE**2
+        far = np.square(moved).sum(axis=-1) > SHORTEST_MOVE**2
         learn_jacobian = learn_theta & second.executed[:, 0] & far
         # du^T / |du|^2 in the units of the metric; the Jacobian's columns are back in coordinates.
         direction = np.square(self.rules.metric) * moved
