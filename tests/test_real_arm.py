@@ -9,7 +9,7 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.study.experiments import real_arm
 from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
-from recalib.study.experiments.tracker import read_measurements
+from recalib.study.experiments.tracker import WrongData, read_measurements
 from recalib.study.plants import nominal_robot
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
@@ -104,3 +104,36 @@ def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, tmp_path)
     spoil(table).to_csv(tmp_path / "spoilt.csv")
     with pytest.raises(InvalidSetting, match="y_dif"):
         read_measurements(tmp_path / "spoilt.csv")
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda t: t.assign(**{f"joint_{n}": np.radians(t[f"joint_{n}"]) for n in range(1, 7)}),
+        lambda t: t.assign(**{f"{axis}_t": t[f"{axis}_t"] / 1e3 for axis in "xyz"}),
+        lambda t: t.assign(z_t=-t["z_t"]),
+    ],
+    ids=["radians", "metres", "another frame"],
+)
+def test_a_table_of_another_robot_or_in_other_units_is_refused(spoil, table, ur5, tmp_path):
+    path = tmp_path / "table.csv"
+    table.to_csv(path)
+    assert len(real_arm.read_of(ur5, path)) == len(table)
+    spoil(table).to_csv(path)
+    with pytest.raises(WrongData, match=r"table\.csv is of another robot than the ur5, or not in"):
+        real_arm.read_of(ur5, path)
+
+
+def test_a_table_without_rows_is_refused(table, tmp_path):
+    table[:0].to_csv(tmp_path / "empty.csv")
+    with pytest.raises(InvalidSetting, match="a finite number in every row"):
+        read_measurements(tmp_path / "empty.csv")
+
+
+@pytest.mark.parametrize("learner", LEARNERS)
+def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
+    unknown = recording[100:]
+    before = remaining_errors("uncorrected", ur5.arm, recording, unknown).mean()
+    for rows in ([0], [0] * 20):
+        left = remaining_errors(learner, ur5.arm, recording[rows], unknown)
+        assert left.mean() < 1.5 * before

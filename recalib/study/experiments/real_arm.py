@@ -30,6 +30,7 @@ from recalib.study.plants import nominal_robot
 from recalib.training import train
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same robot
+ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 TOOL_POINT = 0.0, 0.00007, 0.031  # m, in the flange's frame: where the tracker's target was
 
 
@@ -97,7 +98,7 @@ def _black_box(
         np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
-    workspace = Workspace(centre, np.where(reach > 0, reach, 1.0))  # equal poses have no extent
+    workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
     learner = make(1)
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
