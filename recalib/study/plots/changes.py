@@ -59,7 +59,7 @@ def figure4(evidence: Evidence) -> Figure:
     Learners beside them have a row of their own: their error over that of either.
     """
     rows = _rows(evidence)
-    figure, axes = plt.subplots(figsize=(8, 1.2 + 0.6 * len(rows)))
+    figure, axes = plt.subplots(figsize=(8, 1.2 + 0.75 * len(rows)))
     heights = np.arange(len(rows))[::-1]
     shown = looks([IMPROVED, RITTER])
     cases = (
