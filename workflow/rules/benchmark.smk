@@ -10,6 +10,9 @@ rule benchmark_run:
     params:
         code=code("benchmark.py"),
         job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
@@ -30,6 +33,7 @@ rule benchmark_table:
     params:
         code=code("benchmark_table.py"),
         job=lambda w: as_text(plan(w).benchmark_table()),
+    localrule: True
     message:
         "Put the benchmark together"
     script:
@@ -44,6 +48,7 @@ rule real_data:
         job=lambda w: as_text(plan(w).real_data(w.part)),
     wildcard_constraints:
         part="fit|test",
+    localrule: True
     message:
         "Bring the poses of the real arm to {wildcards.part}"
     script:
@@ -59,6 +64,9 @@ rule real_run:
     params:
         code=code("real_run.py"),
         job=lambda w: as_text(plan(w).real_run(w.learner)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
@@ -74,6 +82,9 @@ rule real_twin:
     params:
         code=code("real_twin.py"),
         job=lambda w: as_text(plan(w).real_twin(w.learner)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:
@@ -91,6 +102,7 @@ rule real_table:
     params:
         code=code("real_table.py"),
         job=lambda w: as_text(plan(w).real_table()),
+    localrule: True
     message:
         "Put the results on the real arm together"
     script:

@@ -9,6 +9,7 @@ rule check:
         LAYOUT.check,
     params:
         code=code("check.py"),
+    localrule: True
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -22,6 +23,7 @@ rule expect:
         LAYOUT.expected,
     params:
         code=code("expect.py"),
+    localrule: True
     message:
         "Propose new bands for the check"
     script:

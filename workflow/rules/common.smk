@@ -52,6 +52,14 @@ def as_text(job):
     return job.model_dump_json()
 
 
+def room(mem_mb, runtime):
+    """Memory [MB] and time [min] that a job may take on a cluster; more each time it is retried."""
+    return {
+        "mem_mb": lambda wildcards, attempt: mem_mb * attempt,
+        "runtime": lambda wildcards, attempt: runtime * attempt,
+    }
+
+
 wildcard_constraints:
     root="|".join(STUDIES),
     scenario=r"\w+(-\w+)?",

@@ -29,6 +29,7 @@ rule summary:
     params:
         code=code("summarise.py"),
         job=lambda w: as_text(plan(w).summary()),
+    localrule: True
     message:
         "Put the final errors of every training into one table"
     script:
@@ -43,6 +44,9 @@ rule claims:
     params:
         code=code("claims.py"),
         job=lambda w: as_text(judging(request(w.root))),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Judge every claim of the paper"
     script:
@@ -61,6 +65,9 @@ rule coverage:
     params:
         code=code("study_coverage.py"),
         job=lambda w: as_text(coverage_needs(w)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
     message:
         "Repeat the study in small, within itself: do its intervals hold?"
     script:
@@ -82,6 +89,7 @@ rule page:
         job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),
+    localrule: True
     message:
         "Write the numbers into {wildcards.page}"
     script:

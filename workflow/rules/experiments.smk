@@ -11,6 +11,9 @@ rule train:
     params:
         code=code("train.py"),
         job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     priority: 10
     message:
         "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
@@ -36,6 +39,7 @@ rule run:
         learned=LAYOUT.learned("{scenario}", "{learner}"),
     params:
         code=code("gather.py"),
+    localrule: True
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
@@ -50,6 +54,9 @@ rule ensemble_chunk:
     params:
         code=code("ensemble.py"),
         job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
     script:
@@ -66,6 +73,7 @@ rule ensemble:
         LAYOUT.ensemble("{series}", "{learner}"),
     params:
         code=code("concat.py"),
+    localrule: True
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
@@ -81,6 +89,9 @@ rule bench:
     params:
         code=code("bench.py"),
         job=lambda w: as_text(plan(w).speed(MEASURED)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Measure the speed of moves and trainings"
     script:

@@ -18,6 +18,9 @@ rule figure:
         job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     message:
         "Draw {wildcards.figure}"
     script:

@@ -11,6 +11,9 @@ rule study_mapping:
     params:
         code=code("study_mapping.py"),
         job=lambda w: as_text(plan(w).true_mapping()),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Measure what sections 4 and 5 say of the true mapping"
     script:
@@ -23,6 +26,9 @@ rule study_visits:
     params:
         code=code("study_visits.py"),
         job=lambda w: as_text(plan(w).visits()),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Measure the expected learning of section 6"
     script:
@@ -38,6 +44,9 @@ rule study_replay:
     params:
         code=code("study_replay.py"),
         job=lambda w: as_text(plan(w).replay()),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Teach the improved learner by a table instead of a robot"
     script:

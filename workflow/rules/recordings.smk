@@ -13,6 +13,9 @@ rule recording:
     params:
         code=code("record.py"),
         job=lambda w: as_text(plan(w).recording(w.scenario)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     message:
         "Record the arm on {wildcards.scenario}"
     script:
@@ -44,6 +47,7 @@ rule before_and_after:
     params:
         code=code("pictures.py"),
         scenario=lambda w: study(w).scenario,
+    localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:

@@ -56,6 +56,7 @@ for root_ in STUDIES:
         params:
             code=code("report_pages.py"),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
+        localrule: True
         message:
             "Write the pages of the report"
         script:

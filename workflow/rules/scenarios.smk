@@ -11,6 +11,9 @@ rule assignments:
     params:
         code=code("assign.py"),
         job=lambda w: as_text(plan(w).assignments(w.robot)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
     script:
@@ -32,6 +35,9 @@ rule scenario:
     params:
         code=code("scenario.py"),
         job=lambda w: as_text(plan(w).scenario(w.scenario)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"
     script:

@@ -30,6 +30,9 @@ rule search:
     params:
         code=code("search.py"),
         job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=30),
     message:
         "Search for {wildcards.training}, chunk {wildcards.chunk} of its searches"
     script:
@@ -47,6 +50,7 @@ rule search_sample:
     params:
         code=code("search_sample.py"),
         job=lambda w: as_text(plan(w).sample(w.training)),
+    localrule: True
     message:
         "Keep all trials of the searches for {wildcards.training}"
     script:

@@ -12,8 +12,10 @@ def folder_of(job):
 
 onstart:
     # Snakemake 9 looks at all ready jobs again every second, once for each job that has ended: in
-    # the end that takes a third of a core. There is nothing to limit the rate of jobs for.
-    workflow.scheduler.job_rate_limiter = None
+    # the end that takes a third of a core. Here there is nothing to limit the rate of jobs for; a
+    # cluster is not to be flooded.
+    if workflow.local_exec:
+        workflow.scheduler.job_rate_limiter = None
     try:
         hold({folder_of(job) for job in workflow.dag.needrun_jobs()})
     except RecalibError as error:
@@ -53,6 +55,7 @@ rule publish_figure:
         "figures/{figure}.{suffix}",
     wildcard_constraints:
         suffix="svg|png",
+    localrule: True
     message:
         "Publish {output}"
     shell:
@@ -66,6 +69,7 @@ rule publish_page:
         "{page}",
     wildcard_constraints:
         page="|".join(COPIES),
+    localrule: True
     message:
         "Publish {output}"
     shell:

@@ -1,14 +1,21 @@
 """The multiverse: the replication in many readings of the paper. No part of the default run."""
 
+from functools import cache
+
 from recalib.study.layout import DESIGN
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.universe import universe
 
 
+@cache
+def designed():
+    """The committed design."""
+    return read_design(ROOT / DESIGN)
+
+
 def universe_of(wildcards):
-    """A universe of the committed design, as its job needs it."""
-    designed = read_design(ROOT / DESIGN)[int(wildcards.number)]
-    return universe(study(wildcards), designed)
+    """A universe of the design, as its job needs it."""
+    return universe(study(wildcards), designed()[int(wildcards.number)])
 
 
 rule design:
@@ -17,6 +24,9 @@ rule design:
     params:
         code=code("design.py"),
         job=lambda w: as_text(plan(w).design()),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
     message:
         "Draw the universes of the multiverse"
     script:
@@ -31,6 +41,9 @@ rule universe:
         job=lambda w: as_text(universe_of(w)),
     wildcard_constraints:
         number=r"\d+",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     message:
         "Measure universe {wildcards.number}"
     script:
@@ -39,11 +52,12 @@ rule universe:
 
 rule outcomes:
     input:
-        universes=lambda w: [layout(w).universe(each.universe) for each in read_design(ROOT / DESIGN)],
+        universes=lambda w: [layout(w).universe(each.universe) for each in designed()],
     output:
         LAYOUT.outcomes,
     params:
         code=code("outcomes.py"),
+    localrule: True
     message:
         "Put the outcomes of all universes together"
     script:
