@@ -7,7 +7,7 @@ RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help setup test check bench report pictures view tune design universes ship lock clean
+.PHONY: all help setup cluster test slurm check bench report pictures view tune design universes ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -23,10 +23,16 @@ setup: .venv/installed ## the environment, from the lock file
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .
 	touch $@
 
+cluster: setup ## what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
+	$(PIP) --no-build-isolation --editable .[cluster]
+
 test: setup ## the linters and all tests
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/python -m pytest
+
+slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
+	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
 check: setup ## the final errors against their bands, by themselves
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
