@@ -94,10 +94,11 @@ class Cluster:
         for name in ("state", "spool", "bin"):
             (self.folder / name).mkdir()
         # Snakemake starts srun within a job without any of the variables that begin with SLURM
-        srun = self.folder / "bin" / "srun"
         program = shutil.which("srun", path=SYSTEM)
-        srun.write_text(f'#!/bin/sh\nSLURM_CONF={self.settings} exec {program} "$@"\n')
-        srun.chmod(0o755)
+        self._script("srun", f'SLURM_CONF={self.settings} exec {program} "$@"')
+        # there is no data base of jobs: questions for their states are answered from the queue
+        states = "exec squeue --noheader --states=all --format='%i|%T'"
+        self._script("sacct", f'[ "$1" = -X ] && {states}')
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(128))
         key.chmod(0o400)
@@ -114,6 +115,11 @@ class Cluster:
             self.clear()
         for daemon in ("slurmd", "slurmctld", "munged"):
             self.stop(daemon)
+
+    def _script(self, name: str, line: str) -> None:
+        path = self.folder / "bin" / name
+        path.write_text(f"#!/bin/sh\n{line}\n", encoding="utf-8")
+        path.chmod(0o755)
 
     def start(self, daemon: str) -> None:
         """Start a daemon, and wait until it answers."""

@@ -29,8 +29,8 @@ pytestmark = [
 
 UNIVERSES, TOGETHER = 4, 2  # universes of the campaign, and of a job in Slurm
 CAMPAIGN = ["--configfile", "tests/slurm/campaign.yaml"]
-# There is no accounting here, and nobody who minds to be asked often.
-HERE = ["--slurm-status-command", "squeue", "--slurm-init-seconds-before-status-checks", "1"]
+# nobody minds to be asked often
+HERE = ["--slurm-init-seconds-before-status-checks", "1"]
 HERE += ["--group-components", f"universes={TOGETHER}"]
 
 
