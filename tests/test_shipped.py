@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -14,7 +15,7 @@ from tests.conftest import ROOT
 @pytest.fixture
 def project(tmp_path, monkeypatch):
     """The configuration of the project; its robots were asked before."""
-    for part in ("config.yaml", LOCK):
+    for part in ("config.yaml", LOCK, "workflow/expected.csv"):
         (tmp_path / part).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / part, tmp_path / part)
     shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
@@ -37,9 +38,12 @@ def test_a_changed_study_is_refused_under_the_shipped_name_and_says_what_changed
 
 
 def test_where_copies_of_data_lie_is_no_change(project):
-    places = {"real": {"data": {"fit": {"file": "mine.csv"}, "test": {"file": "others.csv"}}}}
+    mine, others = str(project / "mine.csv"), str(project / "others.csv")
+    for path in (mine, others):
+        Path(path).touch()
+    places = {"real": {"data": {"fit": {"file": mine}, "test": {"file": others}}}}
     main, found = read_studies(project, [], places)
-    assert main == "results" and found[main].real.data.fit.file == "mine.csv"
+    assert main == "results" and found[main].real.data.fit.file == mine
 
 
 def test_another_study_can_be_shipped(project):
