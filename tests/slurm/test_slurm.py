@@ -80,8 +80,7 @@ class Run:
         """Wait for its end; by their paths, what the files hold that it made."""
         assert self._process.wait(timeout=1800) == 0, self.said()
         folder = self._project / "results" / "studies" / self._name
-        files = (path for path in folder.rglob("[!.]*") if path.is_file())
-        return {str(path.relative_to(folder)): path.read_bytes() for path in files}
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.csv")}
 
 
 def scripts(project: Path) -> list[psutil.Process]:
