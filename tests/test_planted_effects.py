@@ -13,7 +13,7 @@ from tests.conftest import ROOT
 from tests.made_up import FINAL, MadeUp
 
 IMPROVED, SHORT = 0.1, np.array(FINAL["ritter_200"])
-OF_UNIVERSES = 0.3  # spread of a logarithmic ratio from universe to universe, where it spreads most
+OF_UNIVERSES = 0.3  # spread of logarithmic ratios: 0.07 to 0.31 for changes that matter little
 
 
 @pytest.fixture

@@ -19,7 +19,12 @@ from recalib.study.plots.style import BORDER, plain, title
 COLUMNS = 3
 HOLDS, FAILS = "#0072B2", "#D55E00"
 SHOWN = 5  # factors of each claim
-TICKS = {1.25: (1, 1.1, 1.2), 2.2: (1, 1.2, 1.5, 2), np.inf: (1, 2, 3, 5, 10)}  # by an axis's end
+TICKS = {  # by an axis's end
+    1.12: (1, 1.05, 1.1),
+    1.25: (1, 1.1, 1.2),
+    2.2: (1, 1.2, 1.5, 2),
+    np.inf: (1, 2, 3, 5, 10),
+}
 
 
 class Panel(NamedTuple):
@@ -113,7 +118,9 @@ def figure15(evidence: Evidence) -> Figure:
         values = outcomes[panel.across.column]
         axes.set_title(panel.heading, fontsize=9, loc="right")
         if values.nunique() == 1:
-            axes.set(xticks=[], yticks=[], xlabel="the same in all universes")
+            axes.set(xticks=[], yticks=[])
+            middle = {"xy": (0.5, 0.5), "xycoords": "axes fraction", "ha": "center", "fontsize": 8}
+            axes.annotate("the same in all", **middle)
             continue
         luck = evidence.rng("effects", panel.claim, panel.system)
         table = effects(values, design, luck).head(SHOWN).iloc[::-1]
