@@ -48,7 +48,7 @@ class BadMeasurement(RecalibError):
 
 
 class UnsuitableRobot(RecalibError):
-    """A robot that is no arm of six bounded revolute joints."""
+    """A robot that is no serial arm of joints that turn or slide about or along one axis."""
 
 
 class Unreachable(RecalibError):

@@ -108,6 +108,6 @@ class ForwardKinematics(Protocol):
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
         Args:
-            angles: (n, 6) rad in which the controller believes.
+            angles: (n, joint) rad in which the controller believes.
         """
         ...

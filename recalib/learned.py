@@ -2,26 +2,24 @@
 
 `recalib.loading` makes learners of them again.
 
-A file is NumPy's .npz. Its array `header` holds JSON: the format's version, the kind of learner and
-what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
+A file is an archive (`recalib.archives`). Its header has the format's version, the kind of learner
+and what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
 """
 
-import json
-import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from recalib.archives import read_archive, write_archive
 from recalib.errors import InvalidFile, UnknownName
 from recalib.interfaces import Savable, State
-from recalib.storage import whole
 
 if TYPE_CHECKING:  # to join files takes no robot
     from recalib.nominal.robots import Robot
 
-FORMAT, VERSION = "recalib learner", 2
+FORMAT, VERSION = "recalib learner", 3
 KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
 ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
 PROBES = 8  # joint angles at which the kinematics of two robots are compared
@@ -94,47 +92,10 @@ def differences(learned: Mapping[str, Any], here: Mapping[str, Any]) -> list[str
 
 
 def _write(path: Path, header: Mapping[str, Any], states: Sequence[State]) -> None:
-    arrays = {}
-    for run, state in enumerate(states):
-        arrays |= flat(state, f"{run}/")
-    with whole(path) as temporary:
-        np.savez(temporary, header=json.dumps(header), **arrays)
+    write_archive(path, header, {str(run): state for run, state in enumerate(states)})
 
 
 def read(path: Path) -> tuple[dict[str, Any], list[State]]:
     """Header and runs of a file. Raises InvalidFile: not whole, or not of this format."""
-    try:
-        with open(path, "rb") as stream, np.load(stream) as file:
-            arrays = {name: file[name][()] for name in file.files}
-        header = json.loads(str(arrays.pop("header")))
-        found = header["format"], header["version"]
-    except (AttributeError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile):
-        raise InvalidFile(path, "it is not whole, or not written by recalib.save") from None
-    if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
-        raise InvalidFile(path, "it holds numbers that are none")
-    if found != (FORMAT, VERSION):
-        raise InvalidFile(path, f"it is of format {found}; valid: {(FORMAT, VERSION)}")
-    state = _nested(arrays)
-    return header, [state[str(run)] for run in range(len(state))]
-
-
-def flat(state: State, prefix: str = "") -> dict[str, np.ndarray]:
-    """The arrays of a state by their paths, such as position/theta."""
-    arrays = {}
-    for name, value in state.items():
-        if isinstance(value, Mapping):
-            arrays |= flat(value, f"{prefix}{name}/")
-        elif value is not None:
-            arrays[prefix + name] = np.asarray(value)
-    return arrays
-
-
-def _nested(arrays: Mapping[str, np.ndarray]) -> State:
-    state: dict[str, Any] = {}
-    for path, value in arrays.items():
-        *groups, name = path.split("/")
-        group = state
-        for each in groups:
-            group = group.setdefault(each, {})
-        group[name] = value
-    return state
+    header, groups = read_archive(path, (FORMAT, VERSION), "recalib.save")
+    return header, [groups[str(run)] for run in range(len(groups))]

@@ -10,7 +10,6 @@ from recalib.errors import BadMeasurement
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
 WIDEST = 1e5  # workspace coordinates, likewise
-TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 
 
@@ -44,28 +43,6 @@ def check_pose(measured: np.ndarray, near: np.ndarray) -> None:
     else:
         return
     raise BadMeasurement("the robot", np.ravel(measured), valid)
-
-
-def check_table(angles: np.ndarray, measured: np.ndarray) -> None:
-    """Raise BadMeasurement unless an arm can be identified from these.
-
-    Args:
-        angles: (n, 6) rad in which the controller believed.
-        measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
-    """
-    shape, count = np.shape(measured), len(angles)
-    if count == 0 or np.shape(angles) != (count, 6) or shape not in ((count, 3), (count, 4, 4)):
-        valid = "(n, 6) with (n, 3) or (n, 4, 4), n at least 1"
-        raise BadMeasurement("shapes:", [*np.shape(angles), *shape], valid)
-    for what, values, most, unit in (
-        ("joint angles of measurement", angles, TURNED, "rad"),
-        ("measurement", measured, FARTHEST, "m in the base frame"),
-    ):
-        wrong = ~(np.abs(values) <= most).reshape(count, -1).all(axis=1)
-        if wrong.any():
-            row = wrong.argmax()
-            valid = f"numbers up to {most:.3g} ({unit})"
-            raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
 
 
 def _is_rotation(pose: np.ndarray) -> bool:

@@ -31,9 +31,9 @@ class DamagedArm:
 
     Attributes:
         arm: the damaged kinematics.
-        offsets: (6,) rad by which each joint stands beyond the angle that its encoder reports.
-        deflections: functions of joint angles (n, 6) [rad] and of the torques (n, 6) [N m] that
-            hold the arm against gravity there: what each adds to these angles, (n, 6) [rad].
+        offsets: (joint,) rad by which each joint stands beyond the angle that its encoder reports.
+        deflections: functions of joint angles (n, joint) [rad] and of the torques (n, joint) [N m]
+            that hold the arm against gravity there: what each adds to these angles.
     """
 
     arm: "Arm"
@@ -44,7 +44,7 @@ class DamagedArm:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
         Args:
-            angles: (n, 6) rad in which the controller believes.
+            angles: (n, joint) rad in which the controller believes.
         """
         return self.chain.forward(self.standing(angles)[None])[0]
 
@@ -56,13 +56,13 @@ class DamagedArm:
         return Chain.of(self.arm)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """Joint angles (n, 6) [rad] at which the arm stands.
+        """Joint angles (n, joint) [rad] at which the arm stands.
 
         Every deflection starts from the shifted angles, so that the order of the damages does not
         matter.
 
         Args:
-            angles: (n, 6) rad in which the controller believes.
+            angles: (n, joint) rad in which the controller believes.
         """
         shifted = angles + self.offsets
         if not self.deflections:
@@ -169,9 +169,12 @@ class EncoderShift(Damage):
 
 
 def joint_index(robot: "Robot", joint: str) -> int:
-    """Which joint of the robot has this name. Raises UnknownName."""
-    if joint not in robot.joints:
-        raise UnknownName(f"joint of {robot.name}", joint, robot.joints)
+    """Which joint of the robot has this name. Raises UnknownName: none, or one that slides."""
+    turning = [
+        name for name, slides in zip(robot.joints, robot.arm.slides, strict=True) if not slides
+    ]
+    if joint not in turning:
+        raise UnknownName(f"turning joint of {robot.name}", joint, turning)
     return robot.joints.index(joint)
 
 
@@ -180,11 +183,7 @@ def apply(robot: "Robot", damages: Iterable[Damage]) -> DamagedArm:
 
     Raises what they raise: see `Damage.apply`.
     """
-    import pinocchio as pin
-
-    from recalib.nominal.kinematics import Arm
-
-    damaged = DamagedArm(Arm(pin.Model(robot.arm.model), robot.arm.tool), np.zeros(len(robot.home)))
+    damaged = DamagedArm(robot.arm.copy(), np.zeros(len(robot.home)))
     for damage in damages:
         damage.apply(robot, damaged)
     return damaged

@@ -55,14 +55,17 @@ class Disturbances:
         """Those that are among the parts, one of a kind."""
         return cls(**{type(part).__name__.lower(): part for part in parts})
 
-    def of_joints(self, generators: Sequence[np.random.Generator], moves: int) -> np.ndarray:
-        """By how much each joint stops beside its angle, (run, move, 6) rad.
+    def of_joints(
+        self, generators: Sequence[np.random.Generator], shape: tuple[int, int]
+    ) -> np.ndarray:
+        """By how much each joint stops beside its angle, (run, *shape) rad.
 
         Args:
             generators: one for each run.
+            shape: how many moves and joints.
         """
         return self.repeatability.angle * np.stack(
-            [generator.standard_normal((moves, 6)) for generator in generators]
+            [generator.standard_normal(shape) for generator in generators]
         )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:

@@ -61,7 +61,7 @@ class Plant:
         if self._disturbances is None:
             poses, executed = self.achieve_targets(targets)
         else:
-            stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1])
+            stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1:])
             poses, executed = self.achieve_targets(targets._replace(angles=targets.angles + stops))
             poses = self._disturbances.measure(self._generators, poses)
         self.moves += executed.shape[1]
@@ -73,7 +73,9 @@ class Plant:
         angles, executed = targets
         runs, moves, _ = angles.shape
         if self._together is None:
-            poses = self._arms[0].forward(angles.reshape(-1, 6)).reshape(runs, moves, 4, 4)
+            poses = (
+                self._arms[0].forward(angles.reshape(runs * moves, -1)).reshape(runs, moves, 4, 4)
+            )
         else:
             standing = [arm.standing(own) for arm, own in zip(self._arms, angles, strict=True)]
             poses = self._together.forward(np.stack(standing))

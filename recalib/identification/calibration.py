@@ -8,15 +8,20 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
-from recalib.identification.estimation import LEAST_NOISE, Estimate, displacements, identify
+from recalib.identification.estimation import LEAST_NOISE, Estimate, identify
+from recalib.identification.frames import Frames
+from recalib.identification.linearised import displacements
+from recalib.identification.observations import Observations
 from recalib.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
+from recalib.randomness import generator
 from recalib.regression import Process, is_time_to_search
 
 STEPS = 10
 TOLERANCE = 1e-9  # m, rad
 FEWEST = 16  # measurements to see a pattern in what a model leaves
+MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
 # A gain in log evidence, over the root of the number of further parameters, that is no chance.
 CONVINCING = 2.5
 DOUBTFUL = 0.3  # the weight of a measurement below which no pattern is learned from it
@@ -37,32 +42,80 @@ class Calibration:
     estimate: Estimate
     residual: Process | None = None
 
-    def forward(self, angles: np.ndarray) -> np.ndarray:
+    def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
+        Where the frames were unknown, the arm's own base and tool are nominal.
+
         Args:
-            angles: (n, 6) rad in which the controller believes.
+            joints: (n, joints) rad, m in which the controller believes.
         """
-        return self._moved(self.model.predict(self.estimate.parameters, angles), angles)
+        return self._moved(self._arm.forward(self._standing(joints)), joints)
 
-    def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, 6) of the arm with its joints there.
+    def forward_and_jacobian(self, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, joints) of the arm standing there.
 
-        They leave out that joint errors and the residual change with the angles, too: slowly.
+        They leave out that joint errors and the residual change with the joints, too: slowly.
         """
-        parameters = self.estimate.parameters
-        standing = self.model.standing(parameters, angles, self.model.terms(angles))
-        poses, jacobians = self._arm.forward_and_jacobian(standing)
-        return self._moved(poses, angles), jacobians
+        poses, jacobians = self._arm.forward_and_jacobian(self._standing(joints))
+        return self._moved(poses, joints), jacobians
+
+    def seen(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
+        """Poses (n, 4, 4) of targets in the frame of the instrument [m]: what it should measure.
+
+        Args:
+            joints: (n, joints) rad, m in which the controller believes.
+            targets: (n,) their numbers; the first unless given.
+        """
+        return self._shifted(self.model.predict(self.estimate.parameters, joints, targets), joints)
+
+    def misses(self, seen: Observations) -> np.ndarray:
+        """What takes what it predicts to what was seen: (n, 3) m, or (n, 6) m and rad.
+
+        Along the axes of the instrument.
+        """
+        measured = seen.measured
+        if measured is None:
+            measured = self.frames.sockets[seen.sockets]
+        return displacements(self.seen(seen.joints, seen.targets), measured)
+
+    def spreads(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
+        """How far off (n,) [m] what is measured of positions should be, root mean square.
+
+        By the noise and what is not known of the parameters; of errors that no parameter can hold
+        it knows nothing.
+        """
+        model, estimate = self.model, self.estimate
+        terms = model.terms(joints)
+        _, jacobians = model.linearise(estimate.parameters, joints, terms, targets)
+        rows = jacobians[:, :3]
+        unknown = np.sum((rows @ estimate.covariance) * rows, axis=(1, 2))
+        return np.sqrt(unknown + 3 * estimate.noise[0] ** 2)
+
+    @cached_property
+    def frames(self) -> Frames:
+        """Where the instrument stands and where the targets sit."""
+        return self.model.found(self.estimate.parameters)
 
     @cached_property
     def _arm(self) -> Arm:
-        return self.model.arm(self.estimate.parameters)
+        return self.model.own_arm(self.estimate.parameters)
 
-    def _moved(self, poses: np.ndarray, angles: np.ndarray) -> np.ndarray:
+    def _standing(self, joints: np.ndarray) -> np.ndarray:
+        return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
+
+    def _moved(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
+        """By what is left of the first target, as the instrument would see it."""
         if self.residual is None:
             return poses
-        by = self.residual.predict(angles) * np.repeat(self.estimate.noise, 3)
+        base, target = self.frames.base, self.frames.targets[0]
+        shifted = self._shifted(base @ poses @ target, joints)
+        return np.linalg.inv(base) @ shifted @ np.linalg.inv(target)
+
+    def _shifted(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
+        if self.residual is None:
+            return poses
+        by = self.residual.predict(joints) * np.repeat(self.estimate.noise, 3)
         moved = poses.copy()
         moved[:, :3, 3] += by[:, :3]
         if by.shape[1] == 6:
@@ -73,6 +126,7 @@ class Calibration:
         """All of it, as named arrays."""
         return {
             "terms": np.array(self.model.names),
+            "frames": vars(self.model.frames),
             "estimate": vars(self.estimate),
             "residual": self.residual and self.residual.state(),
         }
@@ -82,13 +136,14 @@ class Calibration:
         """What `state` returned, for the same nominal arm."""
         terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
         estimate, residual = Estimate(**state["estimate"]), state.get("residual")
-        return cls(ErrorModel(arm, terms), estimate, residual and Process(**residual))
+        model = ErrorModel(arm, terms, Frames(**state["frames"]))
+        return cls(model, estimate, residual and Process(**residual))
 
 
 def angles_for(
     calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
 ) -> np.ndarray:
-    """Joint angles (run, n, 6) [rad] that the controller has to believe in to reach poses.
+    """Joint coordinates (run, n, joints) [rad, m] to believe in for the arm to reach poses.
 
     By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
     the best angles that were met.
@@ -96,7 +151,7 @@ def angles_for(
     Args:
         calibrations: one for each run.
         poses: (run, n, 4, 4) of the tool in the base frame [m].
-        start: (run, n, 6) rad nearby.
+        start: (run, n, joints) rad, m nearby.
     """
 
     def look(runs, angles):
@@ -112,9 +167,10 @@ def angles_for(
 def calibrate(
     arm: Arm,
     candidates: Sequence[JointTerms],
-    angles: np.ndarray,
-    measured: np.ndarray,
+    seen: Observations,
+    frames: Frames | None = None,
     last: Calibration | None = None,
+    weights: np.ndarray | None = None,
 ) -> Calibration:
     """The calibration of a nominal arm by the most probable of several error models.
 
@@ -124,46 +180,69 @@ def calibrate(
 
     Args:
         candidates: joint terms of the error models, the simplest first.
-        angles: (n, 6) rad in which the controller believed.
-        measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
+        seen: what is known of it.
+        frames: at both ends of the arm; the instrument's is that of its base, and the target its
+            tool, unless given.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
             process are kept until the number of measurements has doubled.
+        weights: (n,) of what was seen, in the first step; see `identify`.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
     best = None
     for terms in candidates:
-        model = ErrorModel(arm, terms)
-        estimate = identify(model, angles, measured, last and last.estimate)
+        model = ErrorModel(arm, terms, frames)
+        estimate = identify(model, seen, last and last.estimate, weights)
         if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(
-            best.estimate, estimate
+            best.model, model
         ):
             best = Calibration(model, estimate)
-    return replace(best, residual=_residual(best, angles, measured, last))
+    return replace(best, residual=_residual(best, seen, last))
 
 
-def _chance(poorer: Estimate, richer: Estimate) -> float:
+def _chance(poorer: ErrorModel, richer: ErrorModel) -> float:
     """The gain in log evidence that further parameters may make by chance.
 
     Idle ones gain, too, since the deviations of their prior are fitted to the data.
     """
-    return CONVINCING * np.sqrt(len(richer.parameters) - len(poorer.parameters))
+    return CONVINCING * np.sqrt(richer.size - poorer.size)
+
+
+def identify_again(
+    whole: Calibration, seen: Observations, weights: np.ndarray | None = None
+) -> Calibration:
+    """A calibration of the same kind from other observations: nothing is chosen anew.
+
+    It has the same error model, and a Gaussian process with the same hyperparameters.
+
+    Raises BadMeasurement, as `calibrate`.
+    """
+    found = Calibration(whole.model, identify(whole.model, seen, weights=weights))
+    if whole.residual is None:
+        return found
+    return replace(found, residual=_process(found, seen, whole.residual.hyperparameters))
 
 
 def _residual(
-    calibration: Calibration, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
+    calibration: Calibration, seen: Observations, last: Calibration | None
 ) -> Process | None:
     estimate = calibration.estimate
-    good = estimate.weights > DOUBTFUL
-    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(angles))
+    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(seen))
     if (
-        good.sum() < FEWEST
+        np.sum(estimate.weights > DOUBTFUL) < FEWEST
         or np.all(estimate.noise <= LEAST_NOISE)
         or not (search or last.residual)
     ):
         return None
-    misses = displacements(calibration.forward(angles[good]), measured[good]) / np.repeat(
-        estimate.noise, 3
-    )
-    process = Process(angles[good], misses, None if search else last.residual.hyperparameters)
+    process = _process(calibration, seen, None if search else last.residual.hyperparameters)
     return process if process.gain > 0 else None
+
+
+def _process(
+    calibration: Calibration, seen: Observations, hyperparameters: np.ndarray | None
+) -> Process:
+    good = np.flatnonzero(calibration.estimate.weights > DOUBTFUL)
+    if len(good) > MOST:
+        good = np.sort(generator(0, "residual").permutation(good)[:MOST])
+    misses = calibration.misses(seen[good]) / np.repeat(calibration.estimate.noise, 3)
+    return Process(seen.joints[good], misses, hyperparameters)

@@ -5,19 +5,19 @@ import numpy as np
 from recalib.identification.calibration import Calibration
 
 
-def information_gains(calibration: Calibration, angles: np.ndarray) -> np.ndarray:
-    """What a measurement at each of several joint angles would tell of the arm, (n,) in nats.
+def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
+    """What a measurement at each of several postures would tell of the arm, (n,) in nats.
 
     It is the logarithm of the factor by which the volume of the parameters' uncertainty would
     shrink: what D-optimal designs maximise.
 
     Args:
         calibration: what is known.
-        angles: (n, 6) rad, each for one pose.
+        joints: (n, joints) rad, m, each for one pose.
     """
     model, estimate = calibration.model, calibration.estimate
     kinds = len(estimate.noise)
-    _, jacobians = model.linearise(estimate.parameters, angles, model.terms(angles))
+    _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
     scaled = jacobians[:, : 3 * kinds] / np.repeat(estimate.noise, 3)[:, None]
     spread = scaled @ estimate.covariance @ scaled.swapaxes(1, 2)
     return np.linalg.slogdet(np.eye(3 * kinds) + spread).logabsdet / 2

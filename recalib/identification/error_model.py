@@ -2,11 +2,13 @@
 
 The parameters are small and zero for the nominal arm. In their order:
 
-- twists (7, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of link k: the
-  placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves the whole arm;
-  the last link carries the tool.
-- joint terms (term, 6): coefficients of functions of the joint angles that add up to the joints'
-  errors [rad]. The first term is constant, so its coefficients are the joint offsets [rad].
+- twists (joints + targets, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of
+  link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
+  the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
+  is the only target where frames are known.
+- centres (socket, 3): by how much [m] the sockets are beside their first guess.
+- joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
+  joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
 A joint offset is also a turn of its link's twist about the joint's axis, and neighbouring twists
 share directions where joint axes are parallel or meet. No measurement tells such parameters apart:
@@ -14,22 +16,19 @@ the prior keeps them small.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import reduce
 from operator import or_
 
 import numpy as np
 import pinocchio as pin
 
+from recalib.identification.frames import HELD, LINK, UNKNOWN, Frames
 from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.nominal.robots import JOINTS
 
-# Standard deviations of the parameters before anything is known: what wear and mounting plausibly
-# do to an arm.
-BASE = 0.05, np.radians(5)  # m, rad
-LINK = 0.02, np.radians(0.5)
-
-# By name, a function of the nominal arm and of joint angles (n, 6) [rad] with a value for each
-# joint (n, 6), and the standard deviation of its coefficients before anything is known.
+# By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
+# for each joint (n, joints), and the standard deviation of its coefficients before anything is
+# known.
 JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float]]
 
 
@@ -40,98 +39,219 @@ def _waves(order: int, amplitude: float) -> JointTerms:
     }
 
 
-# Geometry alone; with compliance [rad/Nm] and eccentric gears; with all that a gear adds to a turn.
+# The nominal arm; geometry alone; with compliance [rad/Nm] and eccentric gears; with all that a
+# gear adds to a turn.
+NO_ERRORS: JointTerms = {}
 OFFSETS: JointTerms = {"offset": (lambda arm, angles: np.ones_like(angles), np.radians(4))}
 JOINT_ERRORS = OFFSETS | {"compliance": (Arm.gravity_torque, 1e-4)} | _waves(1, np.radians(0.5))
 JOINT_WAVES = reduce(
     or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS
 )
 
-TWISTS = 6 * (JOINTS + 1)  # how many of the parameters are those of the twists
+OFFSET_OF_A_SLIDE = LINK[0]  # m, in the place of the offset of a joint that turns
 
 
 class ErrorModel:
     """The kinematics of an arm as a function of its parameters.
 
+    Waves and compliance are those of joints that turn; without the masses of links nothing is known
+    of gravity, and there is no compliance. Such coefficients are held at zero.
+
     Args:
         arm: the nominal kinematics.
         terms: the joint terms: `OFFSETS`, `JOINT_ERRORS` or `JOINT_WAVES`, each of which starts
-            with the one before it.
+            with the one before it; or `NO_ERRORS`, which holds all but unknown frames at nominal.
+        frames: at both ends of the arm; its own base and tool unless given.
 
     Attributes:
+        nominal: the arm.
+        frames: as given.
         names: of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
+        free: (P,) whether a parameter is of frames that are unknown: it need not be zero.
     """
 
-    def __init__(self, arm: Arm, terms: JointTerms):
-        self._nominal, self._terms, self.names = arm, terms, tuple(terms)
-        twists = np.repeat([BASE] + [LINK] * JOINTS, 3, axis=1)
-        scales = np.repeat([scale for _, scale in terms.values()], JOINTS)
-        self.deviations = np.concatenate([twists.ravel(), scales])
-        tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
-        self._placements = [*arm.model.jointPlacements[1:], tool.placement]
+    def __init__(self, arm: Arm, terms: JointTerms, frames: Frames | None = None):
+        self.nominal, self.frames = arm, frames or Frames()
+        self._terms, self.names = terms, tuple(terms)
+        targets, sockets = self.frames.targets, self.frames.sockets
+        self._joints = arm.model.nv
+        self._twists = 6 * (self._joints + len(targets))  # how many parameters are those of twists
+        self._geometry = self._twists + sockets.size
+        links = [LINK] * (self._joints - 1)
+        ends = [self.frames.target_deviations] * len(targets)
+        twists = np.repeat([self.frames.base_deviations, *links, *ends], 3, axis=1).ravel()
+        self.deviations = np.concatenate(
+            [twists, np.full(sockets.size, UNKNOWN[0]), self._coefficient_deviations().ravel()]
+        )
+        self.free = np.zeros(len(self.deviations), dtype=bool)
+        if self.frames.unknown:
+            self.free[:6] = self.free[6 * self._joints : self._geometry] = True
+        if not terms:
+            self.deviations[~self.free] = HELD
+        self._base = pin.SE3(self.frames.base)
+        self._tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement
+        first, *others = arm.model.jointPlacements[1:]
+        self._placements = [self._base * first, *others]
+        self._placements += [self._tool * pin.SE3(target) for target in targets]
+
+    def _coefficient_deviations(self) -> np.ndarray:
+        """Standard deviations (term, joints) of the joint terms' coefficients."""
+        if not self._terms:
+            return np.empty((0, self._joints))
+        scales = np.array([scale for _, scale in self._terms.values()])
+        deviations = np.repeat(scales[:, None], self._joints, axis=1)
+        slides = self.nominal.slides
+        deviations[:, slides] = HELD
+        deviations[0, slides] = OFFSET_OF_A_SLIDE
+        if self.nominal.massless and "compliance" in self.names:
+            deviations[self.names.index("compliance")] = HELD
+        return deviations
 
     def twists(self, parameters: np.ndarray) -> np.ndarray:
-        """The twists (7, 6) [m, rad] in the parameters (P,)."""
-        return parameters[:TWISTS].reshape(-1, 6)
+        """The twists (joints + targets, 6) [m, rad] in the parameters (P,)."""
+        return parameters[: self._twists].reshape(-1, 6)
+
+    def sockets(self, parameters: np.ndarray) -> np.ndarray:
+        """The sockets' centres (socket, 3) [m] in the frame of the instrument."""
+        return self.frames.sockets + parameters[self.socket_columns].reshape(-1, 3)
+
+    @property
+    def size(self) -> int:
+        """How many parameters are not held."""
+        return int(np.sum(self.deviations > HELD))
+
+    @property
+    def socket_columns(self) -> slice:
+        """Which parameters are those of the sockets' centres."""
+        return slice(self._twists, self._geometry)
+
+    @property
+    def offset_columns(self) -> slice:
+        """Which parameters are the joint offsets."""
+        return slice(self._geometry, self._geometry + self._joints)
 
     def coefficients(self, parameters: np.ndarray) -> dict[str, np.ndarray]:
-        """The coefficients (6,) of each joint term in the parameters (P,)."""
-        return dict(zip(self._terms, parameters[TWISTS:].reshape(-1, JOINTS), strict=True))
+        """The coefficients (joints,) of each joint term in the parameters (P,)."""
+        return dict(zip(self._terms, self._coefficients(parameters), strict=True))
 
-    def arm(self, parameters: np.ndarray) -> Arm:
-        """The arm with the twists of the parameters (P,) done to it."""
-        model = pin.Model(self._nominal.model)
-        *joints, tool = (
+    def _coefficients(self, parameters: np.ndarray) -> np.ndarray:
+        return parameters[self._geometry :].reshape(-1, self._joints)
+
+    def _placed(self, parameters: np.ndarray) -> list[pin.SE3]:
+        """The placements of joints and targets with the twists of the parameters done to them."""
+        return [
             pin.exp6(pin.Motion(twist)) * nominal
             for twist, nominal in zip(self.twists(parameters), self._placements, strict=True)
-        )
+        ]
+
+    def _with(self, joints: list[pin.SE3], tool: pin.SE3) -> Arm:
+        arm = self.nominal.copy()
         for joint, placement in enumerate(joints, start=1):
-            model.jointPlacements[joint] = placement
-        model.frames[tool_frame(model, self._nominal.tool)].placement = tool
-        return Arm(model, self._nominal.tool)
+            arm.model.jointPlacements[joint] = placement
+        arm.model.frames[tool_frame(arm.model, arm.tool)].placement = tool
+        return arm
 
-    def terms(self, angles: np.ndarray) -> np.ndarray:
-        """The joint terms (n, term, 6) at angles (n, 6) [rad] in which the controller believes."""
-        return np.stack([term(self._nominal, angles) for term, _ in self._terms.values()], axis=1)
+    def arm(self, parameters: np.ndarray, target: int = 0) -> Arm:
+        """From the instrument to a target: the arm with the twists of the parameters done to it."""
+        placed = self._placed(parameters)
+        return self._with(placed[: self._joints], placed[self._joints + target])
 
-    def standing(self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray) -> np.ndarray:
-        """Where the joints stand (n, 6) [rad].
+    def own_arm(self, parameters: np.ndarray) -> Arm:
+        """From the arm's own base to its own tool: the same without instrument and target."""
+        (first, *others), frames = self._placed(parameters), self.found(parameters)
+        first = pin.SE3(frames.base).inverse() * first
+        tool = others[self._joints - 1] * pin.SE3(frames.targets[0]).inverse()
+        return self._with([first, *others[: self._joints - 1]], tool)
+
+    def found(self, parameters: np.ndarray) -> Frames:
+        """The frames at both ends as the parameters have them."""
+        if not self.frames.unknown:
+            return self.frames
+        base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
+        targets = [
+            self._tool.inverse() * twist * placement
+            for twist, placement in zip(
+                twists[self._joints :], self._placements[self._joints :], strict=True
+            )
+        ]
+        return replace(
+            self.frames,
+            base=(base * self._base).homogeneous,
+            targets=np.array([target.homogeneous for target in targets]),
+            sockets=self.sockets(parameters),
+        )
+
+    def terms(self, joints: np.ndarray) -> np.ndarray:
+        """The joint terms (n, term, joints) at joint coordinates (n, joints) [rad, m]."""
+        terms = [term(self.nominal, joints) for term, _ in self._terms.values()]
+        return np.stack(terms, axis=1) if terms else np.empty((len(joints), 0, self._joints))
+
+    def standing(self, parameters: np.ndarray, joints: np.ndarray, terms: np.ndarray) -> np.ndarray:
+        """Where the joints stand (n, joints) [rad, m].
 
         Args:
             parameters: (P,) of the model.
-            angles: (n, 6) rad in which the controller believes.
-            terms: (n, term, 6) theirs.
+            joints: (n, joints) rad, m in which the controller believes.
+            terms: (n, term, joints) theirs.
         """
-        return angles + np.einsum("ntj,tj->nj", terms, parameters[TWISTS:].reshape(-1, JOINTS))
+        return joints + np.einsum("ntj,tj->nj", terms, self._coefficients(parameters))
 
-    def predict(self, parameters: np.ndarray, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m].
+    def predict(
+        self, parameters: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Poses (n, 4, 4) of targets in the frame of the instrument [m].
 
         Args:
             parameters: (P,) of the model.
-            angles: (n, 6) rad in which the controller believes.
+            joints: (n, joints) rad, m in which the controller believes.
+            targets: (n,) their numbers; the first unless given.
         """
-        return self.arm(parameters).forward(self.standing(parameters, angles, self.terms(angles)))
+        standing = self.standing(parameters, joints, self.terms(joints))
+        poses = np.empty((len(joints), 4, 4))
+        for target, rows in _by_target(targets, len(joints)):
+            poses[rows] = self.arm(parameters, target).forward(standing[rows])
+        return poses
 
     def linearise(
-        self, parameters: np.ndarray, angles: np.ndarray, terms: np.ndarray
+        self,
+        parameters: np.ndarray,
+        joints: np.ndarray,
+        terms: np.ndarray,
+        targets: np.ndarray | None = None,
     ) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `predict`, and their Jacobians (n, 6, P) by the parameters.
 
-        A Jacobian maps a change of the parameters to the tool's translation [m] and turn [rad]
-        along the base's axes. The terms are those of the angles; they depend on no parameter, so
-        that one evaluation serves all linearisations.
+        A Jacobian maps a change of the parameters to the target's translation [m] and turn [rad]
+        along the axes of the instrument. The terms are those of the joint coordinates; they depend
+        on no parameter, so that one evaluation serves all linearisations.
         """
-        standing = self.standing(parameters, angles, terms)
-        poses, joints, placements = self.arm(parameters).forward_and_all_jacobians(standing)
+        standing = self.standing(parameters, joints, terms)
         # exp(xi + dxi) M = exp(xi) M exp(inv(M) J dxi): it moves what the twist places
         motions = [
             nominal.inverse().action @ pin.Jexp6(pin.Motion(twist))
             for nominal, twist in zip(self._placements, self.twists(parameters), strict=True)
         ]
-        jacobians = np.empty((len(angles), 6, len(parameters)))
-        by_link = placements.reshape(-1, JOINTS + 1, 6).swapaxes(0, 1) @ np.stack(motions)
-        jacobians[..., :TWISTS] = by_link.swapaxes(0, 1).reshape(len(angles), 6, TWISTS)
-        jacobians[..., TWISTS:] = (joints[:, :, None] * terms[:, None]).reshape(len(angles), 6, -1)
+        count, links = self._joints, 6 * self._joints
+        poses = np.empty((len(joints), 4, 4))
+        jacobians = np.zeros((len(joints), 6, len(parameters)))
+        for target, rows in _by_target(targets, len(joints)):
+            arm = self.arm(parameters, target)
+            poses[rows], by_joint, placements = arm.forward_and_all_jacobians(standing[rows])
+            own = np.stack([*motions[:count], motions[count + target]])
+            by_link = placements.reshape(-1, count + 1, 6).swapaxes(0, 1) @ own
+            by_link = by_link.swapaxes(0, 1).reshape(len(by_joint), 6, -1)
+            jacobians[rows, :, :links] = by_link[..., :links]
+            end = links + 6 * target
+            jacobians[rows, :, end : end + 6] = by_link[..., links:]
+            jacobians[rows, :, self._geometry :] = (
+                by_joint[:, :, None] * terms[rows][:, None]
+            ).reshape(len(by_joint), 6, -1)
         return poses, jacobians
+
+
+def _by_target(targets: np.ndarray | None, count: int):
+    """Each target that is seen, with its rows."""
+    if targets is None or not np.any(targets):
+        return [(0, slice(count))]
+    return [(target, np.flatnonzero(targets == target)) for target in np.unique(targets)]

@@ -1,7 +1,6 @@
 """Identification of an arm from where it went: the most probable parameters of an error model.
 
-A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad]
-along the base's axes, or the translation alone where no orientation was measured. With r_i the
+With r_i the
 residual of measurement i over its noise, and p_j a parameter over its prior deviation, Gauss-Newton
 minimises
 
@@ -14,18 +13,19 @@ which is grossly wrong counts for nothing. Estimated along with the parameters a
   evidence);
 - the variances v_j, from what the data say of each parameter and of their common scale (relevance
   determination): damage is sparse, most of what may be wrong with an arm is right, and a parameter
-  that explains nothing is held at nominal.
+  that explains nothing is held at nominal. Frames that nobody knows are no damage: theirs are 1.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
+from recalib.identification.checks import check_observations
 from recalib.identification.error_model import ErrorModel
-from recalib.measurements import check_table
+from recalib.identification.linearised import Linearised
+from recalib.identification.observations import Observations
 
 DOUBTED = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 # Degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide.
@@ -59,6 +59,7 @@ class Estimate:
             orientation [rad].
         weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
         log_evidence: of the error model, up to a constant that depends on the data alone.
+        converged: whether the last step changed next to nothing.
     """
 
     parameters: np.ndarray
@@ -66,150 +67,144 @@ class Estimate:
     noise: np.ndarray
     weights: np.ndarray
     log_evidence: float
-
-
-def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes poses to others: translation [m] and turn [rad] along the base's axes.
-
-    Args:
-        start: (n, 4, 4) poses.
-        end: (n, 4, 4) poses, for (n, 6), or (n, 3) positions, for the translations (n, 3) alone.
-    """
-    if end.ndim == 2:
-        return end - start[:, :3, 3]
-    between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
-    turns = Rotation.from_matrix(between, assume_valid=True).as_rotvec()
-    return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
+    converged: bool
 
 
 def identify(
-    model: ErrorModel, angles: np.ndarray, measured: np.ndarray, start: Estimate | None = None
+    model: ErrorModel,
+    seen: Observations,
+    start: Estimate | None = None,
+    weights: np.ndarray | None = None,
 ) -> Estimate:
-    """The parameters of the model that explain the measurements.
+    """The parameters of the model that explain what was seen.
 
     Args:
-        angles: (n, 6) rad in which the controller believed.
-        measured: poses (n, 4, 4) or positions (n, 3) [m] of the tool in the base frame.
         start: an estimate to start from, for speed; the nominal arm unless given. It may be that
-            of a model with the same first terms and fewer or more of them.
+            of a model with the same frames, the same first terms and fewer or more of them.
+        weights: (n,) of the observations in the first step; all count unless given.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
-    check_table(angles, measured)
-    scale, kinds = model.deviations, 1 if measured.ndim == 2 else 2
-    parameters, variances = _initial(scale, start)
-    noise, weights = np.full(kinds, FIRST_NOISE), np.ones(len(angles))
+    check_observations(seen, model)
+    scale, kinds = model.deviations, seen.kinds
+    parameters, variances = _initial(model, start)
+    noise = np.full(kinds, FIRST_NOISE)
+    weights = np.ones(len(seen)) if weights is None else weights
     limit = chi2.ppf(DOUBTED, 3 * kinds)
-    terms = model.terms(angles)
-    origin, reach = np.full_like(scale, np.inf), np.ones_like(scale)  # of the present linearisation
+    terms = model.terms(seen.joints)
+    near = None
     for step in range(STEPS):
-        if np.max(np.abs(parameters - origin) * reach) ** 2 > NEGLIGIBLE * noise.min():
-            residuals, jacobians = _linearise(model, parameters, angles, terms, measured)
-            origin, reach = parameters, np.abs(jacobians).max(axis=(0, 1, 2))
+        if near is None or not near.is_good_at(parameters, NEGLIGIBLE * noise.min()):
+            near = None  # of two there is no room for
+            near = Linearised(model, parameters, seen, terms)
         if step > 0:
-            weights = limit / np.maximum(_squares(residuals, noise), limit)
+            weights = limit / np.maximum(_squares(near.residuals, noise), limit)
         # The most probable parameters, given noise, weights and variances ...
-        information, pull = _normal_equations(jacobians, residuals, weights)
-        precision = np.diag(1 / variances) + np.einsum("k,kpq->pq", noise**-2, information)
+        information, pull = near.normal_equations(weights)
+        known, stretch = _distances(model, parameters, seen)
+        precision = np.diag(1 / variances) + np.einsum("k,kpq->pq", noise**-2, information) + known
         factor = scipy.linalg.cho_factor(precision)
-        change = scipy.linalg.cho_solve(factor, noise**-2 @ pull - parameters / variances)
-        covariance = scipy.linalg.cho_solve(factor, np.eye(len(scale)))
+        pull = noise**-2 @ pull + stretch
+        change = scipy.linalg.cho_solve(factor, pull - parameters / variances)
+        covariance = _inverse(factor)
         parameters = parameters + change
-        residuals = residuals - jacobians @ change
+        near.move(change)
         # ... and then noise and variances, given the parameters.
         taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
-        last_noise, noise = noise, _noise(residuals, weights, taken, robust=step < ROBUST_STEPS)
-        common = (COMMON + len(scale)) / (COMMON + np.sum(1 / variances))
-        variances = _variances(parameters, np.diag(covariance), common)
+        last_noise, noise = (
+            noise,
+            _noise(near.residuals, weights, taken, robust=step < ROBUST_STEPS),
+        )
+        sparse = ~model.free
+        common = (COMMON + sparse.sum()) / (COMMON + np.sum(1 / variances[sparse]))
+        variances = _variances(model, parameters, np.diag(covariance), common)
         settled = np.sqrt(change @ precision @ change) < CONVERGED and np.allclose(
             noise, last_noise, rtol=CONVERGED, atol=0
         )
-        if settled and step >= ROBUST_STEPS:
+        if converged := settled and step >= ROBUST_STEPS:
             break
     log_evidence = (
-        _log_likelihood(residuals, noise, limit)
-        + _log_prior(parameters, variances, common)
+        _log_likelihood(near.residuals, noise, limit)
+        + _log_prior(parameters, variances, sparse, common)
         - np.log(np.diag(factor[0])).sum()  # the volume that the posterior leaves
     )
     return Estimate(
-        parameters * scale, covariance * np.outer(scale, scale), noise, weights, log_evidence
+        parameters * scale,
+        covariance * np.outer(scale, scale),
+        noise,
+        weights,
+        log_evidence,
+        bool(converged),
     )
 
 
-def _initial(scale: np.ndarray, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
-    """Parameters (P,) over their deviations `scale` (P,) and their variances, to start from."""
+def _initial(model: ErrorModel, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
+    """Parameters (P,) over their deviations and their variances, to start from."""
+    scale = model.deviations
     parameters, variances = np.zeros_like(scale), np.ones_like(scale)
     if start is not None:
         known = slice(min(len(scale), len(start.parameters)))
         parameters[known] = start.parameters[known] / scale[known]
-        spread = np.diag(start.covariance)[known] / scale[known] ** 2
-        variances[known] = _variances(parameters[known], spread, common=1.0)
+        spread = np.ones_like(scale)
+        spread[known] = np.diag(start.covariance)[known] / scale[known] ** 2
+        variances[known] = _variances(model, parameters, spread, common=1.0)[known]
     return parameters, variances
 
 
-def _variances(parameters: np.ndarray, spread: np.ndarray, common: float) -> np.ndarray:
+def _variances(
+    model: ErrorModel, parameters: np.ndarray, spread: np.ndarray, common: float
+) -> np.ndarray:
     """The most probable v_j, given the parameters (P,) and the variances of their errors (P,)."""
-    return (SPARSITY * common + parameters**2 + spread) / (SPARSITY + 1)
+    sparse = (SPARSITY * common + parameters**2 + spread) / (SPARSITY + 1)
+    return np.where(model.free, 1, sparse)
 
 
-def _linearise(
-    model: ErrorModel,
-    parameters: np.ndarray,
-    angles: np.ndarray,
-    terms: np.ndarray,
-    measured: np.ndarray,
+def _distances(
+    model: ErrorModel, parameters: np.ndarray, seen: Observations
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Residuals (n, kind, 3) and Jacobians (n, kind, 3, P) of the predictions.
+    """What known distances between sockets add to the normal equations: (P, P) and (P,)."""
+    information, pull = np.zeros((len(parameters),) * 2), np.zeros(len(parameters))
+    centres = model.sockets(parameters * model.deviations)
+    for one, other, length, deviation in seen.distances:
+        between = centres[one] - centres[other]
+        apart = np.linalg.norm(between)
+        slope = np.zeros_like(parameters)
+        by_centre = slope[model.socket_columns].reshape(-1, 3)
+        by_centre[one], by_centre[other] = between / apart, -between / apart
+        slope *= model.deviations
+        information += np.outer(slope, slope) / deviation**2
+        pull += slope * (length - apart) / deviation**2
+    return information, pull
 
-    Parameters are those over their deviations.
-    """
-    poses, jacobians = model.linearise(parameters * model.deviations, angles, terms)
-    residuals = displacements(poses, measured).reshape(len(angles), -1, 3)
-    rows = jacobians[:, : 3 * residuals.shape[1]] * model.deviations
-    return residuals, rows.reshape(*residuals.shape, -1)
+
+def _inverse(factor: tuple[np.ndarray, bool]) -> np.ndarray:
+    """The inverse (P, P) of a matrix of which `cho_factor` returned the factor."""
+    inverse, _ = scipy.linalg.lapack.dpotri(*factor)
+    return np.triu(inverse) + np.triu(inverse, 1).T
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Squared lengths (n,) of the residuals (n, kind, 3) over their noise (kind,)."""
-    return np.square(residuals / noise[:, None]).sum(axis=(1, 2))
+    """Squared lengths (n,) of the residuals (kind, n, 3) over their noise (kind,)."""
+    return np.square(residuals / noise[:, None, None]).sum(axis=(0, 2))
 
 
 def _log_likelihood(residuals: np.ndarray, noise: np.ndarray, limit: float) -> float:
     squares = _squares(residuals, noise)
     tails = limit * (1 + np.log(np.maximum(squares, limit) / limit))
     losses = np.where(squares <= limit, squares, tails) / 2
-    return -losses.sum() - 3 * len(residuals) * np.log(noise).sum()
+    return -losses.sum() - 3 * len(squares) * np.log(noise).sum()
 
 
-def _log_prior(parameters: np.ndarray, variances: np.ndarray, common: float) -> float:
+def _log_prior(
+    parameters: np.ndarray, variances: np.ndarray, sparse: np.ndarray, common: float
+) -> float:
     """Of the parameters given their variances, of these given their common scale, and of that.
 
     The variances and their scale have inverse gamma distributions.
     """
-    ratio = common / variances
+    ratio = common / variances[sparse]
     belief = np.sum(np.log(ratio) - ratio + 1) + COMMON * (np.log(common) - common + 1)
     return SPARSITY / 2 * belief - np.sum(parameters**2 / variances + np.log(variances)) / 2
-
-
-def _normal_equations(
-    jacobians: np.ndarray, residuals: np.ndarray, weights: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """J' W J (kind, P, P) and J' W r (kind, P).
-
-    Args:
-        jacobians: (n, kind, 3, P) of the measured coordinates by the parameters.
-        residuals: (n, kind, 3) of the measurements.
-        weights: (n,) theirs.
-    """
-    roots = np.sqrt(weights)[:, None, None]
-    jacobians = (
-        (jacobians * roots[..., None])
-        .swapaxes(0, 1)
-        .reshape(jacobians.shape[1], -1, jacobians.shape[-1])
-    )
-    residuals = (residuals * roots).swapaxes(0, 1).reshape(len(jacobians), -1, 1)
-    transposed = jacobians.swapaxes(1, 2)
-    return transposed @ jacobians, (transposed @ residuals)[..., 0]
 
 
 def _noise(
@@ -218,18 +213,18 @@ def _noise(
     """Standard deviations (kind,) of the noise along an axis.
 
     Args:
-        residuals: (n, kind, 3) m and rad.
+        residuals: (kind, n, 3) m and rad.
         weights: (n,) of the measurements; their squares leave nothing of a gross outlier.
         taken: (kind,) degrees of freedom that the parameters use.
         robust: to go by medians, which outliers do not move.
     """
     squares = np.square(residuals).sum(axis=-1)
     if robust:
-        count = 3.0 * len(squares)
-        total = np.median(squares, axis=0) / MEDIAN * count
+        count = 3.0 * len(weights)
+        total = np.median(squares, axis=1) / MEDIAN * count
     else:
         count = 3 * np.sum(weights**2)
-        total = weights**2 @ squares
+        total = squares @ weights**2
     free = np.maximum(count - taken, 1e-3 * count)
     return np.maximum(
         np.sqrt((total + SHARED * total.sum() / free.sum()) / (free + SHARED)), LEAST_NOISE

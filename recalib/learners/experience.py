@@ -26,13 +26,14 @@ class Experience:
 
     Args:
         runs: how many.
+        sent: how many numbers are sent in a move.
 
     Attributes:
         moves: how many there were, refused ones included.
     """
 
-    def __init__(self, runs: int):
-        self._sent, self._achieved = np.empty((runs, 0, 6)), np.empty((runs, 0, 6))
+    def __init__(self, runs: int, sent: int = 6):
+        self._sent, self._achieved = np.empty((runs, 0, sent)), np.empty((runs, 0, 6))
         self._executed = np.empty((runs, 0), dtype=bool)
 
     @property
@@ -43,8 +44,8 @@ class Experience:
         """Keep moves.
 
         Args:
-            sent: (run, move, 6) in the form that the learner uses.
-            achieved: (run, move, 6) likewise.
+            sent: (run, move, sent) in the form that the learner uses.
+            achieved: (run, move, 6) in coordinates of the workspace.
             executed: (run, move) whether they were carried out.
 
         Raises BadMeasurement.
@@ -55,7 +56,7 @@ class Experience:
         self._executed = np.concatenate([self._executed, executed], axis=1)
 
     def of(self, run: int) -> tuple[np.ndarray, np.ndarray]:
-        """Sent and achieved (n, 6) of the moves that one run carried out."""
+        """Sent (n, sent) and achieved (n, 6) of the moves that one run carried out."""
         executed = self._executed[run]
         return self._sent[run, executed], self._achieved[run, executed]
 

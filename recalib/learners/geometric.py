@@ -5,12 +5,14 @@ commands the pose that the nominal kinematics give these angles.
 """
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from recalib.identification.calibration import Calibration, angles_for
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
+from recalib.identification.observations import Observations
 from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
@@ -35,7 +37,9 @@ class GeometricLearner(Observer):
 
     def __init__(self, runs: int, controller: Controller):
         self._controller = controller
-        self._experience = Experience(runs)  # of joint angles and achieved coordinates
+        self._experience = Experience(
+            runs, len(controller.robot.joints)
+        )  # of joint angles and achieved coordinates
         self.calibrations: list[Calibration | None] = [None] * runs
 
     def command(self, desired: np.ndarray) -> np.ndarray:
@@ -45,13 +49,11 @@ class GeometricLearner(Observer):
             run for run, calibration in enumerate(self.calibrations) if calibration is not None
         ]
         if known:
-            robot, calibrations = self._controller.robot, [self.calibrations[run] for run in known]
-            needed = angles_for(
-                calibrations, robot.workspace.to_poses(desired[known]), self._angles(desired[known])
+            poses = self._controller.robot.workspace.to_poses(desired[known])
+            calibrations = [self.calibrations[run] for run in known]
+            commands[known] = self._controller.commands_for(
+                desired[known], partial(angles_for, calibrations, poses)
             )
-            commands[known] = robot.workspace.to_coordinates(
-                robot.arm.forward(needed.reshape(-1, 6))
-            ).reshape(needed.shape)
         return commands
 
     def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
@@ -89,8 +91,10 @@ class GeometricLearner(Observer):
         self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
     ) -> Calibration:
         model = ErrorModel(self._controller.robot.arm, OFFSETS)
-        return Calibration(model, identify(model, angles, measured, last and last.estimate))
+        return Calibration(
+            model, identify(model, Observations(angles, measured), last and last.estimate)
+        )
 
     def _angles(self, commands: np.ndarray) -> np.ndarray:
-        """Joint angles (run, move, 6) [rad] that the controller chooses for the commands."""
+        """Joint angles (run, move, joint) [rad] that the controller chooses for the commands."""
         return self._controller.targets(commands).angles

@@ -4,6 +4,7 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.observations import Observations
 from recalib.learners.geometric import GeometricLearner
 
 
@@ -18,6 +19,5 @@ class HybridLearner(GeometricLearner):
     def _calibrate(
         self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
     ) -> Calibration:
-        return calibrate(
-            self._controller.robot.arm, (OFFSETS, JOINT_ERRORS), angles, measured, last
-        )
+        arm, seen = self._controller.robot.arm, Observations(angles, measured)
+        return calibrate(arm, (OFFSETS, JOINT_ERRORS), seen, last=last)

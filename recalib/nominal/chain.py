@@ -1,17 +1,16 @@
-"""Serial arms of turning joints in compiled loops, posture by posture.
+"""Serial arms in compiled loops, posture by posture.
 
-Pinocchio says where joints and tool are placed, and stays the reference. What is beside a posture
-changes not one bit of it. Numba compiles the loops once and keeps them in a file.
+Where a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
+placed, and stays the reference. What is beside a posture changes not one bit of it. Numba compiles
+the loops once and keeps them in a file.
 """
 
 from collections.abc import Sequence
 from typing import NamedTuple, Self
 
 import numpy as np
-import pinocchio as pin
 
 from recalib.compiled import compiled
-from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
@@ -21,28 +20,27 @@ SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 
 
 class Chain(NamedTuple):
-    """Serial arms of n turning joints, side by side.
+    """Serial arms of n joints, side by side.
 
     Attributes:
         placements: (arm, n + 1, 3, 4) of each joint in the frame of the one before it, and of the
             tool in that of the last one: turns, and translations [m].
-        axes: (arm, n, 3) about which the joints turn, in their own frames.
+        axes: (arm, n, 3) about which the joints turn, or along which they slide, in their own
+            frames.
+        slides: (arm, n) whether they slide.
     """
 
     placements: np.ndarray
     axes: np.ndarray
+    slides: np.ndarray
 
     @classmethod
     def of(cls, arm: Arm) -> Self:
-        """A single arm; the chain does not follow when it changes.
-
-        Raises UnsuitableRobot where a joint slides.
-        """
+        """A single arm; the chain does not follow when it changes."""
         model, frame = arm.model, arm.model.frames[tool_frame(arm.model, arm.tool)]
-        axes = [_axis(model, joint) for joint in range(1, model.njoints)]
         placements = [*list(model.jointPlacements)[1:], frame.placement]
         matrices = [placement.homogeneous[:3] for placement in placements]
-        return cls(np.array([matrices]), np.array([axes]))
+        return cls(np.array([matrices]), arm.axes[None], arm.slides[None])
 
     @classmethod
     def side_by_side(cls, chains: Sequence[Self]) -> Self:
@@ -62,29 +60,19 @@ class Chain(NamedTuple):
         return _jacobians(self, angles)
 
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Joint angles (posture, 6) [rad] that take the tool of the first arm to poses.
+        """Joint angles (posture, n) [rad] that take the tool of the first arm to poses.
 
-        By Newton's method, each pose by itself.
+        By Newton's method, each pose by itself. With more than six joints, each of its steps is the
+        shortest; with fewer, the one that leaves least.
 
         Args:
             poses: (posture, 4, 4) m.
-            start: (posture, 6) rad nearby.
+            start: (posture, n) rad nearby.
 
         Returns the angles and what is left of each residual (posture,), the largest of its numbers
         in m and rad: above TOLERANCE, the pose was not reached.
         """
         return _solve(self, poses, start)
-
-
-def _axis(model: pin.Model, joint: int) -> np.ndarray:
-    """About which axis (3,) a joint turns, in its own frame."""
-    data, at = model.createData(), np.zeros(model.nq)
-    pin.computeJointJacobians(model, data, at)
-    angular = pin.getJointJacobian(model, data, joint, pin.LOCAL)[3:]
-    column = model.joints[joint].idx_v
-    if not angular[:, column].any():
-        raise UnsuitableRobot(f"a joint of {model.name} slides; valid: joints that turn")
-    return angular[:, column]
 
 
 @compiled
@@ -102,21 +90,24 @@ def _forward(chain, angles):
 
 @compiled
 def _stand(chain, arm, angles, pose, origins, directions):
-    """Write the tool's pose (3 or 4, 4), and where the joints lie and turn, both (n, 3)."""
+    """Write the tool's pose (3 or 4, 4), and where the joints lie and point, both (n, 3)."""
     joints = len(angles)
     pose[:3] = chain.placements[arm, 0]
     for joint in range(joints):
-        axis, angle = chain.axes[arm, joint], angles[joint]
+        axis, slides = chain.axes[arm, joint], chain.slides[arm, joint]
         for row in range(3):
             origins[joint, row] = pose[row, 3]
             directions[joint, row] = (
                 pose[row, 0] * axis[0] + pose[row, 1] * axis[1] + pose[row, 2] * axis[2]
             )
+        angle = 0.0 if slides else angles[joint]
         sine, cosine = np.sin(angle), np.cos(angle)
         versine = 1 - cosine
         x, y, z = axis
         placement = chain.placements[arm, joint + 1]
         for row in range(3):
+            if slides:
+                pose[row, 3] += angles[joint] * directions[joint, row]
             a, b, c = pose[row, 0], pose[row, 1], pose[row, 2]
             # Rodrigues' formula: each row of the frame is turned about the axis, the other way
             along = versine * directions[joint, row]
@@ -137,15 +128,20 @@ def _jacobians(chain, angles):
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
     for posture in range(postures):
         _stand(chain, 0, angles[posture], pose, origins, directions)
-        _turn(pose, origins, directions, jacobians[posture])
+        _move(chain, pose, origins, directions, jacobians[posture])
     return jacobians
 
 
 @compiled
-def _turn(pose, origins, directions, jacobian):
-    """Write how the tool moves (6, n) with joints that lie and turn as `_stand` says."""
+def _move(chain, pose, origins, directions, jacobian):
+    """Write how the tool moves (6, n) with joints that lie and point as `_stand` says."""
     for joint in range(len(origins)):
+        slides = chain.slides[0, joint]
         for row in range(3):
+            if slides:
+                jacobian[row, joint] = directions[joint, row]
+                jacobian[3 + row, joint] = 0
+                continue
             one, other = (row + 1) % 3, (row + 2) % 3
             jacobian[row, joint] = directions[joint, one] * (
                 pose[other, 3] - origins[joint, other]
@@ -159,7 +155,7 @@ def _solve(chain, poses, start):
     found, left = start.copy(), np.full(len(start), np.inf)
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
     reached, jacobian, missing = np.empty((3, 4)), np.empty((6, joints)), np.empty(6)
-    turns = np.empty(joints)
+    step = np.empty(joints)
     for index in range(len(start)):
         angles, goal = start[index].copy(), poses[index]
         for _ in range(STEPS):
@@ -169,15 +165,29 @@ def _solve(chain, poses, start):
                 found[index], left[index] = angles, residual
             if left[index] <= TOLERANCE:
                 break
-            _turn(reached, origins, directions, jacobian)
-            turns[:] = missing
-            if not _eliminate(jacobian, turns):  # singular: the smallest solution
-                _turn(reached, origins, directions, jacobian)
-                turns[:] = np.linalg.pinv(jacobian, 1 / SINGULAR) @ missing
-            shorter = LONGEST_STEP / max(LONGEST_STEP, _longest(turns))
+            _move(chain, reached, origins, directions, jacobian)
+            if joints == 6:
+                step[:] = missing
+            if joints != 6 or not _eliminate(jacobian, step):
+                _move(chain, reached, origins, directions, jacobian)
+                step[:] = _shortest_step(jacobian, missing)
+            shorter = LONGEST_STEP / max(LONGEST_STEP, _longest(step))
             for joint in range(joints):
-                angles[joint] += shorter * turns[joint]
+                angles[joint] += shorter * step[joint]
     return found, left
+
+
+@compiled
+def _shortest_step(jacobian, missing):
+    """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
+    if jacobian.shape[1] > 6:
+        square, vector = np.empty((6, 6)), missing.copy()
+        for row in range(6):
+            for column in range(6):
+                square[row, column] = (jacobian[row] * jacobian[column]).sum()
+        if _eliminate(square, vector):
+            return (jacobian.T * vector).sum(axis=1)
+    return np.linalg.pinv(jacobian, 1 / SINGULAR) @ missing
 
 
 @compiled

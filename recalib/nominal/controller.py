@@ -4,8 +4,14 @@ It stands for the inverse kinematics that the manufacturer built in, which the p
 untouched (section 3): the same command always gives the same joint angles. Newton's method starts
 from a polynomial that knows the workspace roughly, and each command is solved by itself, so that
 neither those before it nor those beside it in a batch have an influence.
+
+The same holds of a redundant arm, with more than six joints. Of the postures for a pose it takes
+one near that of home, which changes smoothly with the pose: the polynomial fits postures that were
+found from home outwards by the shortest steps, and from there Newton's method takes the shortest
+ones, too. So poses determine joint angles, and what learns from poses alone is blind to none.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
@@ -23,6 +29,7 @@ BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
 DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
 TRUSTED = 1.5  # coordinates for which it serves: learners command a little beyond the workspace
 NOT_REACHED = "no joint angles reach it"
+ROUNDS = 4  # in which the joint angles of a redundant arm settle; each leaves some hundredths
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
 
 
@@ -31,7 +38,7 @@ class Solution:
     """What Newton's method found for commands.
 
     Attributes:
-        angles: (n, 6) rad.
+        angles: (n, joint) rad.
         residuals: (n,) what is left, the largest of its numbers in m and rad.
         within_limits: (n,) whether the arm's joints can turn so far.
     """
@@ -50,7 +57,7 @@ class Targets(NamedTuple):
     """What commands ask of the joints.
 
     Attributes:
-        angles: (run, move, 6) rad to which they take the robots.
+        angles: (run, move, joint) rad to which they take the robots.
         executed: (run, move) whether they are carried out.
     """
 
@@ -108,11 +115,30 @@ class Controller:
             coordinates[far] = workspace.to_coordinates(poses[far])
         solution = self._solve(poses, coordinates)
         return Targets(
-            solution.angles.reshape(commands.shape), solution.reached.reshape(commands.shape[:-1])
+            solution.angles.reshape(*commands.shape[:-1], -1),
+            solution.reached.reshape(commands.shape[:-1]),
         )
 
+    def commands_for(
+        self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
+    ) -> np.ndarray:
+        """The commands (run, move, 6) to which it answers with the joint angles that are needed.
+
+        Of a redundant arm there are many; those are meant which are found from its own answer.
+
+        Args:
+            commands: (run, move, 6) nearby.
+            needed: from joint angles (run, move, joint) [rad] to those nearby that are needed.
+        """
+        workspace, arm = self.robot.workspace, self.robot.arm
+        for _ in range(ROUNDS if len(arm.joints) > 6 else 1):
+            angles = needed(self.targets(commands).angles)
+            poses = arm.forward(angles.reshape(-1, angles.shape[-1]))
+            commands = workspace.to_coordinates(poses).reshape(commands.shape)
+        return commands
+
     def inverse(self, poses: np.ndarray) -> np.ndarray:
-        """Joint angles (n, 6) [rad] for the commanded poses (n, 4, 4).
+        """Joint angles (n, joint) [rad] for the commanded poses (n, 4, 4).
 
         Raises Unreachable for the first command that cannot be executed.
         """

@@ -1,4 +1,10 @@
-"""Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio."""
+"""Forward kinematics, Jacobians and gravity of one arm for many joint angles, by Pinocchio.
+
+Where a joint slides, its joint angle is a length [m], its torque a force [N].
+"""
+
+from functools import cached_property
+from typing import Self
 
 import numpy as np
 import pinocchio as pin
@@ -13,25 +19,69 @@ class Arm:
     """A serial arm: a Pinocchio model and the tool frame at its end.
 
     Args:
-        model: the model, with six joints of one degree of freedom.
+        model: the model, a chain of joints that turn or slide about or along one axis.
         tool: name of the link that is the tool.
+        base: name of the link in whose frame poses are, which is that of the model's world.
     """
 
-    def __init__(self, model: pin.Model, tool: str):
-        self.model, self.tool = model, tool
+    def __init__(self, model: pin.Model, tool: str, base: str):
+        self.model, self.tool, self.base = model, tool, base
         self._data = model.createData()
         self._frame = tool_frame(model, tool)
 
+    def copy(self) -> Self:
+        """The same with a model of its own."""
+        return type(self)(pin.Model(self.model), self.tool, self.base)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints, from the base to the tool."""
+        return tuple(self.model.names)[1:]
+
+    @cached_property
+    def slides(self) -> np.ndarray:
+        """(joint,) whether a joint slides along its axis; else it turns about it."""
+        return ~self._motions[:, 3:].any(axis=1)
+
+    @cached_property
+    def axes(self) -> np.ndarray:
+        """(joint, 3) unit vectors along the joints' axes, each in its joint's frame."""
+        return np.where(self.slides[:, None], self._motions[:, :3], self._motions[:, 3:])
+
+    @cached_property
+    def _motions(self) -> np.ndarray:
+        """(joint, 6) how each moves, along and about the axes of its own frame."""
+        model, data = self.model, self.model.createData()
+        pin.computeJointJacobians(model, data, pin.neutral(model))
+        jacobians = [
+            pin.getJointJacobian(model, data, j, pin.LOCAL) for j in range(1, model.njoints)
+        ]
+        return np.array([each.reshape(6, -1)[:, joint] for joint, each in enumerate(jacobians)])
+
+    @property
+    def massless(self) -> bool:
+        """Whether its links have no masses, so that nobody knows what gravity does to it."""
+        return not any(inertia.mass for inertia in list(self.model.inertias)[1:])
+
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, 6) [rad]."""
+        """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad]."""
         poses = []
         for q in angles:
             pin.forwardKinematics(self.model, self._data, q)
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
         return np.array(poses).reshape(-1, 4, 4)
 
+    def skeleton(self, angles: np.ndarray) -> np.ndarray:
+        """Base, joints and tool (n, joint + 2, 3) [m] at joint angles (n, joint) [rad]."""
+        points = np.zeros((len(angles), self.model.njoints + 1, 3))
+        points[:, -1] = self.forward(angles)[:, :3, 3]
+        for own, q in zip(points, angles, strict=True):
+            pin.forwardKinematics(self.model, self._data, q)
+            own[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
+        return points
+
     def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, 6).
+        """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, joint).
 
         A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity
         along the base's axes.
@@ -44,15 +94,16 @@ class Arm:
                 )
             )
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
-        return np.array(poses).reshape(-1, 4, 4), np.array(jacobians).reshape(-1, 6, 6)
+        shape = -1, 6, self.model.nv
+        return np.array(poses).reshape(-1, 4, 4), np.array(jacobians).reshape(shape)
 
     def forward_and_all_jacobians(
         self, angles: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Poses and Jacobians as `forward_and_jacobian`, and those by the placements (n, 6, 7 * 6).
+        """Poses and Jacobians as `forward_and_jacobian`, and those by the placements.
 
-        A placement's motion [m, rad] is along the axes of what it places: each of the joints, and
-        last the tool.
+        These are (n, 6, (joint + 1) * 6). A placement's motion [m, rad] is along the axes of what
+        it places: each of the joints, and last the tool.
         """
         poses, joints, placements = [], [], []
         for q in angles:
@@ -71,7 +122,7 @@ class Arm:
         return poses, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
 
     def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
-        """Torques (n, 6) [N m] that hold the arm against gravity at joint angles (n, 6) [rad]."""
+        """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""
         return np.array(
             [pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]
-        ).reshape(-1, 6)
+        ).reshape(-1, self.model.nv)

@@ -9,21 +9,22 @@ from recalib.nominal.chain import LONGEST_STEP, SINGULAR
 # Of x, y and z the two others, in a circle.
 NEXT, LAST = [1, 2, 0], [2, 0, 1]
 
-# From the groups (m,) that are asked for and their joint angles (m, n, 6) [rad] to the poses
-# (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, 6) there.
+# From the groups (m,) that are asked for and their joint angles (m, n, joint) [rad] to the poses
+# (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, joint) there.
 Look = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def solve_groups(
     look: Look, poses: np.ndarray, start: np.ndarray, tolerance: float, steps: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Joint angles (group, n, 6) [rad] that take tools to poses, and what is left (group, n).
+    """Joint angles (group, n, joint) [rad] that take tools to poses, and what is left (group, n).
 
-    A group is solved when all of its poses are; where one is not, its best angles are kept.
+    With more than six joints, each step is the shortest; with fewer, the one that leaves least. A
+    group is solved when all of its poses are; where one is not, its best angles are kept.
 
     Args:
         poses: (group, n, 4, 4) m.
-        start: (group, n, 6) rad nearby.
+        start: (group, n, joint) rad nearby.
         tolerance: of the residuals, in m and rad.
         steps: at most so many.
     """
@@ -69,7 +70,9 @@ def _missing(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 
 def _solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:
-    """The solutions (..., 6) of linear equations; of a singular one the smallest."""
+    """The solutions (..., joint) of linear equations; of what has no or many the smallest."""
+    if matrices.shape[-1] != matrices.shape[-2]:
+        return (np.linalg.pinv(matrices, rcond=1 / SINGULAR) @ vectors[..., None])[..., 0]
     try:
         solutions = np.linalg.solve(matrices, vectors[..., None])[..., 0]
     except np.linalg.LinAlgError:  # one of them is exactly singular

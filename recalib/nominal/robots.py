@@ -1,21 +1,18 @@
 """Nominal robots: an arm from a URDF with its tool frame, home, joint limits and workspace."""
 
-import importlib.metadata
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.arms import find_urdf, load_arm
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import Workspace
-
-JOINTS = 6
 
 
 @dataclass(frozen=True)
@@ -26,8 +23,8 @@ class Robot:
         name: what people call it.
         urdf: the file that describes it.
         arm: its kinematics, with the joints that do not move the tool locked.
-        home: (6,) joint angles in rad at the centre of the workspace.
-        lower, upper: (6,) joint limits in rad.
+        home: (joint,) joint angles in rad (m where one slides) at the centre of the workspace.
+        lower, upper: (joint,) joint limits in rad (m).
         workspace: centred on the home pose.
     """
 
@@ -41,8 +38,8 @@ class Robot:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """The six joints, from the base to the tool."""
-        return tuple(self.arm.model.names)[1:]
+        """The joints, from the base to the tool."""
+        return self.arm.joints
 
     @property
     def links(self) -> dict[str, int]:
@@ -61,7 +58,7 @@ class Robot:
 
 def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
     """Where the link behind `joint` ends, (3,) in m in that joint's frame: a writable view."""
-    if joint < JOINTS:
+    if joint < model.njoints - 1:
         return model.jointPlacements[joint + 1].translation
     return model.frames[tool_frame(model, tool)].placement.translation
 
@@ -79,7 +76,7 @@ def load_robot(
     """The robot that a URDF describes, with a workspace about its home.
 
     Args:
-        urdf: a file of example-robot-data by its name, or the path of any other file.
+        urdf: a path, or a name: see `find_urdf`.
         tool: name of the link whose frame is the pose.
         home: rad by joint, at the centre of the workspace.
         position_range: (3,) m, full sizes of the workspace along the base's axes.
@@ -88,12 +85,18 @@ def load_robot(
         name: what people call it; the file's name unless given.
         coordinates: of orientations; see `Workspace`.
 
-    Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot, and InvalidSetting (a
-    joint without a home, a home beyond a joint's limits, a workspace without size).
+    Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot (see `load_arm`), and
+    InvalidSetting (a joint without a home, a home beyond a joint's limits, a workspace without
+    size).
     """
-    path, limits = _find(urdf), limits or {}
-    arm = _serial_arm(path, tool)
-    joints = tuple(arm.model.names)[1:]
+    path, limits = find_urdf(urdf), limits or {}
+    arm = load_arm(path, tool)
+    joints = arm.joints
+    if len(joints) < 6:
+        raise UnsuitableRobot(
+            f"{path.name} moves {tool!r} with {len(joints)} joints: {', '.join(joints)}; valid: at"
+            " least six, for a workspace in which poses have six coordinates"
+        )
     for key, given in (("home", home), ("limits", limits)):
         for joint in given:
             if joint not in joints:
@@ -120,37 +123,3 @@ def load_robot(
         coordinates=coordinates,
     )
     return Robot(name or path.stem, path, arm, angles, lower, upper, workspace)
-
-
-def _find(urdf: str | PathLike) -> Path:
-    packaged = _packaged_urdfs()
-    if urdf in packaged:
-        return packaged[urdf]
-    if not Path(urdf).is_file():
-        raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
-    return Path(urdf)
-
-
-@cache
-def _packaged_urdfs() -> dict[str, Path]:
-    files = importlib.metadata.files("example-robot-data") or []
-    return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
-
-
-def _serial_arm(path: Path, tool: str) -> Arm:
-    try:
-        full = pin.buildModelFromUrdf(str(path))
-    except ValueError as error:
-        raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from error
-    links = [frame.name for frame in full.frames if frame.type == pin.FrameType.BODY]
-    if tool not in links:
-        raise UnknownName(f"tool link of {path.name}", tool, links)
-    moving = set(full.supports[full.frames[tool_frame(full, tool)].parentJoint])
-    locked = [joint for joint in range(1, full.njoints) if joint not in moving]
-    model = pin.buildReducedModel(full, locked, pin.neutral(full))
-    if (model.njoints - 1, model.nq, model.nv) != (JOINTS,) * 3:
-        raise UnsuitableRobot(
-            f"{path.name} moves {tool!r} with {model.njoints - 1} joints, {model.nq} coordinates"
-            f" and {model.nv} degrees of freedom; valid: an arm of {JOINTS} bounded one-axis joints"
-        )
-    return Arm(model, tool)

@@ -1,0 +1,8 @@
+"""`python -m recalib`, as `recalib`."""
+
+import sys
+
+from recalib.laboratory.command_line import main
+
+if __name__ == "__main__":
+    sys.exit(main())

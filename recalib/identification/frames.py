@@ -1,0 +1,38 @@
+"""Where an instrument stands and where targets sit: known, or parameters like the rest."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+# Standard deviations of the parameters before anything is known: what wear and mounting plausibly
+# do to the base of an arm and to a link.
+BASE = 0.05, np.radians(5)  # m, rad
+LINK = 0.02, np.radians(0.5)
+UNKNOWN = 0.5, np.radians(30)  # of what nobody knows, around a first guess
+HELD = 1e-9  # of what no observation can tell: it stays as it is
+
+
+@dataclass(frozen=True)
+class Frames:
+    """The frames at both ends of the arm, as they are before anything is identified.
+
+    Where they are known, what the base and the last link are found to be beside them is an error of
+    the arm. Where they are not, it is a better guess of the frames, and the arm's own base and last
+    link stay nominal: nobody could tell.
+
+    Attributes:
+        base: (4, 4) m, the pose of the arm's base in the frame of the instrument.
+        targets: (target, 4, 4) m, their poses in the frame of the tool.
+        sockets: (socket, 3) m, guesses of their centres in the frame of the instrument, which is
+            the arm's base there.
+        base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
+            known.
+        unknown: whether they are guesses.
+    """
+
+    base: np.ndarray = field(default_factory=lambda: np.eye(4))
+    targets: np.ndarray = field(default_factory=lambda: np.eye(4)[None])
+    sockets: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+    base_deviations: tuple[float, float] = BASE
+    target_deviations: tuple[float, float] = LINK
+    unknown: bool = False

@@ -1,0 +1,104 @@
+"""What was seen of an arm as a linear function of the parameters, near some of them.
+
+A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad]
+along the instrument's axes, or the translation alone where no orientation was measured; a ball in a
+socket was measured to be at the socket's centre, which is a parameter itself.
+"""
+
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.error_model import ErrorModel
+from recalib.identification.observations import Observations
+
+BLOCK = 1000  # rows at once: more would take memory, and no less time
+
+
+def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """What takes poses to others: translation [m] and turn [rad] along the axes of their frame.
+
+    Args:
+        start: (n, 4, 4) poses.
+        end: (n, 4, 4) poses, for (n, 6), or (n, 3) positions, for the translations (n, 3) alone.
+    """
+    if end.ndim == 2:
+        return end - start[:, :3, 3]
+    between = end[:, :3, :3] @ start[:, :3, :3].swapaxes(1, 2)
+    turns = Rotation.from_matrix(between, assume_valid=True).as_rotvec()
+    return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
+
+
+class Linearised:
+    """Residuals and their slopes by the parameters over their deviations.
+
+    Args:
+        parameters: (P,) over their deviations, where to linearise.
+        terms: (n, term, joints) of the observations, which depend on no parameter.
+
+    Attributes:
+        residuals: (kind, n, 3) m, rad; `move` keeps them up to date.
+        jacobians: (kind, n, 3, P) of the predictions.
+        reach: (P,) how far [m, rad] each parameter moves the most movable target.
+    """
+
+    def __init__(
+        self, model: ErrorModel, parameters: np.ndarray, seen: Observations, terms: np.ndarray
+    ):
+        self._origin = parameters
+        self.residuals = np.empty((seen.kinds, len(seen), 3))
+        self.jacobians = np.empty((*self.residuals.shape, len(parameters)))
+        parameters = parameters * model.deviations
+        for first in range(0, len(seen), BLOCK):
+            block = slice(first, first + BLOCK)
+            its = seen[block]
+            poses, jacobians = model.linearise(parameters, its.joints, terms[block], its.targets)
+            measured = its.measured
+            if measured is None:
+                measured = model.sockets(parameters)[its.sockets]
+                # where the centre goes, the residual goes: the other way than with the prediction
+                by_centre = jacobians[:, :3, model.socket_columns].reshape(len(its), 3, -1, 3)
+                by_centre[np.arange(len(its)), :, its.sockets] = -np.eye(3)
+                jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(its), 3, -1)
+            missed = displacements(poses, measured)
+            for kind in range(seen.kinds):
+                part = slice(3 * kind, 3 * kind + 3)
+                self.residuals[kind, block] = missed[:, part]
+                np.multiply(jacobians[:, part], model.deviations, out=self.jacobians[kind, block])
+        highest, lowest = (f(self.jacobians, axis=(0, 1, 2)) for f in (np.max, np.min))
+        self.reach = np.maximum(highest, -lowest)
+
+    def is_good_at(self, parameters: np.ndarray, negligible: float) -> bool:
+        """Whether no parameter alone has moved a target by more than the root of `negligible`."""
+        return np.max(np.abs(parameters - self._origin) * self.reach) ** 2 <= negligible
+
+    def move(self, change: np.ndarray) -> None:
+        """Change the parameters (P,), over their deviations."""
+        rows = self.jacobians.reshape(-1, len(change))
+        self.residuals = self.residuals - (rows @ change).reshape(self.residuals.shape)
+
+    def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
+        doubted = np.flatnonzero(weights < 1)  # few: what they have too much is taken off
+        information = self._information - self._sum(doubted, 1 - weights[doubted])
+        weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), -1)
+        rows = self.jacobians.reshape(*weighted.shape, -1)
+        return information, np.einsum("kr,krp->kp", weighted, rows, optimize=True)
+
+    @cached_property
+    def _information(self) -> np.ndarray:
+        count = self.residuals.shape[1]
+        return self._sum(np.arange(count), np.ones(count))
+
+    def _sum(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """J' W J (kind, P, P) of some rows."""
+        kinds, *_, count = self.jacobians.shape
+        information = np.zeros((kinds, count, count))
+        for first in range(0, len(rows), BLOCK):
+            block = rows[first : first + BLOCK]
+            roots = np.sqrt(weights[first : first + BLOCK])[:, None, None]
+            for kind, jacobians in enumerate(self.jacobians):
+                those = (jacobians[block] * roots).reshape(-1, count)
+                information[kind] += those.T @ those
+        return information

@@ -1,0 +1,61 @@
+"""What was seen of an arm: the joint coordinates in which its controller believed, and the rest.
+
+Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
+position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which
+nothing is known but that the socket stays where it is. That takes no instrument at all.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Distance(NamedTuple):
+    """How far apart [m] two sockets are, by their numbers, and its standard deviation [m]."""
+
+    one: int
+    other: int
+    length: float
+    deviation: float = 5e-5
+
+
+@dataclass(frozen=True)
+class Observations:
+    """What was seen of an arm.
+
+    Attributes:
+        joints: (n, joints) rad, or m where a joint slides, in which the controller believed.
+        measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
+            None where a ball sat in sockets.
+        targets: (n,) the number of the target, or of the ball, that was seen; 0 unless given.
+        sockets: (n,) the number of the socket in which it sat; None where it was measured.
+        distances: between sockets, where they are known.
+    """
+
+    joints: np.ndarray
+    measured: np.ndarray | None = None
+    targets: np.ndarray = None
+    sockets: np.ndarray | None = None
+    distances: Sequence[Distance] = field(default=())
+
+    def __post_init__(self):
+        if self.targets is None:
+            object.__setattr__(self, "targets", np.zeros(len(self.joints), dtype=int))
+
+    def __len__(self) -> int:
+        return len(self.joints)
+
+    def __getitem__(self, rows: np.ndarray) -> "Observations":
+        """Some of the rows, by their numbers or by a mask."""
+        parts = {"joints": self.joints[rows], "targets": self.targets[rows]}
+        for name in ("measured", "sockets"):
+            if getattr(self, name) is not None:
+                parts[name] = getattr(self, name)[rows]
+        return replace(self, **parts)
+
+    @property
+    def kinds(self) -> int:
+        """Of what is seen in a row: 2 for position and orientation, 1 for a position alone."""
+        return 2 if self.measured is not None and self.measured.ndim == 3 else 1

@@ -1,0 +1,108 @@
+"""What measurements leave open of the geometry: parameters that they do not tell from others.
+
+One parameter after the other is added to those that are told apart: frames, then joint offsets,
+then links. Where what the data say of it, with all before it left to vary, is less than what was
+believed beforehand, it is open; the parameters that make up for it are its partners.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import ErrorModel
+from recalib.identification.frames import HELD
+from recalib.identification.linearised import Linearised
+from recalib.identification.observations import Observations
+from recalib.randomness import generator
+
+TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
+POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
+ROUNDING = 1e-8  # of a parameter's own information
+PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
+
+
+@dataclass(frozen=True)
+class Open:
+    """A parameter that is not told from others.
+
+    Attributes:
+        parameter: its number.
+        partners: the numbers of those that can make up for it, the strongest first; none where the
+            data do not see it at all.
+        lasting: whether no measurements of this kind could tell them apart.
+    """
+
+    parameter: int
+    partners: tuple[int, ...]
+    lasting: bool
+
+
+def open_parameters(calibration: Calibration, seen: Observations) -> list[Open]:
+    """The parameters of geometry that what was seen leaves open, in the order above."""
+    model, estimate = calibration.model, calibration.estimate
+    order = _order(model)
+    information = _information(calibration, seen, estimate.weights)[np.ix_(order, order)]
+    anywhere = _anywhere(calibration, seen)
+    more = _information(calibration, anywhere, np.ones(len(anywhere)))[np.ix_(order, order)]
+    lasting = {
+        number for number, *_ in _dependent(more, ROUNDING * np.maximum(np.diag(more), TOLD))
+    }
+    return [
+        Open(int(order[number]), tuple(int(order[one]) for one in partners), number in lasting)
+        for number, partners in _dependent(information, np.full(len(order), TOLD))
+    ]
+
+
+def _order(model: ErrorModel) -> np.ndarray:
+    """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
+    numbers = np.arange(len(model.deviations))
+    offsets = numbers[model.offset_columns]
+    geometry = numbers[: model.offset_columns.start]
+    order = np.concatenate([geometry[model.free[geometry]], offsets])
+    order = np.concatenate([order, np.setdiff1d(geometry, order)])
+    return order[model.deviations[order] > HELD]
+
+
+def _information(calibration: Calibration, seen: Observations, weights: np.ndarray) -> np.ndarray:
+    """That of the data (P, P) on parameters over their prior deviations."""
+    model, estimate = calibration.model, calibration.estimate
+    terms = model.terms(seen.joints)
+    near = Linearised(model, estimate.parameters / model.deviations, seen, terms)
+    by_kind, _ = near.normal_equations(weights)
+    return np.einsum("k,kpq->pq", estimate.noise**-2.0, by_kind)
+
+
+def _anywhere(calibration: Calibration, seen: Observations) -> Observations:
+    """Observations of the same kind, of all targets, in postures all over the joints' ranges."""
+    arm, random = calibration.model.nominal.model, generator(0, "openness")
+    low, high = (
+        np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
+    )
+    joints = random.uniform(low, high, (POSTURES, len(low)))
+    targets = np.arange(POSTURES) % (seen.targets.max() + 1)
+    poses = calibration.model.predict(calibration.estimate.parameters, joints, targets)
+    return Observations(joints, poses if seen.kinds == 2 else poses[:, :3, 3], targets)
+
+
+def _dependent(information: np.ndarray, least: np.ndarray):
+    """Each row (p,) that those before it leave less than `least` of, with its partners."""
+    accepted: list[int] = []
+    for number in range(len(information)):
+        across = information[accepted, number]
+        makes_up = np.zeros(0)
+        if accepted:
+            among = information[np.ix_(accepted, accepted)]
+            makes_up = scipy.linalg.solve(among, across, assume_a="pos")
+        if information[number, number] - across @ makes_up >= least[number]:
+            accepted.append(number)
+            continue
+        effects = np.abs(makes_up) * np.sqrt(np.diag(information)[accepted])
+        largest = effects.max(initial=0.0)
+        strongest = np.argsort(-effects, kind="stable")[:PARTNERS]
+        seen_at_all = largest**2 >= least[number]
+        yield (
+            number,
+            [accepted[one] for one in strongest if seen_at_all and effects[one] >= SHARE * largest],
+        )

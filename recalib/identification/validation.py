@@ -1,0 +1,145 @@
+"""What calibrations are worth, on rows that they were not made from, and which one to use.
+
+A calibration's own residuals tell nothing: a Gaussian process interpolates.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from recalib.identification.calibration import Calibration, calibrate, identify_again
+from recalib.identification.consensus import identify_by_consensus
+from recalib.identification.error_model import (
+    JOINT_ERRORS,
+    JOINT_WAVES,
+    NO_ERRORS,
+    OFFSETS,
+    ErrorModel,
+)
+from recalib.identification.estimation import identify
+from recalib.identification.frames import Frames
+from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
+from recalib.identification.observations import Observations
+from recalib.identification.soundness import check_estimate, check_rows
+from recalib.nominal.kinematics import Arm
+
+NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
+RANDOM, BLOCKWISE = WAYS = "at random", "in blocks"
+OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
+SURE = 2.0  # standard errors by which something richer has to be better, to be used
+
+
+@dataclass(frozen=True)
+class Validation:
+    """Errors on rows that were not learned from.
+
+    Attributes:
+        held_out: by way of folding and by what is done. Where frames are unknown, those of the
+            nominal arm are identified, too, and nothing else is.
+        counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
+        chosen: what is best done: nothing, geometric or hybrid.
+        full: the calibrations from all rows.
+    """
+
+    held_out: Mapping[str, Mapping[str, HeldOut]]
+    counted: np.ndarray
+    chosen: str
+    full: Mapping[str, Calibration]
+
+    @property
+    def calibration(self) -> Calibration:
+        """The one that is chosen."""
+        return self.full[self.chosen]
+
+    @property
+    def misses(self) -> Mapping[str, Mapping[str, np.ndarray]]:
+        """By way and kind, (n, 3) m or (n, 6) m and rad along the axes of the instrument."""
+        return {
+            way: {kind: held.misses for kind, held in kinds.items()}
+            for way, kinds in self.held_out.items()
+        }
+
+    def errors(self, way: str, kind: str) -> np.ndarray:
+        """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
+        return self.held_out[way][kind].errors
+
+    def radii(self, joints: np.ndarray) -> np.ndarray:
+        """Within how much (n,) [m] of its prediction 95 % of measured positions lie.
+
+        For the calibration that is chosen, in postures like those that were seen.
+        """
+        held = self.held_out[RANDOM][self.chosen][self.counted]
+        return held.factor() * self.calibration.spreads(joints)
+
+    def coverage(self, way: str) -> float:
+        """The part of held-out positions that lie within such radii, made without them."""
+        return self.held_out[way][self.chosen][self.counted].coverage()
+
+
+def validate(
+    arm: Arm,
+    seen: Observations,
+    frames: Frames | None = None,
+    say: Callable[[str], None] = lambda text: None,
+) -> Validation:
+    """Calibrate an arm in several ways, and say what each is worth.
+
+    The hybrid is geometry with joint errors and a Gaussian process of what is left, as far as all
+    rows show any; which joint errors, and how smooth the process is, is not chosen anew where rows
+    are held out, the parameters are.
+
+    Args:
+        frames: at both ends; see `guess_frames` for those that are unknown.
+        say: is told what is being done.
+
+    Raises BadMeasurement, TooFewRows, NotConverged and Implausible.
+    """
+    check_rows(len(seen))
+    say("geometry")
+    geometry = ErrorModel(arm, OFFSETS, frames)
+    estimate = identify_by_consensus(geometry, seen)
+    check_estimate(estimate)
+    counted = estimate.weights >= OUTLYING
+    weights = counted.astype(float)
+    say("what is no geometry")
+    candidates = OFFSETS, JOINT_ERRORS, JOINT_WAVES
+    hybrid = calibrate(arm, candidates, seen, frames, weights=weights)
+    if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
+        hybrid = calibrate(arm, candidates, seen, frames, hybrid, weights)
+    full = {
+        NOTHING: _identified(ErrorModel(arm, NO_ERRORS, frames), seen, weights),
+        GEOMETRIC: _identified(geometry, seen, weights),
+    }
+    if hybrid.estimate.converged and (hybrid.residual or hybrid.model.names != geometry.names):
+        full[HYBRID] = hybrid
+    held_out = {}
+    for way, folds in zip(WAYS, (random_folds(seen), blocks(seen)), strict=True):
+        say(f"what is missed {way}")
+        held_out[way] = {
+            kind: hold_out(partial(identify_again, whole), seen, weights, folds)
+            for kind, whole in full.items()
+        }
+    chosen = _choice(held_out, counted)
+    for kinds in (full, *held_out.values()):
+        kinds.setdefault(HYBRID, kinds[GEOMETRIC])  # there was nothing but geometry
+    return Validation(held_out, counted, chosen, full)
+
+
+def _identified(model: ErrorModel, seen: Observations, weights: np.ndarray) -> Calibration:
+    return Calibration(model, identify(model, seen, weights=weights))
+
+
+def _choice(held_out: Mapping[str, Mapping[str, HeldOut]], counted: np.ndarray) -> str:
+    """The simplest that nothing beats for sure, on rows held out in both ways."""
+    losses = {
+        kind: np.mean([held_out[way][kind][counted].losses for way in WAYS], axis=0)
+        for kind in held_out[RANDOM]
+    }
+    best, *richer = losses
+    for kind in richer:
+        gains = losses[best] - losses[kind]
+        if gains.mean() > SURE * gains.std(ddof=1) / np.sqrt(len(gains)):
+            best = kind
+    return best

@@ -1,0 +1,191 @@
+"""Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
+
+import importlib
+import importlib.metadata
+from functools import cache
+from os import PathLike, fspath
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.kinematics import Arm, tool_frame
+
+KINDS = "fixed", "revolute", "continuous", "prismatic"
+NAMESAKE = " (joint)"  # after the name of one that is called like a link
+UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
+PACKAGE = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
+
+
+def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = None) -> Arm:
+    """The arm of one-axis joints, turning or sliding, that carries a tool link from a base link.
+
+    Joints elsewhere are locked at neutral. A turning joint without limits is one of limits at
+    infinity. What gravity does follows from the base link's axes: z is up at the URDF's root.
+
+    Args:
+        urdf: see `find_urdf`.
+        tool: link whose frame is the pose; the only end of the arm unless given.
+        base: link in whose frame poses are; the root unless given.
+
+    Raises UnknownName (URDF, link), InvalidSetting (several ends, and no tool given), and
+    UnsuitableRobot: no URDF, or no such arm.
+    """
+    tree = _Tree(find_urdf(urdf))
+    base = tree.link("base", base or tree.root)
+    tool = tree.link("tool", tool) if tool else tree.only_end(base)
+    moving = tree.joints_between(base, tool)
+    locked = [joint for joint, name in enumerate(tree.model.names) if joint and name not in moving]
+    model = pin.buildReducedModel(tree.model, locked, pin.neutral(tree.model))
+    for limits in (model.lowerPositionLimit, model.upperPositionLimit):
+        limits[np.abs(limits) >= UNBOUNDED] *= np.inf
+    for index, name in enumerate(model.names):
+        model.names[index] = name.removesuffix(NAMESAKE)
+    if base != tree.root:
+        _stand_on(model, model.frames[tool_frame(model, base)].placement.copy())
+    arm = Arm(model, tool, base)
+    for joint, axis in zip(arm.joints, arm.axes, strict=True):
+        if not axis.any():
+            raise UnsuitableRobot(f"the axis of {joint} has no length in {urdf}")
+    return arm
+
+
+def find_urdf(urdf: str | PathLike) -> Path:
+    """The file of a URDF.
+
+    Args:
+        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
+            a description in robot_descriptions.py, such as panda_description, if it is installed.
+
+    Raises UnknownName.
+    """
+    packaged = _packaged_urdfs()
+    if urdf in packaged:
+        return packaged[urdf]
+    if fspath(urdf).endswith("_description"):
+        try:
+            return Path(importlib.import_module(f"{PACKAGE}.{urdf}").URDF_PATH)
+        except (ImportError, AttributeError):
+            valid = f"a path, or a URDF of {PACKAGE}, which has to be installed"
+            raise InvalidSetting("urdf", fspath(urdf), valid) from None
+    if not Path(urdf).is_file():
+        raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
+    return Path(urdf)
+
+
+@cache
+def _packaged_urdfs() -> dict[str, Path]:
+    files = importlib.metadata.files("example-robot-data") or []
+    return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
+
+
+class _Tree:
+    """The links and joints of a URDF.
+
+    Attributes:
+        model: Pinocchio's, each continuous joint a revolute one with limits out of reach: else it
+            would have two coordinates, a cosine and a sine.
+        root: the link that no joint carries.
+    """
+
+    def __init__(self, path: Path):
+        try:
+            robot = ElementTree.parse(path).getroot()
+        except (ElementTree.ParseError, UnicodeDecodeError):
+            raise UnsuitableRobot(f"{path} is no URDF: it is not XML") from None
+        if path.suffix == ".xacro" or any("xacro" in element.tag for element in robot.iter()):
+            raise UnsuitableRobot(
+                f"{path} is a xacro file; valid: what `xacro {path.name}` expands it to"
+            )
+        links = {link.get("name") for link in robot.iterfind("link")}
+        for joint in robot.iterfind("joint"):
+            if joint.get("type") == "continuous":
+                _bound(joint)
+            if joint.get("name") in links:  # Pinocchio takes frames of one name for another
+                joint.set("name", joint.get("name") + NAMESAKE)
+        try:
+            self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
+        except ValueError:  # what is wrong, urdfdom has written to stderr
+            raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from None
+        self._name = path.name
+        self._joints = {joint.find("child").get("link"): joint for joint in robot.iterfind("joint")}
+        # of links in a circle, which hang on nothing, Pinocchio knows nothing
+        bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
+        self._links = [frame.name for frame in bodies]
+        self.root = self._links[0]
+
+    def link(self, role: str, name: str) -> str:
+        """The name, if it is that of a link."""
+        if name not in self._links:
+            raise UnknownName(f"{role} link of {self._name}", name, self._links)
+        return name
+
+    def only_end(self, base: str) -> str:
+        """The link above which there are joints that move, up to the base, and below it nothing."""
+        carrying = {_parent(joint) for joint in self._joints.values()}
+        ends = [
+            link
+            for link in self._links
+            if link not in carrying
+            and base in self._way_up(link)
+            and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base))
+        ]
+        if len(ends) != 1:
+            valid = f"a link of {self._name}; at its ends are {', '.join(ends) or 'none'}"
+            raise InvalidSetting("tool", None, valid)
+        return ends[0]
+
+    def joints_between(self, base: str, tool: str) -> list[str]:
+        """Names of the joints that move one link against another."""
+        if base not in self._way_up(tool):
+            raise UnsuitableRobot(f"{base} does not carry {tool} in {self._name}")
+        moving = []
+        for joint in self._joints_up(tool, base):
+            kind = "mimic" if joint.find("mimic") is not None else joint.get("type")
+            if kind not in KINDS:
+                raise UnsuitableRobot(
+                    f"the joint {joint.get('name')} between {base} and {tool} of {self._name} is"
+                    f" {kind}; valid: {', '.join(KINDS)}"
+                )
+            if kind != "fixed":
+                moving.append(joint.get("name"))
+        if not moving:
+            raise UnsuitableRobot(f"no joint of {self._name} moves {tool} against {base}")
+        return moving
+
+    def _way_up(self, link: str) -> list[str]:
+        """The link and all that carry it."""
+        return [link, *(_parent(joint) for joint in self._joints_up(link, self.root))]
+
+    def _joints_up(self, link: str, base: str) -> list[ElementTree.Element]:
+        joints = []
+        while link != base:
+            joints.append(self._joints[link])
+            link = _parent(joints[-1])
+        return joints
+
+
+def _parent(joint: ElementTree.Element) -> str:
+    return joint.find("parent").get("link")
+
+
+def _bound(joint: ElementTree.Element) -> None:
+    """Make a continuous joint one with limits out of reach."""
+    joint.set("type", "revolute")
+    limit = joint.find("limit")
+    if limit is None:
+        limit = ElementTree.SubElement(joint, "limit", effort="0", velocity="0")
+    limit.set("lower", str(-UNBOUNDED))
+    limit.set("upper", str(UNBOUNDED))
+
+
+def _stand_on(model: pin.Model, base: pin.SE3) -> None:
+    """Have the model's world where its base link is: `base` in its world so far."""
+    back = base.inverse()
+    model.jointPlacements[1] = back * model.jointPlacements[1]
+    for frame in model.frames:
+        if frame.parentJoint == 0:
+            frame.placement = back * frame.placement
+    model.gravity.linear = base.rotation.T @ model.gravity.linear

@@ -1,0 +1,100 @@
+"""Serial arms from tables of Denavit-Hartenberg parameters, standard or modified.
+
+Standard: joint i turns about or slides along the z axis of frame i - 1, and the frame that it
+carries is
+
+    T_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i)        (Denavit and Hartenberg 1955)
+
+Modified: it moves along its own frame's z axis, with the link before it first in the product:
+
+    T_i = Rx(alpha_i) Tx(a_i) Rz(theta_i) Tz(d_i)        (Craig 1986; a and alpha of link i - 1)
+
+The joint angle is added to theta where the joint turns, to d where it slides.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.errors import InvalidSetting, UnknownName
+from recalib.nominal.kinematics import Arm
+
+CONVENTIONS = "standard", "modified"
+BASE, TOOL = "base", "tool"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A joint and a link by their Denavit-Hartenberg parameters.
+
+    Attributes:
+        name: of the joint.
+        a, d: m.
+        alpha, theta: rad.
+        slides: whether the joint slides.
+    """
+
+    name: str
+    a: float = 0.0
+    alpha: float = 0.0
+    d: float = 0.0
+    theta: float = 0.0
+    slides: bool = False
+
+
+def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
+    """The arm of a table, from its base to its tool: the frame of the last row.
+
+    It has no masses, and limits at infinity. Links are called base, after the joints that move
+    them, and tool.
+
+    Raises UnknownName (a convention), and InvalidSetting (no rows, joints of one name, a parameter
+    that is no number).
+    """
+    if convention not in CONVENTIONS:
+        raise UnknownName("convention of Denavit-Hartenberg parameters", convention, CONVENTIONS)
+    _check(rows)
+    model = pin.Model()
+    _add_link(model, BASE, 0, pin.SE3.Identity())
+    after = pin.SE3.Identity()  # from the last joint to what comes next
+    for row in rows:
+        along_x = _screw(0, row.alpha, row.a)
+        along_z = _screw(2, row.theta, row.d)
+        # What a joint adds to theta or d commutes with both, so that it may stand before them.
+        if convention == "standard":
+            before, behind = after, along_z * along_x
+        else:
+            before, behind = after * along_x, along_z
+        kind = pin.JointModelPZ() if row.slides else pin.JointModelRZ()
+        joint = model.addJoint(model.njoints - 1, kind, before, row.name)
+        _add_link(model, f"{row.name}_link", joint, pin.SE3.Identity())
+        after = behind
+    _add_link(model, TOOL, model.njoints - 1, after)
+    model.lowerPositionLimit, model.upperPositionLimit = (
+        np.full(model.nq, sign * np.inf) for sign in (-1, 1)
+    )
+    return Arm(model, TOOL, BASE)
+
+
+def _check(rows: Sequence[Row]) -> None:
+    if not rows:
+        raise InvalidSetting("rows", [], "a row for each joint, at least one")
+    names = [row.name for row in rows]
+    for row in rows:
+        if names.count(row.name) > 1:
+            raise InvalidSetting("name of a row", row.name, "another name for each joint")
+        for key in ("a", "alpha", "d", "theta"):
+            if not np.isfinite(getattr(row, key)):
+                raise InvalidSetting(f"{key} of {row.name}", getattr(row, key), "a number")
+
+
+def _screw(axis: int, angle: float, length: float) -> pin.SE3:
+    """A turn about a coordinate axis and a slide along it."""
+    along = np.eye(3)[axis]
+    return pin.SE3(pin.exp3(angle * along), length * along)
+
+
+def _add_link(model: pin.Model, name: str, joint: int, placement: pin.SE3) -> None:
+    model.addFrame(pin.Frame(name, joint, placement, pin.FrameType.BODY))
