@@ -3,7 +3,7 @@
 import numpy as np
 from ur10 import robot
 
-from recalib import Controller, calibrate
+from recalib import Controller, Observations, calibrate
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.identification.design import information_gains
 from recalib.identification.error_model import OFFSETS
@@ -22,7 +22,7 @@ poses = robot.workspace.to_poses(robot.workspace.sample(rng, 300))
 candidates, tests = np.split(Controller(robot).inverse(poses), [200])
 angles, measured = candidates[:1], measure(candidates[:1])
 for _ in range(12):
-    calibration = calibrate(robot.arm, [OFFSETS], angles, measured)
+    calibration = calibrate(robot.arm, [OFFSETS], Observations(angles, measured))
     missed = position_error(calibration.forward(tests), arm.forward(tests)).mean()
     print(f"{len(angles):2} positions: predictions miss by {1e3 * missed:.2f} mm")
     best = information_gains(calibration, candidates).argmax()

@@ -1,0 +1,166 @@
+"""From a URDF and a table of measurements to what is known of the arm, and what that is worth."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.identification.calibration import Calibration
+from recalib.identification.first_guess import guess_frames
+from recalib.identification.frames import Frames
+from recalib.identification.observations import Distance, Observations
+from recalib.identification.validation import GEOMETRIC, NOTHING, RANDOM, Validation, validate
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.measurements import Measurements, read_measurements
+from recalib.laboratory.sanity import Fit, check_nominal
+from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.kinematics import Arm
+
+DOUBTED = 0.3  # the weight of a row below which it is doubted
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """An arm, what was seen of it, and what follows.
+
+    Attributes:
+        urdf: the file that describes the arm.
+        table: the file with the measurements.
+        seen: what it says.
+        targets, sockets: their names, in the order of their numbers.
+        beside: frames between the nominal positions and the nominal kinematics, if they differ.
+        frames: from which the identification started.
+        validation: errors on rows that were not learned from, and the choice by them.
+    """
+
+    urdf: Path
+    table: Path
+    seen: Observations
+    targets: tuple[str, ...]
+    sockets: tuple[str, ...]
+    beside: Fit | None
+    frames: Frames
+    validation: Validation
+
+    @property
+    def arm(self) -> Arm:
+        """The nominal arm."""
+        return self.geometry.model.nominal
+
+    @property
+    def worthwhile(self) -> bool:
+        """Whether correcting is better than doing nothing."""
+        return self.validation.chosen != NOTHING
+
+    @property
+    def geometry(self) -> Calibration:
+        """What a URDF can hold."""
+        return self.validation.full[GEOMETRIC]
+
+    @property
+    def calibration(self) -> Calibration:
+        """What is best on rows that were not learned from."""
+        return self.validation.calibration
+
+    @property
+    def correction(self) -> Correction:
+        """What corrects commands, with no other file."""
+        return Correction(self.urdf.read_bytes(), self.calibration, self.seen.joints)
+
+    @property
+    def counted(self) -> np.ndarray:
+        """Numbers (from 0) of the rows that are not grossly off."""
+        return np.flatnonzero(self.validation.counted)
+
+    @property
+    def doubted(self) -> np.ndarray:
+        """Numbers (from 1) of the rows that did not fit to the others and hardly counted."""
+        unlikely = self.geometry.estimate.weights < DOUBTED
+        return np.flatnonzero(unlikely | ~self.validation.counted) + 1
+
+    def missed(self, kind: str) -> np.ndarray:
+        """By how much the rows that count were missed, held out at random, if `kind` is done.
+
+        (n, 3) m or (n, 6) m and rad, along the axes of the instrument.
+        """
+        return self.validation.misses[RANDOM][kind][self.counted]
+
+
+def calibrate_arm(
+    urdf: str | PathLike,
+    table: str | PathLike,
+    description: str | PathLike | Description | None = None,
+    tool: str | None = None,
+    base: str | None = None,
+    say: Callable[[str], None] = lambda line: None,
+) -> Calibrated:
+    """Identify an arm from measurements.
+
+    Args:
+        urdf: a path, or a name that `recalib.nominal.arms.find_urdf` knows.
+        table: see docs/own_arm.md.
+        description: what the table does not say itself.
+        tool, base: link names; guessed where there is only one choice.
+        say: is told what is being done, in a line each.
+
+    Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
+    another arm; frames that cannot be told; a fit that did not work out.
+    """
+    arm = load_arm(urdf, tool, base)
+    if description is not None and not isinstance(description, Description):
+        description = read_description(description)
+    said = description or Description()
+    rows = read_measurements(table, arm, said)
+    say(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
+    beside = None
+    known = None if said.instrument is None else np.linalg.inv(said.instrument)
+    if rows.nominal is not None:
+        point = None if said.target is None else said.target[:3, 3]
+        beside = check_nominal(arm, rows.coordinates, rows.nominal, known, point)
+    seen, targets, sockets = _observations(rows, said, Path(table))
+    if known is None:
+        say("where instrument and target are: a first guess")
+        frames = guess_frames(arm, seen)
+    else:
+        frames = Frames(known, np.tile(said.target, (len(targets), 1, 1)))
+    validation = validate(arm, seen, frames, say)
+    return Calibrated(
+        find_urdf(urdf), Path(table), seen, targets, sockets, beside, frames, validation
+    )
+
+
+def _observations(
+    rows: Measurements, said: Description, table: Path
+) -> tuple[Observations, tuple[str, ...], tuple[str, ...]]:
+    """What was seen, with the names of targets and of sockets."""
+    targets, numbers = _numbered(rows.targets, len(rows))
+    measured = rows.positions
+    if rows.rotations is not None:
+        measured = np.tile(np.eye(4), (len(rows), 1, 1))
+        measured[:, :3, :3], measured[:, :3, 3] = rows.rotations, rows.positions
+    seen = Observations(rows.coordinates, measured, numbers)
+    if rows.sockets is None:
+        return seen, targets, ()
+    sockets, where = _numbered(rows.sockets, len(rows))
+    for pair in said.distances:
+        for socket in pair:
+            if socket not in sockets:
+                raise InvalidFile(
+                    table,
+                    f"its description names socket {socket!r}; the table has {', '.join(sockets)}",
+                )
+    distances = [
+        Distance(*map(sockets.index, pair), length) for pair, length in said.distances.items()
+    ]
+    return replace(seen, sockets=where, distances=distances), targets, sockets
+
+
+def _numbered(labels: np.ndarray | None, count: int) -> tuple[tuple[str, ...], np.ndarray]:
+    if labels is None:
+        return ("the target",), np.zeros(count, dtype=int)
+    names, numbers = np.unique(labels, return_inverse=True)
+    return tuple(names.tolist()), numbers

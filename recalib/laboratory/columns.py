@@ -1,0 +1,139 @@
+"""A table (CSV) whose header names each column and its unit: `elbow_joint [deg]`, `x [mm]`."""
+
+import csv
+import math
+import re
+from collections import Counter
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.quantities import Quantity
+
+_HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
+NUMBER = Quantity("a number", {"": 1.0})
+IGNORED = "ignored"
+
+
+@dataclass(frozen=True)
+class Table:
+    """The cells of a table, by column. Rows are counted from 1, without the header.
+
+    Attributes:
+        path: of the file, for messages.
+        units: of each column, empty where the header has none.
+        cells: of each column, as many as there are rows.
+        headings: of columns that a description calls otherwise, as the file has them.
+    """
+
+    path: Path
+    units: Mapping[str, str]
+    cells: Mapping[str, list[str]]
+    headings: Mapping[str, str]
+
+    def shown(self, column: str) -> str:
+        """What the file calls a column."""
+        return self.headings.get(column, column)
+
+    def __len__(self) -> int:
+        return len(next(iter(self.cells.values())))
+
+    def __contains__(self, column: str) -> bool:
+        return column in self.cells
+
+    def numbers(self, column: str, quantity: Quantity) -> np.ndarray:
+        """The numbers (n,) in a column, in SI units.
+
+        Raises InvalidFile: another unit, or a cell that is no finite number.
+        """
+        unit = self.units[column]
+        if unit not in quantity.units:
+            given = f"is in {unit!r}" if unit else "names no unit"
+            valid = ", ".join(
+                f"{column} [{each}]" if each else column for each in sorted(quantity.units)
+            )
+            raise InvalidFile(self.path, f"column {column!r} {given}; valid: {valid}")
+        numbers = [_number(cell) for cell in self.cells[column]]
+        for row, (number, cell) in enumerate(zip(numbers, self.cells[column], strict=True), 1):
+            if not math.isfinite(number):
+                raise InvalidFile(
+                    self.path,
+                    f"row {row} of column {self.shown(column)!r} is {cell!r}; valid: a number",
+                )
+        return np.array(numbers) * quantity.units[unit]
+
+    def check_columns(self, valid: Collection[str]) -> None:
+        """Raise InvalidFile where a column is not among the valid ones."""
+        for column in self.cells:
+            if column not in valid:
+                raise InvalidFile(
+                    self.path, f"nobody knows column {column!r}; valid: {', '.join(valid)}"
+                )
+
+
+def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -> Table:
+    """The table at `path`: UTF-8, commas between cells, a header, a row for each measurement.
+
+    Args:
+        columns: by a heading of the file what should have stood there, or "ignored".
+
+    Raises InvalidFile: not such a table, or a heading in `columns` that is not there.
+    """
+    path, columns = Path(path), columns or {}
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as stream:
+            rows = [row for row in csv.reader(stream) if any(cell.strip() for cell in row)]
+    except (UnicodeDecodeError, csv.Error):
+        raise InvalidFile(path, "it is no CSV in UTF-8") from None
+    except OSError as error:
+        raise InvalidFile(path, error.strerror or "it cannot be read") from None
+    if len(rows) < 2:
+        raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
+    headings = [cell.strip() for cell in rows[0]]
+    if len(headings) == 1 and ";" in headings[0]:
+        raise InvalidFile(path, "its columns are separated by semicolons; valid: commas")
+    if unknown := [heading for heading in columns if heading not in headings]:
+        raise InvalidFile(
+            path, f"its description names column {unknown[0]!r}; it has {', '.join(headings)}"
+        )
+    for row, cells in enumerate(rows[1:], 1):
+        if len(cells) != len(headings):
+            raise InvalidFile(
+                path, f"row {row} has {len(cells)} cells; valid: {len(headings)}, as in the header"
+            )
+    meant = [columns.get(heading, heading) for heading in headings]
+    kept = [index for index, heading in enumerate(meant) if heading != IGNORED]
+    parts = [_HEADING.fullmatch(meant[index]) for index in kept]
+    if (
+        wrong := next((i for i, part in enumerate(parts) if not part or not part["name"]), None)
+    ) is not None:
+        raise InvalidFile(
+            path, f"heading {meant[kept[wrong]]!r} is no name with a unit, as 'x [mm]' is"
+        )
+    names = [part["name"] for part in parts]
+    if twice := [name for name, count in Counter(names).items() if count > 1]:
+        raise InvalidFile(path, f"it has more than one column {twice[0]!r}")
+    return Table(
+        path,
+        {name: part["unit"] or "" for name, part in zip(names, parts, strict=True)},
+        {
+            name: [row[index].strip() for row in rows[1:]]
+            for name, index in zip(names, kept, strict=True)
+        },
+        {
+            name: headings[index]
+            for name, index in zip(names, kept, strict=True)
+            if headings[index] in columns
+        },
+    )
+
+
+def _number(cell: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        return math.nan

@@ -1,0 +1,150 @@
+"""The command line: `recalib calibrate`, `correct`, `next` and `urdf`; docs/own_arm.md."""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from recalib.errors import RecalibError
+
+DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
+EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command, and return its exit code. Mistakes are told in a sentence on stderr."""
+    given = _parser().parse_args(arguments)
+    try:
+        return given.command(given)
+    except RecalibError as error:
+        print(f"recalib: {error}", file=sys.stderr)
+    except OSError as error:
+        print(f"recalib: {error.filename}: {error.strerror}", file=sys.stderr)
+    except KeyboardInterrupt:
+        print("recalib: interrupted; no file was touched", file=sys.stderr)
+    return REFUSED
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="recalib", description="Recalibrate a robot arm from measurements.", epilog=EPILOGUE
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    def add(name: str, command: Callable[[argparse.Namespace], int], text: str):
+        own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
+        own.set_defaults(command=command)
+        return own
+
+    own = add("calibrate", _calibrate, "identify an arm from measurements")
+    own.add_argument("urdf", help="a file, or the name of one of example-robot-data")
+    own.add_argument("measurements", type=Path, help="a table (CSV)")
+    own.add_argument("--out", type=Path, default=Path("calibration"), help="a folder (%(default)s)")
+    own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
+    own.add_argument("--base", help="link in whose frame poses are; the root unless given")
+    own.add_argument("--description", type=Path, help="what the table does not say itself (TOML)")
+
+    own = add("correct", _correct, "commands that take the arm to what is desired")
+    own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
+    own.add_argument("desired", type=Path, help="poses or joint coordinates (CSV)")
+    own.add_argument("--out", type=Path, default=Path("commands.csv"), help="a file (%(default)s)")
+
+    own = add("next", _next, "the postures that would teach most, and whether they are worth it")
+    own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
+    own.add_argument("candidates", type=Path, nargs="?", help="to choose from (CSV)")
+    own.add_argument("--count", type=_positive, default=10, help="how many (%(default)s)")
+    own.add_argument("--out", type=Path, default=Path("next.csv"), help="a file (%(default)s)")
+
+    own = add("urdf", _urdf, "the URDF of an arm, from its Denavit-Hartenberg parameters")
+    own.add_argument("links", type=Path, help="a table (CSV): joint, a, alpha, d, theta, kind")
+    own.add_argument("--convention", default="standard", help="or modified (%(default)s)")
+    own.add_argument("--out", type=Path, default=Path("arm.urdf"), help="a file (%(default)s)")
+    return parser
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or not int(text):
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 1 on")
+    return int(text)
+
+
+# Imported where they are used: help and refusals need not wait for Pinocchio and scikit-learn.
+
+
+def _calibrate(given: argparse.Namespace) -> int:
+    from recalib.laboratory.calibrate import calibrate_arm
+    from recalib.laboratory.files import looks, write_files
+    from recalib.laboratory.summary import summary
+
+    result = calibrate_arm(
+        given.urdf, given.measurements, given.description, given.tool, given.base, _tell
+    )
+    further, missing = looks()
+    _tell(f"files in {given.out}")
+    written = write_files(result, given.out, further)
+    print(summary(result), end="")
+    print(f"\n{given.out}: {', '.join(written)}")
+    for sentence in missing:
+        print(sentence)
+    return DONE if result.worthwhile else NO_BETTER
+
+
+def _correct(given: argparse.Namespace) -> int:
+    import numpy as np
+
+    from recalib.laboratory.correct import correct
+    from recalib.laboratory.correction import load_correction
+    from recalib.laboratory.files import CORRECTION, write_postures
+    from recalib.laboratory.measurements import read_desired
+
+    correction = load_correction(given.calibration / CORRECTION)
+    commands = correct(correction, read_desired(given.desired, correction.arm))
+    write_postures(given.out, correction.arm, commands.joints, commands.poses)
+    rows = np.flatnonzero(commands.beyond.any(axis=1))
+    if len(rows):
+        names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
+        print(
+            f"recalib: warning: {len(rows)} of {len(commands.joints)} commands, first in row"
+            f" {rows[0] + 1}, leave the range that was learned from: {', '.join(names)}",
+            file=sys.stderr,
+        )
+    print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
+    print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
+    return DONE
+
+
+def _next(given: argparse.Namespace) -> int:
+    from recalib.laboratory.correction import load_correction
+    from recalib.laboratory.files import CORRECTION, write_postures
+    from recalib.laboratory.measurements import read_desired
+    from recalib.laboratory.propose import propose
+
+    correction = load_correction(given.calibration / CORRECTION)
+    candidates = given.candidates and read_desired(given.candidates, correction.arm)
+    proposal = propose(correction, given.count, candidates)
+    write_postures(
+        given.out, correction.arm, proposal.joints, correction.arm.forward(proposal.joints)
+    )
+    before, after = 1e3 * proposal.uncertainty[[0, -1]]
+    print(f"{len(proposal.joints)} postures in {given.out}, the most telling first.")
+    print(
+        f"They would make the uncertainty of predicted positions fall from {before:.3g} mm to"
+        f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")
+    )
+    return DONE
+
+
+def _urdf(given: argparse.Namespace) -> int:
+    from recalib.laboratory.links import read_rows, urdf_of
+    from recalib.nominal.denavit_hartenberg import arm_of_table
+    from recalib.storage import whole
+
+    arm = arm_of_table(read_rows(given.links), given.convention)
+    with whole(given.out) as temporary:
+        temporary.write_text(urdf_of(arm), encoding="utf-8")
+    print(f"{given.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
+    return DONE
+
+
+def _tell(line: str) -> None:
+    print(f"... {line}", file=sys.stderr, flush=True)

@@ -1,0 +1,166 @@
+"""Commands for a controller that nobody touches: what to send so that the arm does what it should.
+
+The paper's own idea: the controller is told a *fake* pose, from which its nominal kinematics make
+the joint coordinates that take the real arm to the desired one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from recalib.errors import RecalibError
+from recalib.identification.calibration import Calibration
+from recalib.identification.linearised import displacements
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.measurements import Measurements
+
+TOLERANCE = 1e-8  # m, rad
+STEPS = 60
+LONGEST_STEP = 0.3  # rad, m: keeps Newton's method on the branch that it starts on
+STARTS = 6  # learned postures to start from, where no posture is given
+LEVER = 0.5  # m: what a turn of one rad counts as, to tell which posture is near
+MARGIN = 0.05  # beyond the range learned from, as a part of it
+
+
+class NotReached(RecalibError):
+    """Desired poses that the arm cannot take. Attributes: rows, counted from 1."""
+
+    def __init__(self, rows: Sequence[int], reason: str):
+        self.rows = [*rows]
+        others = f", and neither can {len(self.rows) - 1} others" if len(self.rows) > 1 else ""
+        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
+
+
+@dataclass(frozen=True)
+class Commands:
+    """What to send.
+
+    Attributes:
+        joints: (n, joints) rad, or m where a joint slides, in which the controller has to believe.
+        poses: (n, 4, 4) m, which its nominal kinematics give them in the base: the fake poses.
+        beyond: (n, joints) whether a joint leaves the range that was learned from.
+    """
+
+    joints: np.ndarray
+    poses: np.ndarray
+    beyond: np.ndarray
+
+
+def correct(correction: Correction, desired: Measurements) -> Commands:
+    """Commands that take the identified arm to what is desired.
+
+    Args:
+        desired: poses or positions of the tool link in the arm's base, with joint coordinates to
+            stay near to, if there are any; or joint coordinates alone, which mean the pose that
+            they give the nominal arm. Arms of fewer than six joints are taken to positions.
+
+    Raises NotReached.
+    """
+    found, left, inside = solve(correction, desired)
+    if not inside.all():
+        _refuse(correction, found, left, inside)
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    margin = MARGIN * (high - low)
+    beyond = (found < low - margin) | (found > high + margin)
+    return Commands(found, correction.arm.forward(found), beyond)
+
+
+def solve(
+    correction: Correction, desired: Measurements
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """As `correct`, whether the arm gets there or not.
+
+    Returns joint coordinates (n, joints), what is left (n,) in m or rad, and whether a desired pose
+    is reached within the arm's limits (n,).
+    """
+    arm, joints = correction.arm, desired.coordinates
+    if desired.positions is None:
+        goals = arm.forward(joints)
+    elif desired.rotations is None:
+        goals = desired.positions
+    else:
+        goals = np.tile(np.eye(4), (len(desired), 1, 1))
+        goals[:, :3, :3], goals[:, :3, 3] = desired.rotations, desired.positions
+    if len(arm.joints) < 6 and goals.ndim == 3:
+        goals = goals[:, :3, 3]
+    return _solve(
+        correction, goals, [joints] if joints is not None else _nearest(correction, goals)
+    )
+
+
+def _nearest(correction: Correction, goals: np.ndarray) -> list[np.ndarray]:
+    """Learned postures (n, joints) near goals, the nearest first."""
+    seen = correction.calibration.forward(correction.learned)
+    features = (_features(poses, goals.ndim) for poses in (seen, goals))
+    tree, wanted = KDTree(next(features)), next(features)
+    _, rows = tree.query(wanted, k=range(1, 1 + min(STARTS, len(seen))))
+    return [correction.learned[each] for each in rows.T]
+
+
+def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
+    """Positions (n, 3), and with three dimensions the axes (n, 12), of which a turn moves two."""
+    if poses.ndim == 2:
+        return poses
+    places = poses[:, :3, 3]
+    if dimensions == 2:
+        return places
+    axes = poses[:, :3, :3].reshape(len(poses), 9) * LEVER / np.sqrt(2)
+    return np.concatenate([places, axes], axis=1)
+
+
+def _solve(
+    correction: Correction, goals: np.ndarray, starts: Sequence[np.ndarray]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """From each start in turn, until the goals are reached within limits; as `solve`."""
+    lower = correction.arm.model.lowerPositionLimit
+    upper = correction.arm.model.upperPositionLimit
+    found, left = starts[0].copy(), np.full(len(goals), np.inf)
+    inside = np.zeros(len(goals), dtype=bool)
+    for start in starts:
+        rows = np.flatnonzero(~inside)
+        if not len(rows):
+            break
+        tried, remaining = _newton(correction.calibration, goals[rows], start[rows])
+        within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
+        better = within | (remaining < left[rows])
+        found[rows[better]], left[rows[better]] = tried[better], remaining[better]
+        inside[rows] = within
+    return found, left, inside
+
+
+def _newton(
+    calibration: Calibration, goals: np.ndarray, start: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Steps of least norm: what the goals leave free stays near the start."""
+    joints, best, left = start.copy(), start.copy(), np.full(len(goals), np.inf)
+    for _ in range(STEPS):
+        poses, jacobians = calibration.forward_and_jacobian(joints)
+        misses = displacements(poses, goals)
+        remaining = np.abs(misses).max(axis=1)
+        better = remaining < left
+        best[better], left[better] = joints[better], remaining[better]
+        if (left <= TOLERANCE).all():
+            break
+        inverse = np.linalg.pinv(jacobians[:, : misses.shape[1]], rcond=1e-6)
+        steps = (inverse @ misses[..., None])[..., 0]
+        longest = np.abs(steps).max(axis=1, keepdims=True)
+        joints = joints + steps * (LONGEST_STEP / np.maximum(longest, LONGEST_STEP))
+    return best, left
+
+
+def _refuse(
+    correction: Correction, found: np.ndarray, left: np.ndarray, inside: np.ndarray
+) -> None:
+    rows = np.flatnonzero(~inside)
+    first, model = rows[0], correction.arm.model
+    if left[first] > TOLERANCE:
+        reason = f"the nearest posture leaves {left[first]:.2g} m or rad"
+    else:
+        outside = (found[first] < model.lowerPositionLimit) | (
+            found[first] > model.upperPositionLimit
+        )
+        names = (name for name, out in zip(correction.arm.joints, outside, strict=True) if out)
+        reason = f"only beyond the limits of {', '.join(names)}"
+    raise NotReached(rows + 1, reason)

@@ -1,0 +1,63 @@
+"""What was identified of an arm, in one file that needs no other: enough to correct commands.
+
+The file is an archive (`recalib.archives`). Its header holds the format's version, the URDF of the
+nominal arm with its base and tool link, and by how much errors fell on poses that were not learned
+from. Its arrays are the calibration's, and the joint coordinates learned from.
+"""
+
+import tempfile
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from recalib.archives import read_archive, write_archive
+from recalib.identification.calibration import Calibration
+from recalib.nominal.arms import load_arm
+from recalib.nominal.kinematics import Arm
+
+FORMAT = "recalib correction", 1
+
+
+@dataclass(frozen=True)
+class Correction:
+    """An identified arm, and where it was looked at.
+
+    Attributes:
+        urdf: of the nominal arm, as the user gave it.
+        calibration: of it.
+        learned: (n, joints) rad, or m where a joint slides, from which it was identified.
+    """
+
+    urdf: bytes
+    calibration: Calibration
+    learned: np.ndarray
+
+    @property
+    def arm(self) -> Arm:
+        """The nominal arm."""
+        return self.calibration.model.nominal
+
+    def save(self, path: str | PathLike) -> None:
+        """Write it, whole or not at all."""
+        header = {
+            "format": FORMAT[0],
+            "version": FORMAT[1],
+            "urdf": self.urdf.decode(),
+            "tool": self.arm.tool,
+            "base": self.arm.base,
+        }
+        state = {"learned": self.learned, "calibration": self.calibration.state()}
+        write_archive(path, header, state)
+
+
+def load_correction(path: str | PathLike) -> Correction:
+    """What `Correction.save` wrote. Raises InvalidFile."""
+    header, state = read_archive(path, FORMAT, "recalib calibrate")
+    urdf = header["urdf"].encode()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "arm.urdf"
+        file.write_bytes(urdf)
+        arm = load_arm(file, header["tool"], header["base"])
+    return Correction(urdf, Calibration.restore(arm, state["calibration"]), state["learned"])

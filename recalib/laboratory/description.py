@@ -1,0 +1,118 @@
+"""What a table does not say itself, from a file beside it (TOML); every part may be absent.
+
+[columns]                    # by a heading of the table, what should have stood there
+joint_1 = "shoulder_pan_joint [deg]"
+step = "ignored"
+
+[instrument]                 # where it stands in the arm's base frame, where that is known
+position = ["0.8 m", "0 m", "120 mm"]
+roll_pitch_yaw = ["0 deg", "0 deg", "180 deg"]
+
+[target]                     # where it sits on the tool, in the tool link's frame, likewise
+position = ["0 mm", "0.07 mm", "31 mm"]
+
+[[distance]]                 # between the centres of two sockets, where that is known
+sockets = ["left", "right"]
+length = "250 mm"
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.quantities import ANGLE, LENGTH, Quantity
+
+PARTS = "columns", "instrument", "target", "distance"
+ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
+
+
+@dataclass(frozen=True)
+class Description:
+    """What is special to one data set.
+
+    Attributes:
+        columns: by a heading of the table, what should have stood there, or "ignored".
+        instrument: (4, 4) m in the arm's base frame; None where it is unknown.
+        target: (4, 4) m in the tool link's frame; None where it is unknown.
+        distances: m between the centres of two sockets.
+    """
+
+    columns: Mapping[str, str] = field(default_factory=dict)
+    instrument: np.ndarray | None = None
+    target: np.ndarray | None = None
+    distances: Mapping[tuple[str, str], float] = field(default_factory=dict)
+
+
+def read_description(path: str | PathLike) -> Description:
+    """The description at `path`. Raises InvalidFile, which names the key."""
+    try:
+        parts = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InvalidFile(path, error.strerror or "it cannot be read") from None
+    except ValueError as error:  # not UTF-8, or not TOML
+        raise InvalidFile(path, f"it is no TOML: {error}") from None
+    try:
+        for part in parts:
+            if part not in PARTS:
+                raise InvalidSetting("part", part, ", ".join(PARTS))
+        instrument, target = (_pose(part, parts) for part in ("instrument", "target"))
+        if (instrument is None) != (target is None):
+            alone = "target" if instrument is None else "instrument"
+            raise InvalidSetting(alone, "alone", "both instrument and target, or neither")
+        return Description(
+            _columns(parts.get("columns", {})),
+            instrument,
+            target,
+            dict(map(_distance, parts.get("distance", []))),
+        )
+    except InvalidSetting as error:
+        raise InvalidFile(path, str(error)) from None
+
+
+def _columns(given: Any) -> dict[str, str]:
+    if not isinstance(given, dict) or not all(isinstance(each, str) for each in given.values()):
+        raise InvalidSetting("columns", given, 'lines such as joint_1 = "elbow_joint [deg]"')
+    return given
+
+
+def _pose(part: str, parts: Mapping[str, Any]) -> np.ndarray | None:
+    if part not in parts:
+        return None
+    given = parts[part]
+    if not isinstance(given, dict) or not given or given.keys() - ORIGIN.keys():
+        raise InvalidSetting(part, given, f"{' and '.join(ORIGIN)}")
+    numbers = ORIGIN | given
+    pose = np.eye(4)
+    pose[:3, 3] = _vector(f"{part}.position", numbers["position"], LENGTH)
+    turns = _vector(f"{part}.roll_pitch_yaw", numbers["roll_pitch_yaw"], ANGLE)
+    pose[:3, :3] = Rotation.from_euler("xyz", turns).as_matrix()
+    return pose
+
+
+def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
+    if not isinstance(given, list) or len(given) != 3:
+        raise InvalidSetting(key, given, "a list of three quantities")
+    return [_read(key, each, kind) for each in given]
+
+
+def _distance(given: Any) -> tuple[tuple[str, str], float]:
+    if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
+        raise InvalidSetting("distance", given, "sockets and length")
+    between = given["sockets"]
+    if not isinstance(between, list) or len({*map(str, between)}) != 2:
+        raise InvalidSetting("distance.sockets", between, "the names of two sockets")
+    return (str(between[0]), str(between[1])), _read("distance.length", given["length"], LENGTH)
+
+
+def _read(key: str, text: Any, kind: Quantity) -> float:
+    try:
+        return kind.read(text)
+    except InvalidQuantity:
+        raise InvalidSetting(key, text, f"{kind.name} in {', '.join(kind.units)}") from None

@@ -1,0 +1,139 @@
+"""The folder of a calibration: its files whole, and none of an older one beside them."""
+
+import csv
+import json
+import os
+import tempfile
+from collections.abc import Callable, Iterable, Sequence
+from importlib import import_module
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.validation import NOTHING, RANDOM
+from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.parameters import described
+from recalib.laboratory.summary import errors_table, summary, verdict
+from recalib.laboratory.universal_robots import kinematics_yaml
+from recalib.laboratory.urdf import corrected_urdf
+from recalib.nominal.kinematics import Arm
+from recalib.storage import whole
+
+SUMMARY, URDF, CORRECTION = "summary.txt", "arm.urdf", "correction.npz"
+TABLE, VALUES, OFFSETS, ROWS = "parameters.csv", "parameters.json", "joint_offsets.csv", "rows.csv"
+KINEMATICS, PAGE, RECORDING = "kinematics.yaml", "page.html", "recording.rrd"
+NAMES = (
+    *(SUMMARY, URDF, CORRECTION, TABLE, VALUES, OFFSETS, ROWS),
+    *(KINEMATICS, PAGE, RECORDING),
+)
+
+
+def write_files(
+    result: Calibrated,
+    folder: str | PathLike,
+    further: Sequence[tuple[str, Callable[[Path, Calibrated], None]]] = (),
+) -> list[str]:
+    """Write what is known into a folder, and say which files there are.
+
+    They are made elsewhere first, so that nothing of the folder is lost where one cannot be.
+
+    Args:
+        further: files to look at, by what writes them.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".making-", dir=folder) as making:
+        made = Path(making)
+        (made / SUMMARY).write_text(summary(result), encoding="utf-8")
+        _write_table(made / ROWS, _rows(result))
+        if result.worthwhile:
+            _write_calibration(made, result)
+        for name, write in further:
+            write(made / name, result)
+        for name in NAMES:
+            (folder / name).unlink(missing_ok=True)
+            if (made / name).exists():
+                os.replace(made / name, folder / name)
+    return [name for name in NAMES if (folder / name).exists()]
+
+
+def looks() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[str]]:
+    """What writes the files to look at, and a sentence for each that cannot be written here."""
+    writers, missing = [], []
+    for name, module, function in (
+        (PAGE, "recalib.laboratory.page", "write_page"),
+        (RECORDING, "recalib.laboratory.watching", "write_recording"),
+    ):
+        try:
+            writers.append((name, getattr(import_module(module), function)))
+        except ModuleNotFoundError as error:
+            package = error.name.partition(".")[0]
+            missing.append(f"No {name}: {package} is missing; pip install 'recalib[laboratory]'")
+    return writers, missing
+
+
+def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) -> None:
+    """Write joint coordinates (n, joints) and poses (n, 4, 4) in the columns that we read."""
+    scales = [1e3 if slides else 180 / np.pi for slides in arm.slides]
+    units = ["mm" if slides else "deg" for slides in arm.slides]
+    names = [f"{joint} [{unit}]" for joint, unit in zip(arm.joints, units, strict=True)]
+    names += [*(f"{axis} [mm]" for axis in "xyz"), *(f"r{axis} [deg]" for axis in "xyz")]
+    turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
+    numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
+    with whole(path) as temporary:
+        _write_table(
+            temporary,
+            (dict(zip(names, (f"{each:.9f}" for each in row), strict=True)) for row in numbers),
+        )
+
+
+def _write_calibration(folder: Path, result: Calibrated) -> None:
+    source, geometry = result.urdf.read_bytes(), result.geometry
+    text, tool = corrected_urdf(source, geometry)
+    (folder / URDF).write_bytes(text)
+    if (kinematics := kinematics_yaml(geometry)) is not None:
+        (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")
+    result.correction.save(folder / CORRECTION)
+    parameters = [vars(each) for each in described(geometry)]
+    _write_table(folder / TABLE, parameters)
+    offsets = [each for each in parameters if each["name"].startswith("offset of ")]
+    _write_table(folder / OFFSETS, offsets)
+    frames = result.calibration.frames
+    values = {
+        "verdict": verdict(result),
+        "tool": tool,
+        "base": result.arm.base,
+        "errors": errors_table(result),
+        "noise": result.calibration.estimate.noise.tolist(),
+        "base_in_instrument": frames.base.tolist(),
+        "targets_in_tool": dict(zip(result.targets, frames.targets.tolist(), strict=True)),
+        "sockets": dict(zip(result.sockets, frames.sockets.tolist(), strict=True)),
+        "parameters": parameters,
+    }
+    (folder / VALUES).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+
+
+def _rows(result: Calibrated) -> Iterable[dict]:
+    """For each row how far off it is, before and after, and how much it counted."""
+    validation, weights = result.validation, result.geometry.estimate.weights
+    before = 1e3 * validation.errors(RANDOM, NOTHING)[:, 0]
+    after = 1e3 * validation.errors(RANDOM, validation.chosen)[:, 0]
+    doubted = {*result.doubted}
+    for row, (old, new, weight) in enumerate(zip(before, after, weights, strict=True), start=1):
+        yield {
+            "row": row,
+            "before [mm]": f"{old:.5g}",
+            "after [mm]": f"{new:.5g}",
+            "weight": f"{weight:.3g}",
+            "doubted": "yes" if row in doubted else "no",
+        }
+
+
+def _write_table(path: Path, rows: Iterable[dict]) -> None:
+    rows = list(rows)
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, fieldnames=rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)

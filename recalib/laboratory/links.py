@@ -1,0 +1,89 @@
+"""A table of Denavit-Hartenberg parameters (CSV), and the URDF of its arm."""
+
+from os import PathLike
+from xml.etree import ElementTree
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.errors import InvalidFile
+from recalib.laboratory.columns import read_table
+from recalib.laboratory.urdf import angles_of
+from recalib.nominal.arms import UNBOUNDED
+from recalib.nominal.denavit_hartenberg import BASE, TOOL, Row
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.quantities import ANGLE, LENGTH
+
+JOINT, KIND = "joint", "kind"
+PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
+KINDS = "revolute", "prismatic"
+
+
+def read_rows(path: str | PathLike) -> list[Row]:
+    """The rows of the table at `path`, from the base to the tool.
+
+    Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, where
+    joints slide, `kind`: revolute or prismatic.
+
+    Raises InvalidFile: no such table, a column that is missing or unknown, a unit, a cell.
+    """
+    table = read_table(path)
+    table.check_columns([JOINT, *PARAMETERS, KIND])
+    for column in (JOINT, *PARAMETERS):
+        if column not in table:
+            raise InvalidFile(path, f"column {column!r} is missing")
+    kinds = table.cells.get(KIND, [KINDS[0]] * len(table))
+    for row, (name, kind) in enumerate(zip(table.cells[JOINT], kinds, strict=True), 1):
+        if not name:
+            raise InvalidFile(path, f"row {row} of column {JOINT!r} is empty; valid: a name")
+        if kind not in KINDS:
+            valid = " or ".join(KINDS)
+            raise InvalidFile(path, f"row {row} of column {KIND!r} is {kind!r}; valid: {valid}")
+    numbers = {name: table.numbers(name, quantity) for name, quantity in PARAMETERS.items()}
+    return [
+        Row(
+            name,
+            slides=kind == KINDS[1],
+            **{key: float(column[row]) for key, column in numbers.items()},
+        )
+        for row, (name, kind) in enumerate(zip(table.cells[JOINT], kinds, strict=True))
+    ]
+
+
+def urdf_of(arm: Arm) -> str:
+    """The URDF of an arm, without masses and limits: a link for each joint, and the tool."""
+    robot = ElementTree.Element("robot", name="arm")
+    model, parent = arm.model, BASE
+    ElementTree.SubElement(robot, "link", name=BASE)
+    for index, (name, axis, slides) in enumerate(
+        zip(arm.joints, arm.axes, arm.slides, strict=True), start=1
+    ):
+        child = f"{name}_link"
+        kind = "prismatic" if slides else "continuous"
+        joint = _add(robot, name, kind, parent, child, model.jointPlacements[index])
+        ElementTree.SubElement(joint, "axis", xyz=_numbers(axis))
+        if slides:  # which a URDF must bound
+            bounds = {"lower": str(-UNBOUNDED), "upper": str(UNBOUNDED)}
+            ElementTree.SubElement(joint, "limit", **bounds, effort="0", velocity="0")
+        parent = child
+    tool = model.frames[tool_frame(model, arm.tool)].placement
+    _add(robot, f"{TOOL}_mount", "fixed", parent, TOOL, tool)
+    ElementTree.indent(robot)
+    return ElementTree.tostring(robot, encoding="unicode") + "\n"
+
+
+def _add(
+    robot: ElementTree.Element, name: str, kind: str, parent: str, child: str, placement: pin.SE3
+) -> ElementTree.Element:
+    """A link, and the joint by which it hangs on another."""
+    ElementTree.SubElement(robot, "link", name=child)
+    joint = ElementTree.SubElement(robot, "joint", name=name, type=kind)
+    ElementTree.SubElement(joint, "parent", link=parent)
+    ElementTree.SubElement(joint, "child", link=child)
+    angles = _numbers(angles_of(placement.homogeneous))
+    ElementTree.SubElement(joint, "origin", xyz=_numbers(placement.translation), rpy=angles)
+    return joint
+
+
+def _numbers(vector: np.ndarray) -> str:
+    return " ".join(f"{each + 0.0:.17g}" for each in vector)

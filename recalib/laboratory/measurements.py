@@ -1,0 +1,188 @@
+"""What was measured of an arm, read from a table; docs/own_arm.md describes its columns."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import InvalidFile
+from recalib.identification.soundness import FEWEST
+from recalib.laboratory.columns import NUMBER, Table, read_table
+from recalib.laboratory.description import Description
+from recalib.nominal.kinematics import Arm
+from recalib.quantities import ANGLE, LENGTH, Quantity
+
+POSITION = "x", "y", "z"
+NOMINAL = "x_nominal", "y_nominal", "z_nominal"
+MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place of x, y, z
+QUATERNION = "qx", "qy", "qz", "qw"
+ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
+VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
+LABELS = "target", "socket"
+SKEW = 0.01  # of a quaternion's length, as instruments round it
+FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}
+Vectors = Mapping[tuple[str, ...], np.ndarray | None]
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """Rows of a table, in SI units.
+
+    Attributes:
+        count: n, how many there are.
+        coordinates: (n, joints) rad, or m where a joint slides, in which the controller believed.
+        positions: (n, 3) m of a target in the instrument's frame; None where there are none.
+        rotations: (n, 3, 3) of the target in the instrument's frame; None likewise.
+        nominal: (n, 3) m, where the positions should have been; None likewise.
+        targets: (n,) names of the targets that were measured, the same everywhere if there is one.
+        sockets: (n,) names of the sockets in which the ball sat; None where there are none.
+    """
+
+    count: int
+    coordinates: np.ndarray | None = None
+    positions: np.ndarray | None = None
+    rotations: np.ndarray | None = None
+    nominal: np.ndarray | None = None
+    targets: np.ndarray | None = None
+    sockets: np.ndarray | None = None
+
+    def __len__(self) -> int:
+        return self.count
+
+
+def read_measurements(
+    path: str | PathLike, arm: Arm, description: Description | None = None
+) -> Measurements:
+    """The measurements of an arm in the table at `path`.
+
+    Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, there
+    twice or useless; a cell that is no number or too large for an arm; too few rows; nothing
+    measured.
+    """
+    read = _read(path, arm, description)
+    if read.coordinates is None:
+        raise InvalidFile(path, _lacking(arm, arm.joints[0]))
+    if len(read) < FEWEST:
+        raise InvalidFile(path, f"it has {len(read)} rows; valid: at least {FEWEST}")
+    if read.positions is None and read.sockets is None:
+        raise InvalidFile(path, "nothing was measured in it; valid: x, y, z or socket")
+    if read.positions is not None and read.sockets is not None:
+        raise InvalidFile(path, "it has both positions and sockets; valid: one of them")
+    return read
+
+
+def read_desired(path: str | PathLike, arm: Arm) -> Measurements:
+    """Desired joint coordinates, poses or positions of the tool in the arm's base, or both.
+
+    Raises InvalidFile as `read_measurements` does, but one row is enough.
+    """
+    read = _read(path, arm, None)
+    if read.coordinates is None and read.positions is None:
+        raise InvalidFile(path, f"it has neither x, y, z nor joints; valid: {_columns(arm)}")
+    return read
+
+
+def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Measurements:
+    table = read_table(path, description and description.columns)
+    table.check_columns([*arm.joints, *(name for group in VECTORS for name in group), *LABELS])
+    vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
+    coordinates = None
+    if any(joint in table for joint in arm.joints):
+        for joint in arm.joints:
+            if joint not in table:
+                raise InvalidFile(path, _lacking(arm, joint))
+        coordinates = np.stack(
+            [
+                _within(table, joint, kind)
+                for joint, kind in zip(arm.joints, _kinds(arm), strict=True)
+            ],
+            axis=1,
+        )
+    return Measurements(
+        len(table),
+        coordinates,
+        _positions(table, vectors),
+        _rotations(table, vectors),
+        vectors[NOMINAL],
+        *(np.array(table.cells[label]) if label in table else None for label in LABELS),
+    )
+
+
+def _kinds(arm: Arm) -> list[Quantity]:
+    return [LENGTH if slides else ANGLE for slides in arm.slides]
+
+
+def _columns(arm: Arm) -> str:
+    units = {ANGLE: "deg", LENGTH: "mm"}
+    pairs = zip(arm.joints, _kinds(arm), strict=True)
+    return ", ".join(f"{joint} [{units[kind]}]" for joint, kind in pairs)
+
+
+def _lacking(arm: Arm, joint: str) -> str:
+    return f"it lacks a column for joint {joint!r}; the arm's are {_columns(arm)}"
+
+
+def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
+    nominal, missed, positions = vectors[NOMINAL], vectors[MISSED], vectors[POSITION]
+    if missed is None:
+        return positions
+    if nominal is None or positions is not None:
+        raise InvalidFile(
+            table.path, f"{', '.join(MISSED)} stand beside {', '.join(NOMINAL)} and no x, y, z"
+        )
+    return nominal + missed
+
+
+def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray | None:
+    there = [name for name in group if name in table]
+    if not there:
+        return None
+    if missing := [name for name in group if name not in table]:
+        raise InvalidFile(
+            table.path, f"it has {', '.join(there)} and lacks {', '.join(missing)} beside it"
+        )
+    return np.stack([_within(table, name, kind) for name in group], axis=1)
+
+
+def _within(table: Table, column: str, kind: Quantity) -> np.ndarray:
+    """The numbers of a column, none of which an arm could not reach."""
+    numbers = table.numbers(column, kind)
+    if kind in FARTHEST:
+        most, text = FARTHEST[kind]
+        beyond = np.abs(numbers) > most
+        if beyond.any():
+            cell = table.cells[column][beyond.argmax()]
+            raise InvalidFile(
+                table.path,
+                f"row {beyond.argmax() + 1} of column {table.shown(column)!r} is {cell}"
+                f" {table.units[column]};"
+                f" valid: up to {text}, so that the unit may be another one",
+            )
+    return numbers
+
+
+def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
+    given = [group for group in ROTATIONS if vectors[group] is not None]
+    if not given:
+        return None
+    if len(given) > 1:
+        both = " and ".join(", ".join(group) for group in given)
+        raise InvalidFile(table.path, f"its rotations are given twice: {both}; valid: once")
+    if vectors[POSITION] is None and vectors[MISSED] is None:
+        raise InvalidFile(table.path, "it has rotations without positions; valid: x, y, z, too")
+    numbers = vectors[given[0]]
+    if given[0] == QUATERNION:
+        lengths = np.linalg.norm(numbers, axis=1)
+        wrong = np.abs(lengths - 1) > SKEW
+        if wrong.any():
+            row = wrong.argmax()
+            raise InvalidFile(
+                table.path,
+                f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; valid: 1",
+            )
+        return Rotation.from_quat(numbers).as_matrix()
+    if given[0][0] == "rx":
+        return Rotation.from_rotvec(numbers).as_matrix()
+    return Rotation.from_euler("xyz", numbers).as_matrix()

@@ -1,0 +1,42 @@
+"""A page to look at: one file, which asks for nothing from elsewhere."""
+
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.drawings import (
+    draw_arm,
+    draw_errors,
+    draw_over_joints,
+)
+from recalib.laboratory.parameters import described
+from recalib.laboratory.summary import errors_table, notes, verdict
+
+LISTED = 15  # parameters, the surest first
+
+
+def write_page(path: Path, result: Calibrated) -> None:
+    """Write the page of a calibration."""
+    environment = Environment(
+        loader=PackageLoader("recalib.laboratory", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    decided = [each for each in described(result.geometry) if each.decided_by == "data"]
+    decided.sort(key=lambda each: -abs(each.value) / each.deviation)
+    text = environment.get_template("page.html.j2").render(
+        result=result,
+        verdict=verdict(result),
+        notes=notes(result),
+        errors=errors_table(result),
+        errors_drawing=draw_errors(result),
+        joints_drawing=draw_over_joints(result),
+        arm_drawing=draw_arm(result),
+        parameters=decided[:LISTED],
+        decided=len(decided),
+        undecided=len(described(result.geometry)) - len(decided),
+    )
+    path.write_text(text, encoding="utf-8")

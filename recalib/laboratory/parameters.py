@@ -1,0 +1,85 @@
+"""The parameters of a calibrated arm by name, with what is known of each."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.observations import Observations
+from recalib.identification.openness import open_parameters
+
+DATA = 0.5  # of a prior's variance: what measurements have left less of, they decided
+MOTIONS = "shift along x", "shift along y", "shift along z", "turn about x", "turn about y"
+MOTIONS += ("turn about z",)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One of them.
+
+    Attributes:
+        name: in words.
+        unit: mm or deg, or what else a joint's error is a function of.
+        value, deviation: in that unit, of the estimate.
+        decided_by: data, or prior where these have told little.
+    """
+
+    name: str
+    unit: str
+    value: float
+    deviation: float
+    decided_by: str
+
+
+def described(calibration: Calibration) -> list[Parameter]:
+    """All parameters of geometry, in the order of the error model."""
+    model, estimate = calibration.model, calibration.estimate
+    deviations = np.sqrt(np.diag(estimate.covariance))
+    return [
+        Parameter(
+            name,
+            unit,
+            float(scale * estimate.parameters[index]),
+            float(scale * deviations[index]),
+            "data" if deviations[index] ** 2 < DATA * model.deviations[index] ** 2 else "prior",
+        )
+        for index, (name, unit, scale) in enumerate(_names(calibration))
+    ]
+
+
+def open_directions(calibration: Calibration, seen: Observations) -> list[tuple[str, bool]]:
+    """What was seen leaves open, in words, and whether any other postures could tell it."""
+    names = [name for name, *_ in _names(calibration)]
+    told = []
+    for one in open_parameters(calibration, seen):
+        partners = " and ".join(_one(names[partner]) for partner in one.partners)
+        its = _one(names[one.parameter])
+        told.append((f"{its} from {partners}" if partners else its, not one.lasting))
+    return told
+
+
+def _one(name: str) -> str:
+    return f"an {name}" if name.startswith("offset") else f"a {name}"
+
+
+def _names(calibration: Calibration) -> Iterator[tuple[str, str, float]]:
+    """Name, unit, and its number in an SI unit, of each parameter of geometry."""
+    arm, frames = calibration.model.nominal, calibration.model.frames
+    links = ["base", *(f"link behind {joint}" for joint in arm.joints[:-1])]
+    ends = [f"target {number + 1}" for number in range(len(frames.targets))]
+    if len(ends) == 1:
+        ends = ["target" if frames.unknown else "tool"]
+    for link in [*links, *ends]:
+        for motion in MOTIONS:
+            unit, scale = _unit(slides=motion.startswith("shift"))
+            yield f"{motion} of the {link}", unit, scale
+    for socket in range(len(frames.sockets)):
+        for axis in "xyz":
+            yield f"{axis} of socket {socket + 1}, beside its first guess", "mm", 1e3
+    for joint, slides in zip(arm.joints, arm.slides, strict=True):
+        yield f"offset of {joint}", *_unit(slides)
+
+
+def _unit(slides: bool) -> tuple[str, float]:
+    return ("mm", 1e3) if slides else ("deg", 180 / np.pi)

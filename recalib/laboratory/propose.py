@@ -1,0 +1,106 @@
+"""Which postures to measure next: those that teach most, and when it is enough.
+
+Candidates come from the user, or are drawn where the arm has already been and a little beyond:
+there the instrument saw the target and nothing was hit. Joint ranges keep off their ends.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.identification.calibration import Calibration
+from recalib.laboratory.correct import solve
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.measurements import Measurements
+from recalib.randomness import generator
+
+DRAWN = 400  # candidates
+BEYOND = 0.1  # of the range that was looked at, on either side
+OUTERMOST = 0.05  # of a joint's range at either end, in which arms behave otherwise
+PROBES = 200  # postures whose predictions are judged
+ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth measuring
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Postures to measure, the most telling first.
+
+    Attributes:
+        joints: (n, joints) rad, or m where a joint slides.
+        uncertainty: (n + 1,) m, the mean deviation of predicted positions before and after each.
+    """
+
+    joints: np.ndarray
+    uncertainty: np.ndarray
+
+    @property
+    def worthwhile(self) -> bool:
+        """Whether measuring all of them would make predictions noticeably better."""
+        return self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0]
+
+
+def propose(correction: Correction, count: int, candidates: Measurements | None = None) -> Proposal:
+    """The postures that would teach the most of the arm, each given those before it.
+
+    Args:
+        count: how many.
+        candidates: joint coordinates, or poses of the tool in the arm's base, of which those that
+            are out of reach or near the end of a joint's range are left out; drawn unless given.
+    """
+    postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
+    calibration = correction.calibration
+    noise = calibration.estimate.noise
+    seen = 3 * len(noise)
+    rows = _jacobians(calibration, postures)[:, :seen] / np.repeat(noise, 3)[:, None]
+    probes = _jacobians(calibration, _drawn(correction)[:PROBES])[:, :3]
+    covariance = calibration.estimate.covariance.copy()
+    chosen, uncertainty = [], [_uncertainty(probes, covariance)]
+    for _ in range(min(count, len(postures))):
+        spread = np.eye(seen) + rows @ covariance @ rows.swapaxes(1, 2)
+        gains = np.linalg.slogdet(spread).logabsdet
+        gains[chosen] = -np.inf
+        best = int(gains.argmax())
+        chosen.append(best)
+        # what a measurement there leaves of the uncertainty (Woodbury)
+        told = rows[best] @ covariance
+        covariance -= told.T @ np.linalg.solve(spread[best], told)
+        uncertainty.append(_uncertainty(probes, covariance))
+    return Proposal(postures[chosen], np.array(uncertainty))
+
+
+def _jacobians(calibration: Calibration, postures: np.ndarray) -> np.ndarray:
+    """(n, 6, P) of the first target by the parameters."""
+    model = calibration.model
+    _, jacobians = model.linearise(calibration.estimate.parameters, postures, model.terms(postures))
+    return jacobians
+
+
+def _uncertainty(probes: np.ndarray, covariance: np.ndarray) -> float:
+    variances = np.einsum("nip,pq,niq->n", probes, covariance, probes)
+    return float(np.sqrt(variances).mean())
+
+
+def _drawn(correction: Correction) -> np.ndarray:
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    margin = BEYOND * (high - low)
+    lower, upper = _limits(correction)
+    low, high = np.maximum(low - margin, lower), np.minimum(high + margin, upper)
+    random = generator(0, "postures to measure next")
+    return random.uniform(low, np.maximum(low, high), (DRAWN, len(low)))
+
+
+def _limits(correction: Correction) -> tuple[np.ndarray, np.ndarray]:
+    """(joints,) each: joint limits without the outermost ranges."""
+    model = correction.arm.model
+    lower, upper = model.lowerPositionLimit, model.upperPositionLimit
+    margin = np.where(np.isfinite(upper - lower), OUTERMOST * (upper - lower), 0.0)
+    return lower + margin, upper - margin
+
+
+def _reachable(correction: Correction, candidates: Measurements) -> np.ndarray:
+    if candidates.positions is None:
+        found, reached = candidates.coordinates, np.ones(len(candidates), dtype=bool)
+    else:
+        found, _, reached = solve(correction, candidates)
+    lower, upper = _limits(correction)
+    return found[reached & ((found >= lower) & (found <= upper)).all(axis=1)]

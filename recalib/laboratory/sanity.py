@@ -1,0 +1,205 @@
+"""Nominal positions beside the nominal kinematics, before anything is fitted.
+
+A controller that says where it believes the tool to be gives away what most often goes wrong with
+data: another zero, sign or order of joints, another unit, a base that is turned, a tool that was
+forgotten. Each mistake is tried, alone and then in pairs; the one that explains is named.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import RecalibError
+from recalib.nominal.kinematics import Arm
+
+ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
+EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
+ENOUGH = 40  # rows to try mistakes on
+REFINED = 8  # so many of the likeliest mistakes are looked at closely
+STEPS = 50
+QUARTERS = 90, -90, 180  # degrees
+UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
+
+Try = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+class WrongNominal(RecalibError):
+    """Nominal positions that are not those of the nominal arm.
+
+    Attributes:
+        gap: m, the largest difference.
+        mistake: the likely one, in words; None where none explains it.
+    """
+
+    def __init__(self, gap: float, mistake: str | None):
+        self.gap, self.mistake = gap, mistake
+        likely = (
+            f"likely: {mistake}"
+            if mistake
+            else "no single mistake of zero, sign, order or unit explains it: is it another arm?"
+        )
+        super().__init__(
+            f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
+            f" the tool; {likely}"
+        )
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Frames that bring nominal kinematics to nominal positions as well as frames can.
+
+    Attributes:
+        base: (4, 4) m, the arm's base in the frame of the positions.
+        target: (3,) m in the tool link's frame.
+        gaps: (n,) m that are left.
+    """
+
+    base: np.ndarray
+    target: np.ndarray
+    gaps: np.ndarray
+
+    @property
+    def rms(self) -> float:
+        """Of the gaps [m]."""
+        return float(np.sqrt(np.mean(self.gaps**2)))
+
+    def __str__(self) -> str:
+        turn = Rotation.from_matrix(self.base[:3, :3])
+        words = []
+        if turn.magnitude() > UNTURNED:
+            axis = turn.as_rotvec() / turn.magnitude()
+            about = ", ".join(f"{round(each, 2) + 0.0:g}" for each in axis)
+            words.append(
+                f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})"
+            )
+        if np.linalg.norm(self.base[:3, 3]) > MOVED:
+            words.append(f"the base moved by {_millimetres(self.base[:3, 3])}")
+        if np.linalg.norm(self.target) > MOVED:
+            words.append(f"a tool point at {_millimetres(self.target)} of the tool link")
+        return " and ".join(words)
+
+
+def check_nominal(
+    arm: Arm,
+    coordinates: np.ndarray,
+    nominal: np.ndarray,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> Fit | None:
+    """Compare nominal positions with the nominal kinematics.
+
+    Args:
+        coordinates: (n, joints) rad, or m where a joint slides.
+        nominal: (n, 3) m.
+        base: (4, 4) m, the arm's base in the frame of the positions, where it is known.
+        target: (3,) m in the tool link's frame, where it is known.
+
+    Returns the frames between them where these are unknown and not those of the URDF: they are to
+    be identified anyway. Raises WrongNominal.
+    """
+    known = np.eye(4) if base is None else base
+    point = np.zeros(3) if target is None else target
+    gaps = _gaps(arm.forward(coordinates), nominal, known, point)
+    if gaps.max() <= ALIKE:
+        return None
+    rows = np.unique(np.linspace(0, len(nominal) - 1, ENOUGH).astype(int))
+    fit = _fit(arm.forward(coordinates[rows]), nominal[rows])
+    if fit.gaps.max() <= ALIKE:
+        if base is None and target is None:
+            return fit
+        beside = Fit(fit.base @ np.linalg.inv(known), fit.target - point, fit.gaps)
+        raise WrongNominal(gaps.max(), f"{beside}, which nobody said")
+    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], nominal[rows], fit))
+
+
+def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: Fit) -> str | None:
+    """The mistake that explains the most, of one step and then of two."""
+    steps = list(_steps(arm))
+    for count in (1, 2):
+        tried = []
+        for chosen in combinations(steps, count):
+            undone = coordinates, nominal
+            for _, change in chosen:
+                undone = change(*undone)
+            words = " and ".join(name for name, _ in chosen)
+            poses, positions = arm.forward(undone[0]), undone[1]
+            tried.append((_relaxed(poses, positions)[1], words, poses, positions))
+        tried.sort(key=lambda one: one[0])
+        fits = [(_fit(poses, positions), words) for _, words, poses, positions in tried[:REFINED]]
+        fit, words = min(fits, key=lambda one: one[0].rms)
+        if fit.gaps.max() <= ALIKE and fit.rms < EXPLAINED * plain.rms:
+            return words
+    return None
+
+
+def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
+    """Mistakes in words, and what undoes each: from joint coordinates and positions to others."""
+    count = len(arm.joints)
+    yield "joint columns in degrees that say rad", lambda q, p: (np.radians(q), p)
+    yield "joint columns in radians that say deg", lambda q, p: (np.degrees(q), p)
+    yield "positions in millimetres that say m", lambda q, p: (q, p * 1e-3)
+    yield "positions in metres that say mm", lambda q, p: (q, p * 1e3)
+    for joint, name in enumerate(arm.joints):
+        signs = np.where(np.arange(count) == joint, -1.0, 1.0)
+        yield f"the sign of {name}", lambda q, p, signs=signs: (q * signs, p)
+    for joint, name in enumerate(arm.joints):
+        for degrees in () if arm.slides[joint] else QUARTERS:
+            shift = np.where(np.arange(count) == joint, np.radians(degrees), 0.0)
+            words = f"the zero of {name}, off by {-degrees} deg"
+            yield words, lambda q, p, shift=shift: (q + shift, p)
+    for one, other in combinations(range(count), 2):
+        order = np.arange(count)
+        order[[one, other]] = other, one
+        names = f"{arm.joints[one]} and {arm.joints[other]}"
+        yield f"the columns of {names} exchanged", lambda q, p, order=order: (q[:, order], p)
+    yield "the joint columns in reverse order", lambda q, p: (q[:, ::-1], p)
+
+
+def _gaps(
+    poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, point: np.ndarray
+) -> np.ndarray:
+    reached = base @ poses @ np.array([*point, 1.0])
+    return np.linalg.norm(reached[:, :3] - nominal, axis=1)
+
+
+def _fit(poses: np.ndarray, nominal: np.ndarray) -> Fit:
+    """By nonlinear least squares from where the relaxed problem has its solution."""
+    turns, places = poses[:, :3, :3], poses[:, :3, 3]
+    first = Rotation.from_matrix(_relaxed(poses, nominal)[0])
+
+    def reached(numbers: np.ndarray) -> np.ndarray:
+        points = places + turns @ numbers[6:]
+        return (Rotation.from_rotvec(numbers[:3]) * first).apply(points) + numbers[3:6]
+
+    start = np.array([*np.zeros(3), *(nominal - first.apply(places)).mean(axis=0), *np.zeros(3)])
+    found = least_squares(
+        lambda numbers: (reached(numbers) - nominal).ravel(), start, x_scale="jac", max_nfev=STEPS
+    ).x
+    base = np.eye(4)
+    base[:3, :3] = (Rotation.from_rotvec(found[:3]) * first).as_matrix()
+    base[:3, 3] = found[3:6]
+    return Fit(base, found[6:], np.linalg.norm(reached(found) - nominal, axis=1))
+
+
+def _relaxed(poses: np.ndarray, nominal: np.ndarray) -> tuple[np.ndarray, float]:
+    """A first guess of the base's turn (3, 3), and a lower bound [m] of what every fit leaves.
+
+    With a base that may be any matrix the fit is linear: X' p - R z + b = t.
+    """
+    count = len(nominal)
+    matrix = np.kron(np.eye(3), nominal[:, None]).reshape(count, 3, 9)
+    unit = np.tile(np.eye(3), (count, 1, 1))
+    system = np.concatenate([matrix, -poses[:, :3, :3], unit], axis=2).reshape(3 * count, 15)
+    goal = poses[:, :3, 3].ravel()
+    found, *_ = np.linalg.lstsq(system, goal)
+    left, _, right = np.linalg.svd(found[:9].reshape(3, 3).T)
+    turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    return turn, float(np.sqrt(np.mean((system @ found - goal) ** 2)))
+
+
+def _millimetres(vector: np.ndarray) -> str:
+    return f"({', '.join(f'{round(1e3 * each, 1) + 0.0:g}' for each in vector)}) mm"

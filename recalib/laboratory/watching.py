@@ -1,0 +1,83 @@
+"""A recording for the Rerun viewer: the arm in each measured posture, and what it missed there."""
+
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from recalib.identification.validation import NOTHING
+from recalib.laboratory.calibrate import Calibrated
+from recalib.viewing import link_placements, log_meshes, send_frame
+
+ARM, ROW = "arm", "row"
+BEFORE, AFTER, GREY = (213, 94, 0), (0, 114, 178), (120, 120, 120)
+LONGEST = 0.12  # m: so long is the largest miss shown
+THICK = 0.003  # m
+
+
+def write_recording(path: Path, result: Calibrated) -> None:
+    """Write the recording of a calibration. Everything stands in the arm's base."""
+    seen, calibration = result.seen[result.counted], result.calibration
+    back = np.linalg.inv(calibration.frames.base)
+    places = calibration.seen(seen.joints, seen.targets)[:, :3, 3] @ back[:3, :3].T + back[:3, 3]
+    misses = {"before": (NOTHING, BEFORE)}
+    if result.worthwhile:
+        misses["after"] = result.validation.chosen, AFTER
+    largest = np.linalg.norm(result.missed(NOTHING)[:, :3], axis=1).max()
+    longer = float(f"{LONGEST / largest:.0e}")
+    rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
+    with rr.RecordingStream("recalib calibration") as rec:
+        rec.save(path, default_blueprint=_blueprint(longer))
+        rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        rec.log("measured", rr.Points3D(places, radii=THICK, colors=GREY), static=True)
+        _send_arm(rec, result)
+        rows = rr.TimeColumn(ROW, sequence=result.counted + 1)
+        for name, (kind, colour) in misses.items():
+            missed = result.missed(kind)[:, :3] @ back[:3, :3].T
+            rec.log(
+                f"misses/{name}",
+                rr.Arrows3D(
+                    origins=places, vectors=longer * missed, colors=colour, radii=THICK / 3
+                ),
+                static=True,
+            )
+            rec.log(f"errors/{name}", rr.SeriesLines(colors=colour, names=name), static=True)
+            errors = 1e3 * np.linalg.norm(missed, axis=1)
+            rec.send_columns(f"errors/{name}", [rows], rr.Scalars.columns(scalars=errors))
+        rec.send_columns(
+            "now", [rows], rr.Points3D.columns(positions=places, radii=[4 * THICK] * len(places))
+        )
+
+
+def _blueprint(longer: float) -> rrb.Blueprint:
+    return rrb.Blueprint(
+        rrb.Vertical(
+            rrb.Spatial3DView(
+                origin="/",
+                name=f"the arm, and its misses {longer:g} times as long",
+                contents=["+ /**", "- /errors/**"],
+            ),
+            rrb.TimeSeriesView(
+                origin="errors", name="position error on rows not learned from [mm]"
+            ),
+            row_shares=[3, 1],
+        ),
+        rrb.TimePanel(timeline=ROW, fps=4),
+        collapse_panels=True,
+    )
+
+
+def _send_arm(rec: rr.RecordingStream, result: Calibrated) -> None:
+    """The nominal arm in each row: its meshes, and a line along it, if they are missing."""
+    arm, joints = result.arm, result.seen.joints
+    rows = [rr.TimeColumn(ROW, sequence=np.arange(1, len(joints) + 1))]
+    visuals = log_meshes(rec, result.urdf, ARM)
+    for link, poses in link_placements(arm, visuals, joints).items():
+        send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", rows, poses)
+    strips = rr.LineStrips3D.columns(
+        strips=[[line] for line in arm.skeleton(joints).tolist()],
+        radii=[THICK] * len(joints),
+        colors=[GREY] * len(joints),
+    )
+    rec.send_columns("line", rows, strips)
