@@ -200,13 +200,18 @@ class RealTable(Frozen):
 
 
 class Recording(Frozen):
-    """Learners that are recorded side by side, by name; the arm follows the first."""
+    """Learners that are recorded side by side, by name: today's have no settings, and few moves."""
 
     scenario: str
-    learners: dict[str, Learner]
+    learners: dict[str, Learner | None]
+    moves: int
     measuring: Measuring
     seed: int
     published: dict[str, float]
+
+    def papers(self) -> list[str]:
+        """Those of the paper, whose trainings are experiments of the study."""
+        return [name for name, learner in self.learners.items() if learner]
 
 
 class Speed(Frozen):

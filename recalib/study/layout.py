@@ -36,6 +36,11 @@ class Layout:
         return f"{self.root}/claims.json"
 
     @property
+    def outcome(self) -> str:
+        """What came out, for a terminal."""
+        return f"{self.root}/outcome.txt"
+
+    @property
     def coverage(self) -> str:
         """How often intervals held, when the study was repeated within itself."""
         return f"{self.root}/coverage.csv"
@@ -157,9 +162,9 @@ class Layout:
         """A page of the report."""
         return f"{self.root}/report/{page}{suffix}"
 
-    def recording(self, scenario: str) -> str:
-        """The recording of a scenario."""
-        return f"{self.root}/recordings/{scenario}.rrd"
+    def recording(self, name: str) -> str:
+        """A recording, named as `Plan.recording` has it."""
+        return f"{self.root}/recordings/{name}.rrd"
 
     @property
     def name(self) -> str:

@@ -11,6 +11,7 @@ from recalib.study.configuration.switches import IMPROVED
 from recalib.study.trainings import Trainings, rules, scenario_of, training
 
 SIDE_BY_SIDE = 5  # scenarios in a job: many robots solved in one call take half the time a move
+TODAYS, FEW = "geometric", 5  # the learner that is recorded beside the paper's, and its moves
 
 
 def chunks(total: int, size: int) -> list[int]:
@@ -257,13 +258,26 @@ class Plan:
         iterations = {name: training(self.study, name).iterations for name in named}
         return [name for name in named if iterations[name] == min(iterations.values())]
 
-    def recording(self, scenario: str) -> jobs.Recording:
-        """The recording of a scenario; what is published belongs to the paper's damage."""
+    def recordings(self) -> list[str]:
+        """The names of all recordings; none of a study without a learner that is recorded."""
+        its = self.study.experiments.scenarios if self.recorded() else ()
+        own = self.study.scenario
+        return [*its, *([f"{own}.today"] if own in its else [])]
+
+    def recording(self, name: str) -> jobs.Recording:
+        """The recording of a scenario; SCENARIO.today: of one of today's learners beside a map.
+
+        What is published belongs to the paper's damage.
+        """
+        scenario, _, today = name.partition(".")
         own, published = self.study.scenario, self.study.paper_damage.published
         assigned = any(isinstance(entry, Assigned) for entry in self.study.scenarios[own])
+        papers = {learner: rules(self.study, learner) for learner in self.recorded()}
+        first = next(iter(papers))
         return jobs.Recording(
             scenario=scenario,
-            learners={name: rules(self.study, name) for name in self.recorded()},
+            learners={TODAYS: None, first: papers[first]} if today else papers,
+            moves=FEW,
             measuring=self.measuring(),
             seed=self.study.seed,
             published=published.model_dump() if assigned and scenario == own else {},

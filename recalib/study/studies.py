@@ -10,13 +10,20 @@ from typing import Any
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.checks import check
-from recalib.study.configuration.messages import Mistake, unlike
-from recalib.study.configuration.reading import read_study
+from recalib.study.configuration.messages import (
+    InvalidConfiguration,
+    Mistake,
+    unknown,
+    unlike,
+)
+from recalib.study.configuration.reading import Source, placed, read_study
 from recalib.study.configuration.study import Study
+from recalib.study.configuration.values import Placed, from_mapping, shown
 from recalib.study.layout import SHIPPED, root_of
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
+LIKE = "like"  # the key by which a study names another one, of which it says what it changes
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 REMEMBERED = ".snakemake/checked"
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
@@ -67,9 +74,14 @@ def read_studies(
     Raises InvalidConfiguration, NotShipped, NameTaken.
     """
     checks = check, partial(named_files, project), partial(_check_robots_once, project)
-    read = partial(read_study, project / CONFIGURATION, checks=checks)
+    known = sorted((project / OTHERS).glob("*.yaml"))
+
+    def read(*sources: Source) -> Study:
+        layers = (layer for source in sources for layer in layers_of(source, known))
+        return read_study(project / CONFIGURATION, *layers, checks=checks)
+
     main = read(*files, *([_typed(changes)] if changes else []))
-    others = [read(path) for path in sorted((project / OTHERS).glob("*.yaml"))]
+    others = list(map(read, known))
     studies = {root_of(main.name): main}
     if main.name != SHIPPED and (files or changes):
         others.insert(0, read())
@@ -79,6 +91,33 @@ def read_studies(
     if shipped := studies.get(root_of(SHIPPED)):
         check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
     return root_of(main.name), studies
+
+
+def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
+    """What a source lays over config.yaml: first the study that it is `like`, then what it says.
+
+    A study that is like another one has no bands, and is called like its file, unless it says so.
+
+    Args:
+        known: files of the studies that another one may be like.
+
+    Raises InvalidConfiguration.
+    """
+    its = placed(source)
+    if LIKE not in its.content:
+        return [its]
+    like = its.content[LIKE]
+    valid = {path.stem: path for path in known if path != source}  # it goes round in no circle
+    if (other := valid.pop(name := str(like.plain()), None)) is None:
+        mistake = unknown((LIKE,), name, valid)
+        raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
+    own = {"name": Path(its.place[0]).stem, "expected": None}
+    said = {key: value for key, value in its.content.items() if key != LIKE}
+    return [
+        *layers_of(other, [*valid.values()]),
+        from_mapping(own),
+        Placed(said, its.place, its.origin),
+    ]
 
 
 def _typed(value: Any) -> Any:

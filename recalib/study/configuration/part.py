@@ -4,15 +4,13 @@ from pydantic import BaseModel, ConfigDict
 
 
 class Frozen(BaseModel):
-    """A value that cannot be changed, and knows no other keys than its own."""
+    """A value that cannot be changed, and knows no other keys than its own.
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    What checks it is built when it is first needed: a job needs few of all kinds.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
 
 class Part(Frozen):
-    """A part of the configuration: below each key stands its meaning.
-
-    To find these texts takes time, so that what explains itself otherwise is but a `Frozen`.
-    """
-
-    model_config = ConfigDict(use_attribute_docstrings=True)
+    """A part of the configuration: below each key stands its meaning, for the schema."""

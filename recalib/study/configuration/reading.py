@@ -12,7 +12,7 @@ from recalib.study.configuration.refusals import refusals
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import Placed, from_file, from_mapping, shown
 
-Source = str | PathLike | Mapping
+Source = str | PathLike | Mapping | Placed
 Check = Callable[[Study], Iterable[Mistake]]
 
 
@@ -26,22 +26,28 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
 
     Raises InvalidConfiguration, with file, line and column of every mistake.
     """
-    sources = [
-        from_mapping(each) if isinstance(each, Mapping) else from_file(each)
-        for each in (path, *overlays)
-    ]
-    whole = reduce(Placed.under, sources)
+    whole = reduce(Placed.under, map(placed, (path, *overlays)))
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
-        raise _placed(refusals(error), whole) from None
+        raise _at_its_place(refusals(error), whole) from None
     for each in checks:
         if mistakes := list(each(study)):
-            raise _placed(mistakes, whole)
+            raise _at_its_place(mistakes, whole)
     return study
 
 
-def _placed(mistakes: Iterable[Mistake], whole: Placed) -> InvalidConfiguration:
+def placed(source: Source) -> Placed:
+    """The values of a file or of a mapping. Raises InvalidConfiguration."""
+    match source:
+        case Placed():
+            return source
+        case Mapping():
+            return from_mapping(source)
+    return from_file(source)
+
+
+def _at_its_place(mistakes: Iterable[Mistake], whole: Placed) -> InvalidConfiguration:
     """The mistakes where they stand, in that order; what many uses of an anchor share, once."""
     lines = {}
     for mistake in mistakes:

@@ -42,6 +42,7 @@ def check_robots(study: Study) -> list[Mistake]:
             found += _of_scenario(study, scenario, robots[robot])
         found += _of_assignment(study, [robots[name] for name in assigned_robots(study)])
         if study.experiments.evidence and not found:
+            found += _of_mapping(robots[study.robot])
             found += _of_series(study, robots[study.robot])
     return found
 
@@ -108,6 +109,13 @@ def _of_assignment(study: Study, robots: Iterable[Robot]) -> Iterator[Mistake]:
         if whole and length >= whole[name, link]:
             valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
             yield unlike(("paper_damage", "shorten", index), LENGTH.write(length), valid)
+
+
+def _of_mapping(robot: Robot) -> Iterator[Mistake]:
+    """An arm whose posture is the controller's choice: its true mapping is not known."""
+    if len(robot.joints) > 6:
+        valid = f"false with the {robot.name}, an arm of {len(robot.joints)} joints"
+        yield unlike(("experiments", "evidence"), True, valid)
 
 
 def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:

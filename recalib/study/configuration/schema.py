@@ -3,31 +3,54 @@
 `python -m recalib.study.configuration.schema` writes workflow/schemas/config.schema.json.
 """
 
+import ast
+import inspect
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema
 
 from recalib.storage import whole
 from recalib.study.configuration.messages import KeyPath, listed
+from recalib.study.configuration.part import Part
 from recalib.study.configuration.study import Study
 
 FILE = Path("workflow/schemas/config.schema.json")
 
 
-class _WithoutTitles(GenerateJsonSchema):
-    """Titles would repeat the keys."""
+class _WithMeanings(GenerateJsonSchema):
+    """With what stands below each key, and without titles, which would repeat the keys."""
 
     def field_title_should_be_set(self, schema) -> bool:
         return False
+
+    def model_schema(self, schema) -> dict:
+        made = super().model_schema(schema)
+        for key, meaning in _meanings(schema["cls"]).items():
+            made["properties"][key]["description"] = meaning
+        return made
+
+
+def _meanings(part: type) -> dict[str, str]:
+    """The text below each key of a part; pydantic itself would read them at each start."""
+    found = {}
+    for kind in reversed(part.__mro__):
+        if issubclass(kind, Part):
+            (written,) = ast.parse(inspect.getsource(kind)).body
+            for key, below in pairwise(written.body):
+                match key, below:
+                    case ast.AnnAssign(), ast.Expr(ast.Constant(str(text))):
+                        found[key.target.id] = inspect.cleandoc(text)
+    return found
 
 
 @cache  # making it takes longer than reading a study
 def json_schema() -> dict:
     """The schema of a configuration."""
-    return Study.model_json_schema(schema_generator=_WithoutTitles)
+    return Study.model_json_schema(schema_generator=_WithMeanings)
 
 
 def text() -> str:

@@ -155,7 +155,7 @@ class Experiments(Part):
     ladder: dict[Name, Distinct[Count]]
     """Learners trained on the study's own scenario for several numbers of iterations."""
     evidence: Switch
-    """Whether to judge the claims of the paper and to draw their figures."""
+    """Whether to judge and draw every claim of the paper, or those alone that trainings tell of."""
     robots: Distinct[Name]
     """Other robots for the study's own scenario."""
     ensemble: dict[Name, dict[SeriesName, Series]]
@@ -217,6 +217,8 @@ class Real(Part):
     """The nominal robot."""
     data: Recordings
     """Its recordings."""
+    description: Text
+    """What they do not say themselves: a file of the project."""
     published: PublishedReal
     """What was published with them."""
     learners: SomeDistinct[Name]

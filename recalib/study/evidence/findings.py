@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 SHORT = ("cm", "deg")
 PARTS = (0.1, 0.25, 0.5, 0.75, 0.9)  # of the universes
-ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown in the README
+ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
 
 
 def needs(ask: Request) -> None:
@@ -95,7 +95,7 @@ def _said(claim: dict) -> dict:
 
 
 def figures() -> list[str]:
-    """The figures that show the claims, without those of the README."""
+    """The figures that show the claims, without those that all results show."""
     named = {figure for claim in CLAIMS for figure in claim.figures} - ELSEWHERE
     return sorted(named, key=lambda name: int(name.removeprefix("figure")))
 

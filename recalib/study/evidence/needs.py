@@ -10,10 +10,12 @@ from pathlib import Path
 from pydantic import JsonValue
 
 from recalib.errors import UnknownName
+from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
+from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
@@ -22,6 +24,7 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
     "scenarios": lambda study, _: list(study.experiments.scenarios),
+    "recordings": lambda study, _: Plan(study).recordings(),
     "elsewhere": lambda study, _: elsewhere(study),
     "published": lambda study, _: study.paper_damage.published.model_dump(),
     "published_mm": lambda study, _: study.real.published.model_dump(),
@@ -40,7 +43,6 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
         for each in study.experiments.beside
         if training(study, each).iterations == study.learners[IMPROVED].iterations
     ],
-    "evidence": lambda study, _: study.experiments.evidence,
     "switches": lambda study, _: study.experiments.switches,
     "ladder": lambda study, trainings: {
         each: list(map(list, trainings.ladder(each).items())) for each in study.experiments.ladder
@@ -108,6 +110,16 @@ class Request:
         self._samples: dict[str, str] = {}
         self._facts: dict[str, JsonValue] = {}
         self.lacking: list[str] = []
+        self._beyond = False
+
+    def anew(self) -> "Request":
+        """Another one of the same study, of which nothing was asked yet."""
+        return Request(self.study, self.trainings, self._layout, self._sample_at)
+
+    @property
+    def trained(self) -> bool:
+        """Whether the trainings of the study leave all that was asked for."""
+        return not (self.lacking or self._beyond)
 
     @property
     def needs(self) -> Needs:
@@ -163,18 +175,24 @@ class Request:
         """A series of other damages."""
         if series not in self.study.experiments.ensemble.get(learner, ()):
             self.lack(f"experiments.ensemble.{learner}.{series}")
+        self._beyond = True
         self._result(self._layout.ensemble(series, learner))
 
     def mapping(self, name: str) -> None:
         """A measurement of the true mapping: coupling, propagation, visits or replay."""
+        self._beyond = True
         self._result(self._layout.mapping(name))
 
     def assignments(self) -> None:
         """The initial errors of every assignment of the paper's damage."""
+        own = self.study.scenario
+        if not any(isinstance(entry, Assigned) for entry in self.study.scenarios[own]):
+            self.lack(f"scenarios.{own}: assigned links or encoders")
         self._result(self._layout.assignments(self.fact("robot")))
 
     def sample(self, learner: str | None) -> None:
         """The sample of the search for a training."""
+        self._beyond = True
         if learner is not None:
             self._samples[learner] = self._sample_at(str(training(self.study, learner)))
 

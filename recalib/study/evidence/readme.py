@@ -1,54 +1,42 @@
-"""What the README says of the results."""
+"""What the README says of the results: the three that matter, and a verdict on every claim."""
 
-from recalib.study.evidence.claims.speed_up import FACTOR
+from collections.abc import Mapping
+
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.speed_up import CLAIM, FACTOR
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts, brief, in_universes, n, pair, verdicts
-from recalib.study.measured import ERRORS, UNITS
+from recalib.study.evidence.words import n, one, typical_errors
 
 
 def needs(ask: Request) -> None:
     """What the page reads."""
     ask.summary()
     ask.claims()
-    ask.assignments()
-    for scenario in (None, "translation", "rotation"):
-        ask.scenario(scenario)
-    ask.sample(ask.fact("improved"))
-    for fact in ("published", "short_searches", "searches_long"):
+    for fact in ("improved", "scenario"):
         ask.fact(fact)
+
+
+def _in_a_line(claims: Mapping[str, Mapping]) -> dict[str, str]:
+    """Each claim in short with the first number measured for it, by its id."""
+    first = {name: one(claim, next(iter(claim["measured"]))) for name, claim in claims.items()}
+    return {claim.id: claim.short.format(first[claim.id]) for claim in CLAIMS if claim.id in claims}
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    summary = evidence.summary()
-    rows = {(row["scenario"], row["learner"]): row for row in summary.to_dict("records")}
-    improved, claims = evidence.fact("improved"), evidence.claims()
-    figure_1 = next(claim for claim in claims if claim["id"] == "figure-1")["measured"]
+    summary = evidence.summary().set_index(["scenario", "learner"])
+    claims = {claim["id"]: claim for claim in evidence.claims()}
     return {
         "n": n,
-        "pair": pair,
-        "brief": brief,
-        "verdicts": verdicts,
-        "in_universes": in_universes,
-        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims),
+        "one": one,
         "shipped": evidence.shipped,
-        "study": evidence.study,
         "figures": "figures" if evidence.shipped else "../figures",
-        "own": rows[evidence.fact("scenario"), improved],
-        "typical": ", ".join(f"{n(figure_1[f'final {unit}'])} {unit}" for unit in UNITS),
-        "summary": list(rows.values()),
+        "own": summary.loc[(evidence.fact("scenario"), evidence.fact("improved"))],
+        "typical": typical_errors(claims["figure-1"]),
         "claims": claims,
-        "published": " and ".join(
-            f"{evidence.fact('published')[error]:g} {unit}"
-            for error, unit in zip(ERRORS, UNITS, strict=True)
-        ),
-        "factor": FACTOR,
-        "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
-        "assignments": len(evidence.assignments()),
-        "translation": amounts(evidence.scenario("translation")["damages"][0]),
-        "rotation": amounts(evidence.scenario("rotation")["damages"][0]),
-        "trials": len(evidence.sample(improved)) // evidence.searched_for(improved).searches,
-        "short": evidence.fact("short_searches"),
-        "searches_long": evidence.fact("searches_long"),
+        "in_a_line": _in_a_line(claims),
+        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims.values()),
+        "published": FACTOR,
+        "enough": f"{CLAIM.limits['factor']:g}",
     }

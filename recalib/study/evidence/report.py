@@ -1,6 +1,7 @@
 """What the pages of the report say."""
 
 import platform
+import re
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -26,11 +27,18 @@ PACKAGES = (
     "rerun-sdk",
 )
 TABLES = "damages", "errors", "settings", "versions"
+READ = "findings", "choices", "results"  # pages of a study with evidence, as they are in docs/
+EXPLAINED = "ideas"  # the page of the method
+# Committed: other targets than the default one write them.
+KEPT = {"guidance": "figure12", "real_arm": "figure13"}
 FRONT = "front"  # the text before all pages
 
 
 def heading(page: str, project: Path) -> str:
-    """The first line of a page's text."""
+    """The heading of a page's text."""
+    if page in (*READ, EXPLAINED, *KEPT):
+        text = (project / "docs" / f"{page}.md").read_text(encoding="utf-8")
+        return next(line for line in text.splitlines() if line.startswith("# ")).removeprefix("# ")
     text = (project / TEXTS / f"{page}.html").read_text(encoding="utf-8")
     return text.splitlines()[0].removeprefix("<h1>").removesuffix("</h1>")
 
@@ -42,17 +50,16 @@ def needs(ask: Request) -> None:
         ask.scenario(scenario)
     for learner in dict.fromkeys(learner for _, learner in ask.trainings.runs):
         ask.sample(learner)
-    if ask.study.experiments.evidence:
-        ask.claims()
+    ask.claims()
     for fact in (
         "improved",
         "learners",
         "scenario",
         "scenarios",
+        "recordings",
         "elsewhere",
         "published",
         "iterations",
-        "evidence",
         "tests",
         "measure_every",
         "assignment_poses",
@@ -81,7 +88,7 @@ def context(evidence: Evidence) -> dict:
         "resolved": [
             evidence.scenario(scenario) for scenario in dict.fromkeys(each for each, _ in runs)
         ],
-        "claims": evidence.claims() if evidence.fact("evidence") else [],
+        "claims": evidence.claims(),
         "versions": {"Python": platform.python_version()}
         | {name: version(name) for name in PACKAGES},
     }
@@ -127,9 +134,31 @@ def page(name: str, known: dict, figures: dict[str, str]) -> str:
         known: what it may say, from `context`.
         figures: paths of drawings by name.
     """
-    own = {"page": f"{name}.html", "shown": shown_by(name, known["claims"])}
+    own = {"page": f"{name}.html", "shown": shown_by(name, known["claims"]), "body": None}
     own["figure"] = drawing(figures[name]) if name in figures else None
     return layout().get_template("layout.html").render(known | own)
+
+
+def from_markdown(text: str, figures: dict[str, str]) -> str:
+    """A page of docs/ as one of the report.
+
+    Its figures are drawn into it. Its links to other pages lose their ends, which are not in it.
+
+    Args:
+        text: in Markdown.
+        figures: paths of drawings by name.
+    """
+    from markdown import markdown
+    from markupsafe import Markup
+
+    html = markdown(text, extensions=["tables", "fenced_code", "sane_lists"])
+    html = re.sub(
+        r'<img alt="([^"]*)" src="[^"]*?(\w+)\.png" />',
+        lambda image: drawing(figures[image[2]]) if image[2] in figures else f"<p>{image[1]}</p>",
+        html,
+    )
+    html = re.sub(r'<a href="(?!https?:)[^"]*">(.*?)</a>', r"\1", html, flags=re.DOTALL)
+    return layout().get_template("layout.html").render(body=Markup(html))
 
 
 def front(known: dict, figures: dict[str, str]) -> str:

@@ -38,6 +38,11 @@ class Evidence:
         self._needs, self._layout = needs, Layout(needs.root)
 
     @property
+    def root(self) -> str:
+        """The folder of its results."""
+        return self._layout.root
+
+    @property
     def study(self) -> str:
         """The study's name."""
         return self._layout.name

@@ -23,25 +23,33 @@ def pair(row: Mapping, moment: str) -> str:
     return ", ".join(f"{n(error)} {unit}" for error, unit in zip(errors, UNITS, strict=True))
 
 
-def measured(claim: Mapping) -> str:
-    """What was measured for a claim, with intervals."""
+def one(claim: Mapping, label: str) -> str:
+    """One of the numbers measured for a claim, with its interval."""
 
     def number(value) -> str:
         return "more" if value is None else _rounding(value) or f"{value:.3g}"
 
-    def text(label, value) -> str:
-        if label not in claim["interval"]:
-            return f"{label}: {number(value)}"
-        low, high = claim["interval"][label]
-        return f"{label}: {number(value)} ({number(low)} to {number(high)})"
+    text = number(claim["measured"][label])
+    if label in claim["interval"]:
+        low, high = map(number, claim["interval"][label])
+        text += f" ({low} to {high})"
+    return text
 
-    return "; ".join(text(label, value) for label, value in claim["measured"].items())
+
+def measured(claim: Mapping) -> str:
+    """What was measured for a claim, with intervals."""
+    return "; ".join(f"{label}: {one(claim, label)}" for label in claim["measured"])
 
 
 def brief(claim: Mapping) -> str:
     """What was measured first for a claim, with its interval."""
     label = next(iter(claim["measured"]))
-    return measured({"measured": {label: claim["measured"][label]}, "interval": claim["interval"]})
+    return f"{label}: {one(claim, label)}"
+
+
+def typical_errors(claim: Mapping) -> str:
+    """Where the typical search ends, as the claim about Figure 1 has it."""
+    return " and ".join(f"{n(claim['measured'][f'final {unit}'])} {unit}" for unit in UNITS)
 
 
 def verdicts(claim: Mapping) -> str:

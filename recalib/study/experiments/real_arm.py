@@ -14,6 +14,8 @@ from recalib.errors import UnknownName
 from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
+from recalib.identification.observations import Observations
+from recalib.laboratory.description import read_description
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
@@ -25,55 +27,39 @@ from recalib.study import jobs
 from recalib.study.entrants import MOVES
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import Measurements, WrongData, read_measurements
+from recalib.study.experiments.tracker import Measurements, read_of
 from recalib.study.plants import nominal_robot
 from recalib.training import train
 
-ALIKE = 0.01  # m: nominal positions that differ by less are of the same robot
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
-TOOL_POINT = 0.0, 0.00007, 0.031  # m, in the flange's frame: where the tracker's target was
 
 
-def with_tool_point(robot: Robot, point: tuple[float, float, float] = TOOL_POINT) -> Robot:
+def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     """The robot with its tool at a point of the flange, (3,) m in the tool's frame.
 
     Its workspace moves along.
     """
-    model = pin.Model(robot.arm.model)
-    tool = model.frames[tool_frame(model, robot.arm.tool)]
+    arm = robot.arm.copy()
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
-    arm = Arm(model, robot.arm.tool)
     workspace = Workspace(arm.forward(robot.home[None])[0], robot.workspace.half_ranges)
     return replace(robot, arm=arm, workspace=workspace)
-
-
-def read_of(robot: Robot, path: str | PathLike) -> Measurements:
-    """The measurements in the table at `path`, of this robot and no other.
-
-    Raises WrongData where the robot does not get to the nominal positions in the table: it is that
-    of another robot, or in other units.
-    """
-    measurements = read_measurements(path)
-    reached = robot.arm.forward(measurements.angles)[:, :3, 3]
-    gap = np.linalg.norm(reached - measurements.nominal, axis=1).max()
-    if gap > ALIKE:
-        raise WrongData(
-            f"{path} is of another robot than the {robot.name}, or not in deg and mm: nominal"
-            f" positions differ by {1e3 * gap:.0f} mm; valid: up to {1e3 * ALIKE:.0f} mm"
-        )
-    return measurements
 
 
 def calibrate_geometric(arm: Arm, measurements: Measurements) -> Calibration:
     """The geometry of the nominal arm, identified."""
     model = ErrorModel(arm, OFFSETS)
-    return Calibration(model, identify(model, measurements.angles, measurements.measured))
+    return Calibration(
+        model, identify(model, Observations(measurements.angles, measurements.measured))
+    )
 
 
 def calibrate_hybrid(arm: Arm, measurements: Measurements) -> Calibration:
     """Geometry, and as much else as the measurements show: a twin of the arm, for a `Plant`."""
     return calibrate(
-        arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), measurements.angles, measurements.measured
+        arm,
+        (OFFSETS, JOINT_ERRORS, JOINT_WAVES),
+        Observations(measurements.angles, measurements.measured),
     )
 
 
@@ -148,13 +134,19 @@ def remaining_errors(
     return np.linalg.norm(LEARNERS[learner](arm, known, unknown), axis=-1)
 
 
-def learn_from_tables(job: jobs.RealRun, fit: str | PathLike, test: str | PathLike) -> pd.DataFrame:
+def learn_from_tables(
+    job: jobs.RealRun, fit: str | PathLike, test: str | PathLike, description: str | PathLike
+) -> pd.DataFrame:
     """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
+
+    Args:
+        description: what these tables do not say themselves.
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
-    robot = with_tool_point(nominal_robot(job.nominal))
-    known, tests = (read_of(robot, path) for path in (fit, test))
+    said = read_description(description)
+    robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
+    known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
     for poses in job.poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
@@ -167,16 +159,20 @@ def learn_from_tables(job: jobs.RealRun, fit: str | PathLike, test: str | PathLi
     return pd.DataFrame(rows)
 
 
-def learn_on_twin(job: jobs.RealTwin, fit: str | PathLike, sample: str | PathLike) -> pd.DataFrame:
+def learn_on_twin(
+    job: jobs.RealTwin, fit: str | PathLike, description: str | PathLike, sample: str | PathLike
+) -> pd.DataFrame:
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
+        description: what that table does not say itself.
         sample: file of the searches for this training, whose winners the subsets get in turn.
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
-    robot = with_tool_point(nominal_robot(job.nominal))
-    twin = calibrate_hybrid(robot.arm, read_of(robot, fit))
+    said = read_description(description)
+    robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
+    twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = job.learner.iterations, range(job.subsets)
     met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
     history = train(

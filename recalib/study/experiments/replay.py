@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from recalib.learned import flat
+from recalib.archives import flat
 from recalib.study import jobs
 from recalib.study.experiments.campaign import desired_poses
 from recalib.study.experiments.settings import build_tuned

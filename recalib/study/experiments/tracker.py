@@ -1,9 +1,6 @@
-"""What a laser tracker saw of a real UR5: a table of positions, fetched from its public address.
+"""What a laser tracker saw of a real arm: tables of positions, fetched from their public address.
 
-The table (CSV) has a row for each pose: joint_1 to joint_6 [deg] as commanded, x_t, y_t, z_t [mm]
-where the nominal kinematics put the tool, and x_dif, y_dif, z_dif [mm] by how much it was measured
-to be beside that. The joints' zero is that of the URDF; the manufacturer's base stands turned by
-half a turn about the vertical axis of the URDF's.
+What is special to them stands in a description beside them (`recalib.laboratory.description`).
 """
 
 import hashlib
@@ -14,14 +11,14 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
-from recalib.errors import InvalidSetting, RecalibError
+from recalib.errors import RecalibError
+from recalib.laboratory.description import Description
+from recalib.laboratory.measurements import read_measurements
+from recalib.laboratory.sanity import check_nominal
+from recalib.nominal.kinematics import Arm
 from recalib.study import jobs
 
-ANGLES = [f"joint_{number}" for number in range(1, 7)]
-NOMINAL, MISSED = (["x_t", "y_t", "z_t"], ["x_dif", "y_dif", "z_dif"])
-TO_URDF_BASE = np.array([-1.0, -1.0, 1.0])
 PATIENCE = 60  # seconds for the public address to answer
 
 
@@ -50,24 +47,23 @@ class Measurements:
         return Measurements(self.angles[rows], self.nominal[rows], self.measured[rows])
 
 
-def read_measurements(path: str | PathLike) -> Measurements:
-    """The measurements in the table at `path`.
+def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measurements:
+    """The measurements in the table at `path`, of this arm and no other.
 
-    Raises InvalidSetting where a column is missing or holds anything but finite numbers.
+    Args:
+        arm: the nominal arm, its tool at the point that was measured.
+        description: what the table does not say itself, with where the instrument stands.
+
+    Raises InvalidFile (a table that cannot be used) and WrongNominal (another arm, or other units:
+    it does not get to the nominal positions in the table).
     """
-    table = pd.read_csv(path)
-    for column in (*ANGLES, *NOMINAL, *MISSED):
-        if (
-            column not in table
-            or table.empty
-            or not np.isfinite(pd.to_numeric(table[column], errors="coerce")).all()
-        ):
-            raise InvalidSetting(
-                f"column of {path}", column, "there, with a finite number in every row"
-            )
-    nominal = table[NOMINAL].to_numpy() * 1e-3 * TO_URDF_BASE
-    missed = table[MISSED].to_numpy() * 1e-3 * TO_URDF_BASE
-    return Measurements(np.radians(table[ANGLES].to_numpy()), nominal, nominal + missed)
+    rows = read_measurements(path, arm, description)
+    base = np.linalg.inv(description.instrument)
+    check_nominal(arm, rows.coordinates, rows.nominal, base, np.zeros(3))
+    turn, place = description.instrument[:3, :3], description.instrument[:3, 3]
+    return Measurements(
+        rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
+    )
 
 
 def fetch(job: jobs.RealData, path: Path) -> None:

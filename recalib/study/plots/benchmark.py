@@ -17,6 +17,7 @@ SHOWN = {
     "outliers": "... measured with outliers",
     "links_encoders_gears_sag": "... with eccentric gears and sag",
 }
+UNDER = ("geometric",)  # the hybrid is often just as good, and drawn upon it
 SMALLEST = 1e-4  # cm and degrees: below it, errors are drawn at the edge
 
 
@@ -48,15 +49,18 @@ def figure12(evidence: Evidence) -> Figure:
                     own["moves"],
                     middle,
                     marker=look.marker or None,
-                    markersize=4,
-                    linewidth=1.4,
+                    markersize=7 if learner in UNDER else 4,
+                    linewidth=5 if learner in UNDER else 1.4,
                     color=look.color,
                 )
             axes.set(xscale=LOG, yscale=LOG, ylim=(SMALLEST, 30))
             if axes in panels[:, 0]:
                 axes.set_ylabel(label)
+            plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
+            plain(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1, 10)
     for axes in panels[-1]:
         axes.set_xlabel("robot moves")
+        axes.tick_params(axis="x", labelsize=9)
     names = [look.label for look in learners.values()]
     figure.legend(panels[0, 0].get_lines(), names, loc="outside right center", fontsize=9)
     title(

@@ -10,7 +10,7 @@ from recalib.study.evidence.claims.switches import compare, with_and_without
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, INTERVALS, plain, title
+from recalib.study.plots.style import BORDER, INTERVALS, at_line, legend_below, plain, title
 from recalib.study.statistics import Estimate
 
 
@@ -70,6 +70,7 @@ def figure4(evidence: Evidence) -> Figure:
         ratios = [estimates[case] for estimates in rows.values()]
         _draw(axes, heights + offset, ratios, shown[learner], label, above=offset > 0)
     axes.axvline(1, **BORDER)
+    at_line(axes, "left of it: the change helps", x=1)
     axes.set(xscale=LOG, xlabel="error with the change over error without it")
     if evidence.fact("beside"):
         axes.set_xlabel("error with the change over error without it; a learner's: over theirs")
@@ -77,11 +78,12 @@ def figure4(evidence: Evidence) -> Figure:
     axes.set_yticks(heights, rows)
     axes.set_ylim(-0.5, len(rows) - 0.3)
     axes.grid(axis="y", visible=False)
-    axes.legend(fontsize=9)
     searches, seeds, _ = evidence.errors(evidence.fact("improved")).shape
-    title(
+    title(figure, _heading(evidence, rows))
+    legend_below(
         figure,
-        _heading(evidence, rows),
+        axes,
+        len(cases),
         f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"
         f" {searches} searches each, {seeds} seeds for each winner\n{INTERVALS}",
     )

@@ -8,20 +8,22 @@ from matplotlib.figure import Figure
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, UNITS
-from recalib.study.plots.looks import looks
+from recalib.study.plots.looks import DASHED, SOLID, looks
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import ORIENTATION, POSITION, plain, title
+from recalib.study.plots.style import legend_under, plain, title
+
+STYLES = SOLID, DASHED  # of cm and degrees: colours are learners
 
 
 def figure11(evidence: Evidence) -> Figure:
     """Other assignments, other amounts and other robots."""
-    figure, panels = plt.subplots(1, 3, figsize=(12, 4.4))
+    figure, panels = plt.subplots(1, 3, figsize=(12, 5.2))
     tables = {learner: evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)}
     _draw_assignments(panels[0], tables)
     _draw_amounts(panels[1], evidence)
     _draw_robots(panels[2], evidence)
-    for axes, place in zip(panels, ("upper left", "lower right", "center left"), strict=True):
-        axes.legend(fontsize=8, loc=place)
+    for axes in panels:
+        legend_under(axes)
     title(
         figure,
         "Figure 11: other damages and other robots",
@@ -33,7 +35,7 @@ def figure11(evidence: Evidence) -> Figure:
 
 
 def _draw_assignments(axes: Axes, tables: dict) -> None:
-    for error, unit, linestyle in zip(ERRORS, UNITS, ("-", (0, (3, 2))), strict=True):
+    for error, unit, linestyle in zip(ERRORS, UNITS, STYLES, strict=True):
         for learner, look in looks(tables).items():
             values = np.sort(tables[learner][f"final_{error}"])
             axes.step(
@@ -44,21 +46,20 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
                 label=f"{look.label.capitalize()}, {unit}",
             )
     axes.set(xscale=LOG, xlabel="final error [cm, degrees]", ylabel="share of the assignments")
-    axes.set_xlim(left=axes.get_xlim()[0] / 2)  # room for the legend
     plain(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
     axes.set_title("Other links, encoders and signs", fontsize=11)
 
 
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
     scaled = evidence.ensemble(IMPROVED, "scaled").groupby("scale")
-    styles = zip(ERRORS, UNITS, (POSITION, ORIENTATION), "os", strict=True)
-    for error, unit, style, marker in styles:
-        for moment, alpha in (("initial", 0.35), ("final", 1.0)):
+    color = looks([IMPROVED])[IMPROVED].color
+    styles = zip(ERRORS, UNITS, STYLES, "os", strict=True)
+    for error, unit, linestyle, marker in styles:
+        for moment, shade in (("initial", "0.5"), ("final", color)):
             low, middle, high = (scaled[f"{moment}_{error}"].quantile(q) for q in (0.05, 0.5, 0.95))
-            band = {"color": style["color"], "alpha": 0.15 * alpha + 0.05, "linewidth": 0}
-            axes.fill_between(middle.index, low, high, **band)
-            label = f"{moment} {unit}"
-            axes.plot(middle.index, middle, marker=marker, alpha=alpha, label=label, **style)
+            axes.fill_between(middle.index, low, high, color=shade, alpha=0.12, linewidth=0)
+            look = {"color": shade, "linestyle": linestyle, "marker": marker}
+            axes.plot(middle.index, middle, label=f"{moment} {unit}", **look)
     axes.set(
         xscale=LOG,
         yscale=LOG,

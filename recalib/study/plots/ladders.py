@@ -9,9 +9,9 @@ from recalib.study.configuration.switches import IMPROVED
 from recalib.study.evidence.claims import speed_up as claim
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
-from recalib.study.plots.looks import DASHED, Look, looks
+from recalib.study.plots.looks import Look, looks
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import INTERVALS, LABELS, legend_below, plain, title
+from recalib.study.plots.style import BORDER, INTERVALS, LABELS, at_line, legend_below, plain, title
 from recalib.study.statistics import estimate
 
 LEVELS = (0.3, 0.2, 0.15, 0.1, 0.08, 0.06, 0.05, 0.04, 0.03)  # of both initial errors
@@ -76,12 +76,8 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
                 zorder=4,
                 label=f"for its errors after {own}: {ours.mean:.0f}",
             )
-    axes.axhline(
-        claim.FACTOR,
-        color="0.3",
-        linestyle=DASHED,
-        label=f"the paper: about {claim.FACTOR}",
-    )
+    axes.axhline(claim.FACTOR, **BORDER)
+    at_line(axes, f"the paper: about {claim.FACTOR}", y=claim.FACTOR, until=0.55)
     axes.set(
         xscale=LOG,
         yscale=LOG,
@@ -91,5 +87,5 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     )
     plain(axes.xaxis, 3, 5, 10, 20, 30)
     plain(axes.yaxis, 1, 3, 10, 30, 100, 300)
-    axes.invert_xaxis()
-    axes.legend(fontsize=9, loc="lower left")
+    if axes.get_legend_handles_labels()[0]:  # none where a learner never gets there
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), fontsize=9)

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.words import amounts
 from recalib.study.measured import ERRORS, KINDS, UNITS, errors_of
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
@@ -18,6 +19,7 @@ from recalib.study.plots.style import (
     LABELS,
     ORIENTATION,
     POSITION,
+    at_line,
     legend_below,
     plain,
     title,
@@ -25,6 +27,8 @@ from recalib.study.plots.style import (
 )
 from recalib.study.statistics import first_within, typical
 
+NAMED = 3  # damages in a title; more of them go by the name of their scenario
+NEAR = 1.2  # times: two numbers beside a linear axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
 
@@ -50,67 +54,57 @@ def of_typical_search(history: pd.DataFrame) -> pd.DataFrame:
     return history[history["search"] == number]
 
 
-def draw_learning(axes: Axes, history: pd.DataFrame, tests: int) -> Axes:
-    """Both errors over the iterations on one scale, as in the paper's Figure 1.
-
-    Args:
-        axes: where to draw.
-        history: of a training.
-        tests: poses of each measurement.
-    """
-    bold, searches = of_typical_search(history), history["search"].nunique()
-    last = {}
-    for error, style, name, unit in zip(ERRORS, (POSITION, ORIENTATION), KINDS, UNITS, strict=True):
-        table = curves(history, error)
-        draw_band(axes, table, style["color"])
+def draw_learning(axes: Axes, history: pd.DataFrame) -> None:
+    """Both errors over the iterations on one scale, as in the paper's Figure 1."""
+    bold = of_typical_search(history)
+    for error, style, name in zip(ERRORS, (POSITION, ORIENTATION), KINDS, strict=True):
+        draw_band(axes, curves(history, error), style["color"])
         line = curves(bold, error).mean(axis=1)
-        last[error] = line.iloc[-1]
         axes.plot(line.index, line, linewidth=2.4, label=name, **style)
-        axes.annotate(
-            f"{name}: {line.iloc[0]:.1f} {unit}",
-            (line.index[0], line.iloc[0]),
-            (26, 3),
-            textcoords="offset points",
-            color=style["color"],
-        )
-    axes.annotate(
-        f"after {history['iteration'].max()} iterations of the typical search:\n"
-        f"{last[ERRORS[0]]:.2f} cm and {last[ERRORS[1]]:.2f} degrees",
-        (history["iteration"].max(), max(last.values())),
-        (0, 28),
-        textcoords="offset points",
-        ha="right",
-    )
-    axes.set(
-        xlabel="iterations (two moves each)",
-        ylabel=f"mean error on {tests} test poses [cm, degrees]",
-        xlim=(0, history["iteration"].max()),
-    )
-    axes.set_ylim(bottom=0)
-    axes.legend(
-        title=f"bold: the median of {searches} searches for widths and rates,\n"
-        f"mean of its {bold['seed'].nunique()} seeds; band: {BAND[0]}-{BAND[1]} % of all"
-        f" {history['seed'].nunique()} runs",
-        title_fontsize=9,
-    )
-    return axes
+    axes.set(xlabel="iterations (two moves each)", xlim=(0, history["iteration"].max()))
 
 
 def figure1(evidence: Evidence) -> Figure:
-    """Figure 1 of the paper: the improved system on the paper's damage."""
-    figure, axes = plt.subplots()
+    """Figure 1 of the paper: the improved system on the paper's damage; right: on decades."""
+    figure, panels = plt.subplots(1, 2, figsize=(10, 4.6))
     history = evidence.history(evidence.fact("improved"))
-    draw_learning(axes, history, evidence.fact("tests"))
+    for axes in panels:
+        draw_learning(axes, history)
+    ylabel = f"mean error on {evidence.fact('tests')} test poses [cm, degrees]"
+    panels[0].set(ylabel=ylabel, ylim=(0, None))
+    panels[1].set(yscale=LOG)
+    plain(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
+    for error, style, unit in zip(ERRORS, (POSITION, ORIENTATION), UNITS, strict=True):
+        for axes, row, where in zip(panels, (0, -1), ("left", "right"), strict=True):
+            upper = ends.iloc[row][list(ERRORS)].idxmax() == error
+            near = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
+            beside = (18, (8 if upper else -8) if near else 0)
+            axes.annotate(
+                f"{ends[error].iloc[row]:.{2 if row else 1}f} {unit}",
+                (ends.index[row], ends[error].iloc[row]),
+                beside if where == "left" else (0, 10 if upper else -14),
+                textcoords="offset points",
+                ha=where,
+                color=style["color"],
+            )
     left = 100 * ends.iloc[-1] / ends.iloc[0]
     text = (
         f"Figure 1: both errors over {ends.index[-1]} iterations;"
         f" {left.iloc[0]:.0f} % and {left.iloc[1]:.0f} % of them are left"
     )
     if not evidence.shipped:
-        where = f"{evidence.fact('robot').upper()}, {words(evidence.fact('scenario'))}"
-        text += f"\n({evidence.study}: {where})"
-    axes.set_title(text)
+        resolved = evidence.scenario()
+        entries = [amounts(entry) for entry in resolved["damages"]]
+        short = 0 < len(entries) <= NAMED
+        damage = "; ".join(entries) if short else words(evidence.fact("scenario"))
+        text += f"\n({evidence.study}: {resolved['robot'].upper()}, {damage})"
+    title(figure, text)
+    seeds = history.groupby("search")["seed"].nunique().iloc[0]
+    spread = f"bold: the median of {history['search'].nunique()} searches for widths and rates"
+    spread += f", mean of its {seeds} seeds;"
+    spread += f" band: {BAND[0]}-{BAND[1]} % of all {history['seed'].nunique()} runs"
+    legend_below(figure, panels[0], 2, spread)
     return figure
 
 
@@ -129,12 +123,15 @@ def figure2(evidence: Evidence) -> Figure:
             look = shown[learner]
             draw_band(axes, table, look.color)
             axes.plot(table.index, table.mean(axis=1), label=label(look, history), **look.line())
+        first = next(iter(histories.values())).groupby("iteration")[error].mean().iloc[0]
+        axes.axhline(first, **BORDER)
+        at_line(axes, f"before: {first:.2f}", y=first)
         for one, other in (compared, compared[::-1]) if compared else ():
             level = histories[other].groupby("iteration")[error].mean().iloc[-1]
             reached = _reached(histories[one], [error], np.array([level]))
             axes.axhline(level, **BORDER)
             axes.annotate(
-                f"{shown[one].label.capitalize()} is at {level:.2f} {reached}",
+                f"{level:.2f}: {shown[one].label} {reached}",
                 (0.02, level),
                 (0, 3),
                 xycoords=("axes fraction", "data"),
@@ -164,7 +161,7 @@ def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]
 def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str:
     means = history.groupby("iteration")[errors].mean()
     first = first_within(means.index.to_numpy(), means.to_numpy(), level)
-    return f"after {first:,.0f}" if np.isfinite(first) else f"in none of its {means.index[-1]:,}"
+    return f"after {first:,.0f}" if np.isfinite(first) else f"not within {means.index[-1]:,}"
 
 
 def figure3(evidence: Evidence) -> Figure:

@@ -40,8 +40,9 @@ LOOKS = {
     for name, each in ENTRANTS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
-OTHER = {"improved": ("#56B4E9", "d"), "ritter": ("#E69F00", "^")}
-UNKNOWN = ("#CC79A7", "X"), ("#009E73", "p"), ("#000000", "h"), ("0.4", "<"), ("#56B4E9", ">")
+# Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
+OTHER = {"improved": ("#80B9D9", "d"), "ritter": ("#EFA07A", "^")}
+UNKNOWN = ("#999933", "X"), ("#AA4499", "p"), ("#DDCC77", "h"), ("0.4", "<"), ("#661100", ">")
 
 
 def looks(learners: Iterable[str]) -> dict[str, Look]:

@@ -8,8 +8,19 @@ from recalib.study.evidence.claims import expected_learning, weak_coupling
 from recalib.study.evidence.results import Evidence
 from recalib.study.mapping.propagation import integral_ratios
 from recalib.study.measured import ERRORS, KINDS
+from recalib.study.plots.looks import DASHED
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, ORIENTATION, POSITION, plain, title, words
+from recalib.study.plots.style import (
+    BORDER,
+    NEUTRAL,
+    ORIENTATION,
+    POSITION,
+    at_line,
+    legend_below,
+    plain,
+    title,
+    words,
+)
 
 
 def figure5(evidence: Evidence) -> Figure:
@@ -32,26 +43,15 @@ def figure5(evidence: Evidence) -> Figure:
             zorder=3,
         )
     axes.axvline(limit, **BORDER)
-    axes.annotate(
-        "criterion",
-        (limit, rows[0] + 0.4),
-        (-4, 0),
-        textcoords="offset points",
-        ha="right",
-        fontsize=9,
-    )
+    at_line(axes, f"criterion: below {limit:g}", x=limit)
     axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block")
     widest = max(table.groupby("scenario")[kind].quantile(0.95).max() for kind in KINDS)
     axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
     axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
     axes.grid(axis="y", visible=False)
-    axes.legend(fontsize=9, loc="center right")
     poses = len(table) // table["scenario"].nunique()
-    title(
-        figure,
-        "Figure 5: how much positions influence orientation commands, and the reverse",
-        f"signs: medians over {poses} poses; lines: 5-95 % of them",
-    )
+    title(figure, "Figure 5: how much positions influence orientation commands, and the reverse")
+    legend_below(figure, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
 
 
@@ -60,24 +60,19 @@ def figure7(evidence: Evidence) -> Figure:
     figure, axes = plt.subplots(figsize=(8, 4.2))
     ratio = integral_ratios(evidence.mapping("propagation"))
     for (kind, start), values in ratio.groupby(level=["kind", "start"]):
-        style = POSITION if kind == "theta" else ORIENTATION
+        commands, intact = kind == "theta", start == "intact"
         axes.plot(
             values.index.get_level_values("scale"),
             values,
-            color=style["color"],
-            linestyle="-" if start == "intact" else (0, (4, 2)),
-            marker="o" if kind == "theta" else "s",
+            color=NEUTRAL if commands else "0.55",
+            linestyle="-" if intact else DASHED,
+            linewidth=1.5 if commands == intact else 3,  # two of them lie upon another
+            marker="o" if commands else "s",
             markersize=5,
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
     axes.axhline(1, **BORDER)
-    axes.annotate(
-        "above: a constant would be the better guess",
-        (0.11, 1),
-        (0, 4),
-        textcoords="offset points",
-        fontsize=9,
-    )
+    at_line(axes, "above: a constant would be the better guess", y=1)
     axes.set(
         xscale=LOG,
         yscale=LOG,
@@ -86,12 +81,16 @@ def figure7(evidence: Evidence) -> Figure:
         ylim=(None, 3),
     )
     plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
-    axes.legend(fontsize=9, loc="lower right")
-    title(
+    plain(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
+    title(figure, "Figure 7: which is the better guess, the old mapping or a constant?")
+    largest = ratio.dropna().index.get_level_values("scale").max()
+    legend_below(
         figure,
-        "Figure 7: which is the better guess, the old mapping or a constant?",
+        axes,
+        2,
         f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
-        " workspace coordinates; Jacobians from the intact robot: both integrals are the same",
+        " workspace coordinates; Jacobians from the intact robot: both\nintegrals are the same."
+        f" Damage beyond {largest:g} times the paper's takes poses out of reach",
     )
     return figure
 
@@ -112,18 +111,21 @@ def figure8(evidence: Evidence) -> Figure:
             label=f"width {width:g}",
         )
     axes.axhline(1, **BORDER)
+    at_line(axes, "equation (10)", y=1, until=0.65)
     away = expected_learning.CLAIM.limits["away"]
     axes.axvline(away, **BORDER)
+    at_line(axes, f"criterion: from {away:g} on", x=away)
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",
         xlim=(-0.1, 6.2),
         ylim=(0, 1.15),
     )
-    axes.legend(fontsize=9)
-    title(
+    title(figure, "Figure 8: equation (10), from the border of the workspace inwards")
+    legend_below(
         figure,
-        "Figure 8: equation (10), from the border of the workspace inwards",
+        axes,
+        table["width"].nunique(),
         "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
         f" {away:word} large widths away",
     )
@@ -146,8 +148,10 @@ def figure10(evidence: Evidence) -> Figure:
     nearest = evidence.nearest_assignment()
     axes.scatter(
         *(nearest[error] for error in ERRORS),
-        s=70,
-        color=POSITION["color"],
+        s=90,
+        facecolors="none",
+        edgecolors=NEUTRAL,
+        linewidths=2,
         label="the one used",
         zorder=3,
     )
@@ -156,7 +160,7 @@ def figure10(evidence: Evidence) -> Figure:
         s=120,
         marker="+",
         linewidths=2,
-        color=ORIENTATION["color"],
+        color=NEUTRAL,
         label="published",
         zorder=4,
     )
@@ -166,10 +170,6 @@ def figure10(evidence: Evidence) -> Figure:
         xlim=(0, None),
         ylim=(0, None),
     )
-    axes.legend(fontsize=9)
-    title(
-        figure,
-        "Figure 10: the initial errors of every assignment of the paper's damage",
-        f"means over {evidence.fact('assignment_poses')} random poses",
-    )
+    title(figure, "Figure 10: the initial errors of every assignment of the paper's damage")
+    legend_below(figure, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
     return figure

@@ -11,7 +11,15 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.measured import KINDS
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, ORIENTATION, POSITION, plain, title
+from recalib.study.plots.style import (
+    BORDER,
+    ORIENTATION,
+    POSITION,
+    at_line,
+    legend_under,
+    plain,
+    title,
+)
 
 LEFT = {  # what the search minimises
     "worse": "larger part left of both initial errors",
@@ -31,56 +39,42 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> None:
         )
         share = np.arange(1, len(ratio) + 1) / len(ratio)
         axes.step(ratio, share, label=look.label.capitalize(), **look.line())
-    axes.axvline(rough_search.CLAIM.limits["factor"], **BORDER)
+    factor = rough_search.CLAIM.limits["factor"]
+    axes.axvline(factor, **BORDER)
+    at_line(axes, f"within {factor:g} times", x=factor)
     axes.set(
         xscale=LOG,
         xlabel="error of a random trial over that of its search's best",
         ylabel="share of the first rounds' trials",
     )
     plain(axes.xaxis, 1, 2, 5, 10, 20, 50, 100)
-    axes.set_title("How rough may the search be?", fontsize=11)
-    axes.legend(fontsize=9)
+    axes.set_title("How rough may the search be?\n", fontsize=11)
+    legend_under(axes, 2)
 
 
 def figure6(evidence: Evidence) -> Figure:
     """What the search for the improved system found: how good, and which order of widths."""
-    figure, panels = plt.subplots(1, 2, figsize=(10, 4.4))
+    figure, panels = plt.subplots(1, 3, figsize=(12, 4.6))
     _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
     trials, budget = evidence.sample(improved), evidence.searched_for(improved)
-    for name, style, marker in zip(KINDS, (POSITION, ORIENTATION), "os", strict=True):
-        panels[1].scatter(
-            trials[f"{name}/g_k"] / trials[f"{name}/g_kl"],
-            trials["score"],
-            s=8,
-            alpha=0.4,
-            color=style["color"],
-            marker=marker,
-            label=f"{name} map",
-        )
-    panels[1].axvline(width_order.CLAIM.limits["ratio"], **BORDER)
-    panels[1].set(
-        xscale=LOG,
-        yscale=LOG,
-        xlabel="final width of $g_k$ (positions) over that of $g_{kl}$ (orientations)",
-        ylabel=LEFT[budget.budget.score],
-    )
-    plain(panels[1].xaxis, 0.1, 0.3, 1, 3, 10)
-    plain(panels[1].yaxis, 0.05, 0.1, 0.2, 0.5, 1)
-    panels[1].set_title("Which widths does each map want?", fontsize=11)
-    panels[1].legend(
-        fontsize=9,
-        loc="center left",
-        markerscale=2,
-        frameon=True,
-        framealpha=0.9,
-        edgecolor="none",
-    )
+    equal = width_order.CLAIM.limits["ratio"]
+    panels[2].sharey(panels[1])
+    for axes, name, style in zip(panels[1:], KINDS, (POSITION, ORIENTATION), strict=True):
+        ratio = trials[f"{name}/g_k"] / trials[f"{name}/g_kl"]
+        axes.scatter(ratio, trials["score"], s=5, alpha=0.5, color=style["color"], linewidths=0)
+        axes.axvline(equal, **BORDER)
+        at_line(axes, "as wide", x=equal)
+        axes.set(xscale=LOG, yscale=LOG, xlabel="final width of $g_k$ over that of $g_{kl}$")
+        plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
+        plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
+        axes.set_title(f"What the {name} map wants\n", fontsize=11)
+    panels[1].set_ylabel(LEFT[budget.budget.score])
     title(
         figure,
         "Figure 6: what the searches see",
         f"{budget.searches} searches for the improved map, {len(trials) // budget.searches} trials"
-        f" each, {budget.budget.seeds} seeds a trial; on the right, those of all searches at"
+        f" each, {budget.budget.seeds} seeds a trial; in the dots, those of all searches at"
         f" {evidence.fact('iterations')} iterations",
     )
     return figure

@@ -28,14 +28,18 @@ STYLE = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
+    "axes.axisbelow": True,  # the grid
     "grid.color": "0.9",
     "legend.frameon": False,
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
 LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
-POSITION = {"color": "#0072B2", "linestyle": SOLID}
-ORIENTATION = {"color": "#D55E00", "linestyle": DASHED}
+# What colours mean besides learners, which have the palette of Okabe and Ito (`looks`).
+POSITION = {"color": "#5D3A9B", "linestyle": SOLID}
+ORIENTATION = {"color": "#994F00", "linestyle": DASHED}
+HOLDS, FAILS = "#44AA99", "#882255"
+NEUTRAL = "black"
 BAND = (5, 95)  # percent of the runs
 # of `statistics.Estimate`
 INTERVALS = "lines: where 95 % of repetitions with other searches and seeds would lie"
@@ -67,8 +71,8 @@ def title(figure: Figure, text: str, below: str = "") -> None:
         figure.supxlabel(below, fontsize=9)
 
 
-def legend_below(figure: Figure, axes: Axes, columns: int, text: str) -> None:
-    """The legend of one of the panels for all of them, below the figure."""
+def legend_below(figure: Figure, axes: Axes, columns: int, text: str = "") -> None:
+    """The legend of one of the panels for all of them, below the figure: it hides no data."""
     figure.legend(
         *axes.get_legend_handles_labels(),
         loc="outside lower center",
@@ -76,6 +80,35 @@ def legend_below(figure: Figure, axes: Axes, columns: int, text: str) -> None:
         fontsize=9,
         title=text,
         title_fontsize=9,
+    )
+
+
+def legend_under(axes: Axes, columns: int = 1) -> None:
+    """The legend of a panel with signs of its own, under it."""
+    axes.legend(
+        loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns, fontsize=8, columnspacing=1
+    )
+
+
+def at_line(
+    axes: Axes, text: str, x: float | None = None, y: float | None = None, until: float = 1
+) -> None:
+    """Say what a line across the axes is: an upright one at x, a level one at y.
+
+    Args:
+        until: the part of the axes' width at which the words on a level line end.
+    """
+    upright = x is not None
+    axes.annotate(
+        text,
+        (x, 1) if upright else (until, y),
+        (0, 2) if upright else (-2, 2),
+        xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
+        textcoords="offset points",
+        ha="center" if upright else "right",
+        va="bottom",
+        fontsize=8,
+        color=BORDER["color"],
     )
 
 

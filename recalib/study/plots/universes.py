@@ -14,10 +14,9 @@ from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, plain, title
+from recalib.study.plots.style import BORDER, FAILS, HOLDS, NEUTRAL, plain, title
 
 COLUMNS = 3
-HOLDS, FAILS = "#0072B2", "#D55E00"
 SHOWN = 5  # factors of each claim
 TICKS = {  # by an axis's end
     1.12: (1, 1.05, 1.1),
@@ -95,7 +94,7 @@ def figure14(evidence: Evidence) -> Figure:
         figure,
         "Figure 14: does each claim hold, whatever one chooses where the paper is silent?",
         f"each sign is one of {len(outcomes)} universes: another robot, damage, convention, search"
-        " and seeds; in order of what was measured.\nBlue dots: the claim holds there; orange"
+        " and seeds; in order of what was measured.\nGreen dots: the claim holds there; dark"
         " crosses: it does not; the line parts them",
     )
     return figure
@@ -126,8 +125,10 @@ def figure15(evidence: Evidence) -> Figure:
         table = effects(values, design, luck).head(SHOWN).iloc[::-1]
         heights = np.arange(len(table))
         strong = table["effect"] > table["chance"]
-        axes.hlines(heights, table["low"], table["high"], color=np.where(strong, HOLDS, "0.6"))
-        axes.scatter(table["effect"], heights, s=22, zorder=3, color=np.where(strong, HOLDS, "0.6"))
+        axes.hlines(heights, table["low"], table["high"], color=np.where(strong, NEUTRAL, "0.6"))
+        axes.scatter(
+            table["effect"], heights, s=22, zorder=3, color=np.where(strong, NEUTRAL, "0.6")
+        )
         axes.scatter(table["chance"], heights, s=60, marker="|", color="black", zorder=2)
         names = [
             f"{row.factor.replace('_', ' ')}: {row.least} < {row.largest}"

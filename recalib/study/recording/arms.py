@@ -1,117 +1,85 @@
-"""The two arms: the real one where it is, and the nominal one where the controller believes it."""
+"""The two arms of a learner: the real one, and as a skeleton the one its controller believes in."""
 
-import os
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 import pinocchio as pin
 import rerun as rr
-from rerun.urdf import UrdfTree
-from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import BaseShift, Damage, apply
-from recalib.nominal.kinematics import Arm
+from recalib.damaged.damage import Damage, apply
 from recalib.nominal.robots import Robot
+from recalib.study.recording.clocks import clocks
+from recalib.study.recording.colours import BELIEVED, SHORT, WRONG
+from recalib.study.recording.marks import Mark, base_shift, circle, marks
+from recalib.study.recording.scene import unit_of
 from recalib.study.recording.story import Motion, Watched
+from recalib.viewing import link_placements, log_meshes, send_frame
 
-GHOST = (140, 190, 255, 70)
-WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
+BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `unit_of`
+FOOT = 0.7  # radius of the circle about a base that was moved, in these units
 
 
 def send_arms(
     rec: rr.RecordingStream,
     robot: Robot,
     damages: Sequence[Damage],
+    learner: str,
     watched: Watched,
     motion: Motion,
 ) -> None:
-    """The meshes of both arms, and every link's motion.
+    """Both arms in motion, and what is wrong with the real one.
 
-    It goes on `time` throughout, on `iteration` while the arm learns.
+    They move on `time` throughout, on `moves` while the arm learns.
     """
-    damaged = apply(robot, damages)
-    shifts = apply(robot, [damage for damage in damages if isinstance(damage, BaseShift)])
-    base = shifts.arm.model.jointPlacements[1] * robot.arm.model.jointPlacements[1].inverse()
-    acts = [rr.TimeColumn("time", duration=motion.times)]
-    iterations = rr.TimeColumn("iteration", sequence=watched.history.iterations)
-    learning = [iterations, rr.TimeColumn("time", duration=motion.learning)]
-    for name, arm, shift, standing, tint in (
-        ("damaged", damaged.arm, base, damaged.standing, None),
-        ("nominal", robot.arm, pin.SE3.Identity(), np.asarray, GHOST),
+    damaged, base = apply(robot, damages), base_shift(robot, damages)
+    unit = unit_of(robot.workspace)
+    wrong = marks(robot, damages, unit)
+    short = [mark.link for mark in wrong if mark.axis is None]
+    visuals = log_meshes(rec, robot.urdf, learner)
+    for entity in (entity for link in short for entity in visuals.get(link, ())):
+        rec.log(entity, rr.Asset3D.from_fields(albedo_factor=SHORT), static=True)
+    acts, learning = clocks(watched, motion)
+    for clock, angles in ((acts, motion.angles), (learning, watched.angles[:, -1])):
+        standing = damaged.standing(angles)
+        for link, placements in link_placements(damaged.arm, visuals, standing, base).items():
+            send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, placements)
+        bones = robot.arm.skeleton(angles)
+        each = [bones.shape[1]] * len(bones)
+        joints = rr.Points3D.columns(positions=bones.reshape(-1, 3)).partition(each)
+        rec.send_columns(f"{learner}/believed/joints", clock, joints)
+        lines = rr.LineStrips3D.columns(strips=bones).partition([1] * len(bones))
+        rec.send_columns(f"{learner}/believed/bones", clock, lines)
+    looks = (("bones", rr.LineStrips3D, BONE), ("joints", rr.Points3D, JOINT))
+    for part, shape, radius in looks:
+        look = shape.from_fields(colors=BELIEVED, radii=radius * unit)
+        rec.log(f"{learner}/believed/{part}", look, static=True)
+    _log_marks(rec, learner, wrong, unit)
+    if not base.isIdentity():
+        _log_base(rec, learner, base, unit)
+
+
+def _log_marks(rec: rr.RecordingStream, learner: str, wrong: Sequence[Mark], unit: float) -> None:
+    """Words at every link and joint with which something is wrong, and the axes of the joints."""
+    for number, mark in enumerate(wrong):
+        entity, frame = f"{learner}/wrong/{number}", rr.CoordinateFrame(f"{learner}/{mark.link}")
+        words = rr.Points3D([mark.at], radii=0, colors=WRONG, labels=[mark.words])
+        rec.log(entity, words, frame, static=True)
+        if mark.axis is not None:
+            axis = rr.LineStrips3D([mark.axis], radii=BONE * unit / 2, colors=WRONG)
+            rec.log(f"{entity}/axis", axis, frame, static=True)
+
+
+def _log_base(rec: rr.RecordingStream, learner: str, base: pin.SE3, unit: float) -> None:
+    """Where the base is believed to stand, and where it stands."""
+    radius = FOOT * unit
+    for name, placement, colour in (
+        ("believed", pin.SE3.Identity(), BELIEVED),
+        ("wrong", base, WRONG),
     ):
-        links = _log_meshes(rec, robot.urdf, name, tint)
-        for clock, angles in ((acts, motion.angles), (learning, watched.angles[:, -1])):
-            for link, placements in link_placements(arm, links, standing(angles), shift).items():
-                rec.send_columns(
-                    f"{name}/{link}",
-                    clock,
-                    rr.Transform3D.columns(
-                        translation=placements[:, :3, 3],
-                        quaternion=Rotation.from_matrix(placements[:, :3, :3]).as_quat(),
-                        parent_frame=[WORLD] * len(placements),
-                        child_frame=[f"{name}/{link}"] * len(placements),
-                    ),
-                )
-
-
-def link_placements(
-    arm: Arm, links: Iterable[str], angles: np.ndarray, base: pin.SE3
-) -> dict[str, np.ndarray]:
-    """Placements (n, 4, 4) [m] of links in the world at joint angles (n, 6) [rad].
-
-    Args:
-        base: how the robot's base was shifted. The arm's joints know of it, the links before the
-            first joint do not.
-    """
-    model, data = arm.model, arm.model.createData()
-    frames = {link: model.getFrameId(link, pin.FrameType.BODY) for link in links}
-    placements = {link: np.empty((len(angles), 4, 4)) for link in frames}
-    for index, q in enumerate(angles):
-        pin.framesForwardKinematics(model, data, q)
-        for link, frame in frames.items():
-            placement = (
-                data.oMf[frame] if model.frames[frame].parentJoint else base * data.oMf[frame]
-            )
-            placements[link][index] = placement.homogeneous
-    return placements
-
-
-def _log_meshes(
-    rec: rr.RecordingStream, urdf: Path, arm: str, tint: tuple[int, ...] | None
-) -> list[str]:
-    """Log the visual meshes of a robot, each in the frame `<arm>/<link>` of its link.
-
-    Returns these links.
-    """
-    tree = UrdfTree.from_file_path(urdf, entity_path_prefix=arm, frame_prefix=f"{arm}/")
-    links = [tree.root_link(), *(tree.get_joint_child(joint) for joint in tree.joints())]
-    visuals = {
-        link.name: paths for link in links if (paths := tree.get_visual_geometry_paths(link))
-    }
-    entities = [entity for paths in visuals.values() for entity in paths]
-    with _packages(urdf):
-        rec.send_chunks(tree.stream(include_joint_transforms=False).filter(content=entities))
-    if tint:
-        for entity in entities:
-            rec.log(entity, rr.Asset3D.from_fields(albedo_factor=tint), static=True)
-    return list(visuals)
-
-
-@contextmanager
-def _packages(urdf: Path) -> Iterator[None]:
-    """Let the meshes be found, `package://NAME/...`: NAME is a folder beside or above the URDF.
-
-    Rerun looks for packages in this variable.
-    """
-    variable = "ROS_PACKAGE_PATH"
-    before = os.environ.get(variable)
-    folders = [*map(str, urdf.parents), *([before] if before else [])]
-    os.environ[variable] = os.pathsep.join(folders)
-    try:
-        yield
-    finally:
-        del os.environ[variable]
-        if before is not None:
-            os.environ[variable] = before
+        line = rr.LineStrips3D([circle(placement, radius)], radii=BONE * unit / 2, colors=colour)
+        rec.log(f"{learner}/{name}/base", line, static=True)
+    far, turned = np.linalg.norm(base.translation), np.linalg.norm(pin.log3(base.rotation))
+    words = [f"moved {100 * far:.1f} cm"] if far else []
+    words += [f"turned {np.degrees(turned):.1f}°"] if turned else []
+    label = rr.Points3D([base.translation], radii=0, colors=WRONG, labels=[" and ".join(words)])
+    rec.log(f"{learner}/wrong/base/words", label, static=True)

@@ -15,7 +15,7 @@ from rerun.experimental import ViewerClient
 from recalib.errors import RecalibError
 from recalib.storage import whole
 
-WINDOW = (1400, 800)  # pixels
+WINDOW = 1400, 800  # pixels
 TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
 PATIENCE = 60.0  # seconds for the viewer to start and to load, in software on a busy machine
 REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
@@ -25,32 +25,45 @@ class ViewerUnavailable(RecalibError):
     """The viewer does not run here, most often for want of a Vulkan driver."""
 
 
-def take_pictures(recording: Path, pictures: Mapping[Path, float]) -> None:
+def take_pictures(
+    recording: Path,
+    pictures: Mapping[Path, float],
+    view: str | None = None,
+    window: tuple[int, int] = WINDOW,
+) -> None:
     """Write what the viewer shows of a recording, one PNG for each second of its timeline `time`.
+
+    Args:
+        recording: the file.
+        pictures: the second that each shows.
+        view: name of the one that is shown, such as `blueprint.ARM`; all that the window shows
+            unless given. In a smaller window, words are larger beside the rest.
+        window: its size in pixels.
 
     Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
     Raises ViewerUnavailable where the viewer does not start or does not load the recording.
     """
-    with _viewer() as viewer:
+    with _viewer(window) as viewer:
         _load(viewer, recording)
         for repaint in range(REPAINTS):
             _show(viewer, repaint / 100)
+        shown = {each.name: each.view_id for each in viewer.get_state().views}
         for png, seconds in pictures.items():
             _show(viewer, seconds)
             with whole(png) as temporary:
-                viewer.save_screenshot(str(temporary.resolve()))
-                _trim(temporary)
+                viewer.save_screenshot(str(temporary.resolve()), shown[view] if view else None)
+                _save(temporary, 0 if view else TOP_BAR)
 
 
 @contextmanager
-def _viewer() -> Iterator[ViewerClient]:
+def _viewer(window: tuple[int, int]) -> Iterator[ViewerClient]:
     """A viewer without a screen. `ViewerClient.spawn` would listen to the whole network."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     # not the script that starts it, so that it can be ended
     binary = Path(rerun_cli.__file__).with_name("rerun")
-    size = f"{WINDOW[0]}x{WINDOW[1]}"
+    size = f"{window[0]}x{window[1]}"
     options = [
         "--headless",
         "--hide-welcome-screen",
@@ -105,8 +118,8 @@ def _show(viewer: ViewerClient, seconds: float) -> None:
     time.sleep(0.05)
 
 
-def _trim(png: Path) -> None:
-    """Cut the window's bar off, and keep 256 colours: a third of the bytes, the same to the eye."""
+def _save(png: Path, top: int) -> None:
+    """Cut the top off, and keep 256 colours: a third of the bytes, the same to the eye."""
     with Image.open(png) as image:
-        picture = image.convert("RGB").crop((0, TOP_BAR, *image.size))
+        picture = image.convert("RGB").crop((0, top, *image.size))
     picture.quantize(256, dither=Image.Dither.NONE).save(png, optimize=True)

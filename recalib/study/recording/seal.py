@@ -19,7 +19,7 @@ from recalib.errors import RecalibError
 from recalib.study.measured import ERRORS
 
 SEAL = "/__properties/seal"
-TIMELINES = {"iteration", "time"}
+TIMELINES = {"moves", "time"}
 ROW_IDS = "rerun.controls.RowId"  # new ones in every writing
 PLACES = {ROW_IDS, "CoordinateFrame", "InstancePoses3D"}  # where a shape is; the rest says what
 Columns = Mapping[str, Sequence]  # of measurements, as `History.columns` has them for one run
@@ -71,14 +71,18 @@ def check_recording(path: Path, measured: Mapping[str, Columns]) -> None:
             path, f"its timelines are {sorted(timelines)} in place of {sorted(TIMELINES)}"
         )
     _check_meshes(path, chunks)
-    batches = {chunk.entity_path: chunk.to_record_batch() for chunk in chunks}
+    batches = {
+        chunk.entity_path: chunk.to_record_batch()
+        for chunk in chunks
+        if "moves" in chunk.timeline_names
+    }
     for learner, columns in measured.items():
         shown = {}
         for quantity in ERRORS:
             entity = f"/errors/{quantity}/{learner}"
             if entity not in batches:
                 raise BrokenRecording(path, f"no {entity}")
-            shown["iteration"] = batches[entity].column("iteration").to_numpy()
+            shown["moves"] = batches[entity].column("moves").to_numpy()
             shown[quantity] = batches[entity].column("Scalars:scalars").flatten().to_numpy()
         check_errors(path, learner, shown, columns)
 
@@ -86,15 +90,15 @@ def check_recording(path: Path, measured: Mapping[str, Columns]) -> None:
 def check_errors(path: Path, learner: str, shown: Columns, measured: Columns) -> None:
     """Check that all that was measured of a learner is shown, and as it was.
 
-    Raises BrokenRecording for the first iteration that differs.
+    Raises BrokenRecording for the first measurement that differs.
     """
-    rows = {iteration: row for row, iteration in enumerate(shown["iteration"])}
-    for row, iteration in enumerate(measured["iteration"]):
-        where = f"{learner} at iteration {iteration}"
-        if iteration not in rows:
+    rows = {moves: row for row, moves in enumerate(shown["moves"])}
+    for row, moves in enumerate(measured["moves"]):
+        where = f"{learner} after {moves} moves"
+        if moves not in rows:
             raise BrokenRecording(path, f"{where} was measured, but is not shown")
         for quantity in ERRORS:
-            ours = shown[quantity][rows[iteration]]
+            ours = shown[quantity][rows[moves]]
             theirs = np.asarray(measured[quantity])[row]
             if not np.isclose(ours, theirs, rtol=1e-9, atol=1e-12):
                 raise BrokenRecording(

@@ -6,17 +6,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.damaged.plant import Plant
+from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
+from recalib.study.recording.cells import Cells, CellWatch
 from recalib.training import History, train
 
 FRAMES_A_SECOND = 25
 POSES = 12  # that the arm visits
 ACT = 19.2  # seconds in which it visits them: half of them it moves, half of them it rests there
-LEARNING = 10.0  # seconds in which the whole training is shown
+LEARNING = 10.0  # seconds in which the longest training is shown
 BEFORE = ACT - 0.4  # seconds: the arm rests at the last pose, not yet recalibrated
 AFTER = BEFORE + LEARNING + ACT  # the same, recalibrated
+REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
 
 @dataclass(frozen=True)
@@ -25,26 +28,23 @@ class Watched:
 
     Attributes:
         history: the errors on all test poses.
-        centres: (cell, 3) m in the base frame, the supernet's cells.
-        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero
-            before the first.
-        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the
-            position commands of a cell, the mean over its subnet.
         desired: (pose, 4, 4) those of the test poses that are shown.
         achieved: (measurement, pose, 4, 4) where the real arm lands instead.
-        angles: (measurement, pose, 6) rad, what the controller commands the joints for them.
+        angles: (measurement, pose, joint) rad, what the controller commands the joints for them.
         misses, tilts: (measurement, pose) position errors in m and orientation errors in rad.
+        scatter: (pose, repetition, 3) m by which measurements miss where the trained arm lands
+            undisturbed.
+        cells: those of the map; None for a learner that has none.
     """
 
     history: History
-    centres: np.ndarray
-    weights: np.ndarray
-    corrections: np.ndarray
     desired: np.ndarray
     achieved: np.ndarray
     angles: np.ndarray
     misses: np.ndarray
     tilts: np.ndarray
+    scatter: np.ndarray
+    cells: Cells | None
 
 
 def visiting_order(poses: np.ndarray) -> np.ndarray:
@@ -58,7 +58,7 @@ def visiting_order(poses: np.ndarray) -> np.ndarray:
 def watch(
     controller: Controller,
     plant: Plant,
-    learner: HierarchicalLearner,
+    learner: Learner,
     desired: np.ndarray,
     tests: np.ndarray,
     measure_at: Sequence[int],
@@ -71,41 +71,32 @@ def watch(
         measure_at: numbers of iterations after which to measure.
     """
     workspace, shown = controller.robot.workspace, visiting_order(tests[:POSES])
-    position_map = next(iter(learner.maps.values()))
-    untrained = position_map.theta.all[0, ..., POSITION].copy()
-    commands, weights, corrections = [], [], []
+    has_cells = isinstance(learner, HierarchicalLearner)
+    cells = CellWatch(learner, workspace, desired) if has_cells else None
+    commands = []
 
     def look(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
-        weights.append(_neighbourhood(learner, desired, iteration))
-        moved = (position_map.theta.all[0, ..., POSITION] - untrained).mean(axis=1)
-        corrections.append(moved * workspace.half_ranges[POSITION])
+        if cells:
+            cells.look(iteration)
 
     history = train(plant, learner, desired[None], tests[None], measure_at, look)
     poses, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
     angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
     achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *poses.shape)
+    repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
+    measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
     return Watched(
         history=history,
-        centres=workspace.centre[:3, 3] + learner.nets.w_k * workspace.half_ranges[POSITION],
-        weights=np.stack(weights),
-        corrections=np.stack(corrections),
         desired=poses,
         achieved=achieved,
-        angles=angles.reshape(len(commands), *shown.shape),
+        angles=angles.reshape(len(commands), len(shown), -1),
         misses=position_error(achieved, poses),
         tilts=orientation_error(achieved, np.broadcast_to(poses, achieved.shape)),
+        scatter=(measured - achieved[-1][:, None])[..., :3, 3],
+        cells=cells and cells.seen(),
     )
-
-
-def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
-    """g_k (cell,) of the position map in the iteration before; zero where there was none."""
-    if iteration == 0:
-        return np.zeros(len(learner.nets.w_k))
-    last, name = iteration - 1, next(iter(learner.maps))
-    winner = learner.nets.winner(desired[[last]])
-    return learner.nets.neighbourhood(*winner, *learner.widths(name, last / len(desired)))[0][0]
 
 
 @dataclass(frozen=True)
@@ -114,7 +105,7 @@ class Motion:
 
     Attributes:
         times: (frame,) seconds from the start, in the first and the third act.
-        angles: (frame, 6) rad that the controller believes in.
+        angles: (frame, joint) rad that the controller believes in.
         departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the
             acts one and three.
         learning: (measurement,) seconds of the second act at which the measurements are shown.
@@ -129,10 +120,13 @@ class Motion:
     end: float
 
 
-def move(watched: Watched, home: np.ndarray) -> Motion:
-    """The motion that shows a training, from the home angles (6,) [rad]."""
+def move(watched: Watched, home: np.ndarray, most: int) -> Motion:
+    """The motion that shows a training, from the home angles (joint,) [rad].
+
+    Args:
+        most: moves of the longest training that is shown beside it: all share one clock.
+    """
     before, after = watched.angles[0], watched.angles[-1]
-    iterations = watched.history.iterations
     visit = ACT / len(before)
     starts = np.array([0, ACT + LEARNING])
     departures = starts[:, None] + np.arange(len(before)) * visit
@@ -143,7 +137,7 @@ def move(watched: Watched, home: np.ndarray) -> Motion:
         angles=np.concatenate([_visits(home, before, done), _visits(after[-1], after, done)]),
         departures=departures,
         arrivals=departures + visit / 2,
-        learning=ACT + LEARNING * iterations / max(iterations[-1], 1),
+        learning=ACT + LEARNING * watched.history.moves / max(most, 1),
         end=2 * ACT + LEARNING,
     )
 

@@ -7,15 +7,16 @@ from pathlib import Path
 import pandas as pd
 import rerun as rr
 
-from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.interfaces import Learner
 from recalib.storage import whole
 from recalib.study import jobs
-from recalib.study.configuration.damages import damages_among
+from recalib.study.configuration.damages import damages_among, disturbances_among
+from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.measured import errors_of
 from recalib.study.plants import Resolved
-from recalib.study.recording import about, arms, scene, story
+from recalib.study.recording import about, arms, colours, corrections, errors, scatter, scene, story
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.seal import check_errors, check_recording, write_sealed
 from recalib.study.statistics import typical
@@ -28,31 +29,36 @@ def record(
     samples: Sequence[str | Path],
     histories: Sequence[str | Path],
 ) -> None:
-    """Write the recording of a scenario from files: a run of the first learner's typical search.
+    """Write the recording of a scenario from files: a run of a typical search.
 
-    See `write_recording`.
+    It is that of the first of the paper's learners. See `write_recording`.
 
     Args:
         scenario: file of the scenario as resolved.
-        samples: for each learner of the job, the file of the search for it.
-        histories: for each learner of the job, the file of its training.
+        samples: for each of the job's learners of the paper, the file of the search for it.
+        histories: for each of them, the file of its training.
     """
-    tables = dict(zip(job.learners, map(pd.read_parquet, histories), strict=True))
-    errors = errors_of(next(iter(tables.values())))
-    seed = typical(errors) * errors.shape[1]  # the first one of that search
+    resolved = Resolved.read(scenario)
+    papers = job.papers()
+    tables = dict(zip(papers, (pd.read_parquet(history) for history in histories), strict=True))
+    left = errors_of(next(iter(tables.values())))
+    seed = typical(left) * left.shape[1]  # the first one of that search
     measured = {name: table[table["seed"] == seed] for name, table in tables.items()}
-    learners = {
-        name: build_tuned(learner, sample, measured[name]["search"].unique())
-        for (name, learner), sample in zip(job.learners.items(), samples, strict=True)
+    searched = dict(zip(papers, samples, strict=True))
+    learners: dict[str, Learner] = {
+        name: build_tuned(learner, searched[name], measured[name]["search"].unique())
+        if learner
+        else make_peer(name, 1, resolved.controller())
+        for name, learner in job.learners.items()
     }
-    write_recording(Path(path), job, Resolved.read(scenario), learners, measured, seed)
+    write_recording(Path(path), job, resolved, learners, measured, seed)
 
 
 def write_recording(
     path: Path,
     job: jobs.Recording,
     resolved: Resolved,
-    learners: Mapping[str, HierarchicalLearner],
+    learners: Mapping[str, Learner],
     measured: Mapping[str, Mapping[str, Sequence]],
     seed: int,
 ) -> dict[str, story.Watched]:
@@ -61,45 +67,58 @@ def write_recording(
     The file appears whole or not at all, and not before it was compared with the experiment.
 
     Args:
-        job: its learners have the same number of iterations.
-        learners: fresh learners of one run, by name. The arm is moved by the first of them.
-        measured: for each learner, the columns of its history with this seed in the experiment.
+        job: what is recorded.
+        learners: its learners, fresh ones of one run.
+        measured: for each of the paper's learners, the columns of its history with this seed in the
+            experiment.
         seed: of the poses that are visited.
 
     Returns what was watched, by learner. Raises BrokenRecording where the robot's meshes are not
     found, and where the experiment measured anything else than what was watched.
     """
-    iterations = next(iter(job.learners.values())).iterations
-    desired = campaign.desired_poses(job.seed, job.scenario, [seed], iterations)[0]
-    tests = campaign.test_poses(job.seed, job.scenario, [seed], job.measuring.tests)[0]
-    measure_at = campaign.measured_at(job.measuring, iterations)
-    controller = resolved.controller()
-    watched = {}
+    controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
+        measure_at = _measured_at(job, name)
+        desired = campaign.desired_poses(job.seed, job.scenario, [seed], measure_at[-1])[0]
+        tests = campaign.test_poses(job.seed, job.scenario, [seed], job.measuring.tests)[0]
         plant = resolved.plant(controller, job.seed, [seed])
         watched[name] = story.watch(controller, plant, learner, desired, tests, measure_at)
-        check_errors(path, name, watched[name].history.columns(), measured[name])
+        if name in measured:
+            check_errors(path, name, watched[name].history.columns(), measured[name])
 
-    robot, main = controller.robot, next(iter(watched.values()))
-    motion, unit = story.move(main, robot.home), scene.unit_of(robot.workspace)
+    robot, most = controller.robot, max(each.history.moves[-1] for each in watched.values())
+    unit, damages = scene.unit_of(robot.workspace), damages_among(resolved.damages)
+    disturbed = disturbances_among(resolved.damages) is not None
+    texts = {"about": about.panel(resolved, watched), "beside": about.beside(watched)}
 
     def fill(rec: rr.RecordingStream) -> None:
-        rec.send_recording_name(job.scenario)
+        rec.send_recording_name(path.stem)
         rec.send_property("run", rr.AnyValues(**about.properties(job, resolved)))
-        panel = about.panel(resolved, watched)
-        scene.log_surroundings(rec, robot.workspace, main.desired, panel)
-        arms.send_arms(rec, robot, damages_among(resolved.damages), main, motion)
-        scene.send_target(rec, robot.workspace, main, motion)
-        scene.send_published(rec, job.published, main, motion)
-        colours = cycle(scene.LEARNER_COLOURS)
-        for colour, (name, each) in zip(colours, watched.items(), strict=False):
-            scene.send_errors(rec, name, colour, each, motion)
-            scene.send_landings(rec, name, unit, each, motion)
-            scene.send_map(rec, name, unit, each, motion)
+        main = next(iter(watched.values()))
+        scene.log_surroundings(rec, robot.workspace, main.desired, texts)
+        errors.send_published(rec, job.published, main, story.move(main, robot.home, most))
+        for colour, (name, each) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
+            shown = each, story.move(each, robot.home, most)
+            arms.send_arms(rec, robot, damages, name, *shown)
+            scene.send_target(rec, robot.workspace, name, about.when(resolved), *shown)
+            errors.send_errors(rec, name, colour, *shown)
+            scene.send_landings(rec, name, unit, *shown)
+            if disturbed:
+                scatter.send_scatter(rec, name, unit, *shown)
+            if each.cells:
+                corrections.send_map(rec, name, unit, each.cells, *shown)
 
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
-        blueprint = arrange(watched, robot.workspace, job.published)
-        write_sealed(temporary, job.scenario, blueprint, fill)
+        blueprint = arrange(watched, robot.workspace, job.published, not all(job.learners.values()))
+        write_sealed(temporary, path.stem, blueprint, fill)
         check_recording(temporary, {name: each.history.columns() for name, each in watched.items()})
     return watched
+
+
+def _measured_at(job: jobs.Recording, name: str) -> Sequence[int]:
+    """The iterations of a learner after which it is measured: today's after each of its moves."""
+    learner = job.learners[name]
+    if learner:
+        return campaign.measured_at(job.measuring, learner.iterations)
+    return range(job.moves + 1)

@@ -60,18 +60,20 @@ class Judging(Frozen):
 
 
 def judging(request: Callable[[], Request]) -> Judging:
-    """What the claims need, each by itself."""
+    """What the claims need, each by itself: those of which the study's trainings tell, or all."""
     needs = {}
     for claim in CLAIMS:
         ask = request()
         claim.ask(ask)
-        needs[claim.id] = ask.needs
+        if ask.study.experiments.evidence or ask.trained:
+            needs[claim.id] = ask.needs
     return Judging(claims=needs)
 
 
 def judge(job: Judging) -> list[dict]:
-    """Every claim with what was measured and its verdict, as the contract of claims.json asks."""
-    return [claim.judge(Evidence(job.claims[claim.id])) for claim in CLAIMS]
+    """Each claim with what was measured and its verdict, as the contract of claims.json asks."""
+    judged = (claim for claim in CLAIMS if claim.id in job.claims)
+    return [claim.judge(Evidence(job.claims[claim.id])) for claim in judged]
 
 
 def missing(study: Study) -> list[str]:

@@ -111,6 +111,7 @@ class Claim:
         id: its name.
         section: of the paper.
         statement: what the paper says.
+        short: the same in a line, with a place for the first of the numbers measured.
         published: its number, if any.
         limits: the numbers that decide; figures draw them, too.
         criterion: what would support the claim.
@@ -124,6 +125,7 @@ class Claim:
     id: str
     section: str
     statement: str
+    short: str
     published: str
     limits: Mapping[str, Limit]
     criterion: str

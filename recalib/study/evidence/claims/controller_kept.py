@@ -20,6 +20,7 @@ CLAIM = Claim(
     id="controller-kept",
     section="8",
     statement="The method works on top of the controller, which is not substituted.",
+    short="It works on top of a controller that nobody changes: difference {}",
     published="no number",
     limits={"difference": Limit(0.0)},
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"

@@ -27,6 +27,7 @@ CLAIM = Claim(
     section="6",
     statement="The expected learning of a cell in one iteration is sigma^n (2 pi)^(n/2) / volume,"
     " not too close to the border.",
+    short="A cell's expected learning is sigma^n (2 pi)^(n/2) / volume: off by {}",
     published="equation (10)",
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
     criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"

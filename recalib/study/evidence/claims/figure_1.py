@@ -26,6 +26,7 @@ CLAIM = Claim(
     section="7",
     statement="200 iterations of the improved system with 3 x 3 x 3 nets, measured every 4"
     " iterations on 200 random poses, reduce both errors from their initial values to small ones.",
+    short="Both errors become small: {} left",
     published="Figure 1, whose picture is not part of the text",
     limits={"left": Limit(0.1)},
     criterion="Both errors end below a {left:word} of the initial ones (whole intervals).",

@@ -28,6 +28,7 @@ CLAIM = Claim(
     id="identity",
     section="3",
     statement="For the intact robot the mapping is the identity, and learning leaves it there.",
+    short="The intact robot's mapping is the identity, and stays so: {} cm off",
     published="no number",
     limits={"error": Limit(0.001)},
     criterion="The improved system's errors on the intact robot stay below {error} cm and {error}"

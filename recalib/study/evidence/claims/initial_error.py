@@ -35,6 +35,7 @@ CLAIM = Claim(
     section="7",
     statement="This damage gives initial errors of {published[position_error_cm]} cm and"
     " {published[orientation_error_deg]} degrees.",
+    short="This damage gives the published errors: quantile {}",
     published="{published[position_error_cm]} cm, {published[orientation_error_deg]} degrees",
     limits={"tail": Limit(0.025)},
     criterion="Both published errors lie inside the central {tail:central} of those of all"

@@ -65,6 +65,7 @@ THETA = claim(
     "theta",
     id="theta-reason",
     statement="The new mapping is nearer to the old one than to a constant.",
+    short="The new mapping is nearer to the old one than to a constant: ratio {}",
     published="E_upd < E_clas where f' is more similar to f than to a constant",
     criterion="E_upd / E_clas is below {integrals} for the paper's damage, from the intact robot.",
 )
@@ -72,6 +73,7 @@ JACOBIAN = claim(
     "jacobian",
     id="jacobian-reason",
     statement="The Jacobian of the new mapping is nearer to the old one's than to a constant.",
+    short="The new Jacobian is nearer to the old one than to a constant: ratio {}",
     published="the same for A",
     criterion="As for theta-reason, with the integrals of the Jacobians.",
 )

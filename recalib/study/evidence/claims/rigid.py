@@ -35,6 +35,7 @@ CLAIM = Claim(
     id="rigid",
     section="7",
     statement="Translations and rotations of the whole robot are learned.",
+    short="Translations and rotations of the whole robot are learned: {} left",
     published="complete agreement of the real robot with the simulation",
     limits={"left": Limit(0.05), "zero": Limit(0.01)},
     criterion="The improved system leaves at most {left:percent} of either initial error after"

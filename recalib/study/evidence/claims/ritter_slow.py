@@ -22,6 +22,7 @@ CLAIM = Claim(
     section="3",
     statement="Ritter's algorithm on a fixed grid is not as quick as expected, even with its widths"
     " tuned.",
+    short="Ritter's map learns slowly, however tuned: {} left",
     published="no number",
     limits={"left": Limit(0.25)},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"

@@ -28,6 +28,7 @@ CLAIM = Claim(
     id="rough-search",
     section="7",
     statement="A very rough search is enough to find the parameters.",
+    short="A very rough search is enough: {} of all trials come near",
     published="a very rough search",
     limits={"share": Limit(0.1), "factor": Limit(2.0)},
     criterion="More than a {share:word} of the first round's trials, spread over all ranges, come"

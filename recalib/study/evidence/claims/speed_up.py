@@ -66,6 +66,7 @@ CLAIM = Claim(
     section="7, abstract",
     statement="Ritter's needs more than 10,000 iterations for the pair of errors of the improved"
     f" system, a factor of about {FACTOR}.",
+    short=f"Ritter's needs about {FACTOR} times the iterations: {{}} times",
     published=f"a factor of about {FACTOR}",
     limits={"factor": Limit(50.0)},
     criterion="The factor at the errors that the improved system has after {iterations} iterations"

@@ -20,6 +20,7 @@ CLAIM = Claim(
     id="weak-coupling",
     section="4",
     statement="In this workspace position hardly influences orientation commands, and the reverse.",
+    short="Position hardly influences orientation commands, nor the reverse: ratio {}",
     published="no number",
     limits={"ratio": Limit(0.1), "poses": Limit(0.95)},
     criterion="In every scenario, the off-diagonal blocks of the true mapping's Jacobian have at"

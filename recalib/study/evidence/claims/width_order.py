@@ -38,6 +38,7 @@ CLAIM = Claim(
     section="4",
     statement="The position map wants a narrow g_k and a wide g_kl, the orientation map the"
     " reverse.",
+    short="Position commands want narrow g_k and wide g_kl, orientation the reverse: ratio {}",
     published="no number",
     limits={"ratio": Limit(1.0), "best": Limit(0.1)},
     criterion="Among the best {best:word} of the first round's trials of each search for the"

@@ -1,0 +1,69 @@
+"""What the page of all results says: every claim as measured, and every training."""
+
+import numpy as np
+
+from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.evidence.claims.speed_up import READINGS
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.words import brief, in_universes, n, pair, typical_errors, verdicts
+from recalib.study.measured import ERRORS, UNITS
+from recalib.study.statistics import first_within
+
+
+def needs(ask: Request) -> None:
+    """What the page reads."""
+    ask.summary()
+    ask.claims()
+    for role in ("improved", "ritter"):
+        ask.history(ask.fact(role))
+    for fact in ("published", "iterations"):
+        ask.fact(fact)
+
+
+def _on_its_way(evidence: Evidence) -> str:
+    """After how many iterations of its one long training Ritter's has the improved one's errors.
+
+    It is what Figure 2 says.
+    """
+    improved, ritter = (
+        evidence.history(evidence.fact(role)).groupby("iteration")[list(ERRORS)].mean()
+        for role in (IMPROVED, RITTER)
+    )
+    first = first_within(ritter.index.to_numpy(), ritter.to_numpy(), improved.iloc[-1].to_numpy())
+    if not np.isfinite(first):
+        return f"in none of its {ritter.index[-1]:,} iterations"
+    return f"after {first:,.0f} iterations"
+
+
+def _tuned_anew(factor: float | None, iterations: int) -> str:
+    """The same where Ritter's is tuned for each number of iterations: the claim's factor."""
+    if factor is None:
+        return "in none of those that were tried"
+    return f"after {iterations * factor:,.0f} iterations"
+
+
+def context(evidence: Evidence) -> dict:
+    """Everything that the page may say."""
+    summary, claims = evidence.summary().to_dict("records"), evidence.claims()
+    rows = {(row["scenario"], row["learner"]): row for row in summary}
+    by_id = {claim["id"]: claim for claim in claims}
+    factor = by_id["speed-up"]["measured"][f"factor, {READINGS[RITTER]}"]
+    return {
+        "n": n,
+        "pair": pair,
+        "brief": brief,
+        "verdicts": verdicts,
+        "in_universes": in_universes,
+        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims),
+        "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
+        "typical": typical_errors(by_id["figure-1"]),
+        "published": " and ".join(
+            f"{evidence.fact('published')[error]:g} {unit}"
+            for error, unit in zip(ERRORS, UNITS, strict=True)
+        ),
+        "claims": claims,
+        "summary": summary,
+        "on_its_way": _on_its_way(evidence),
+        "tuned_anew": _tuned_anew(factor, evidence.fact("iterations")),
+    }
