@@ -1,14 +1,20 @@
-"""One run at a time in a study's folder of results; runs of different studies go side by side."""
+"""One run at a time in a study's folder of results; runs of different studies go side by side.
+
+Each folder also knows which of Snakemake's notes say from what its results were made.
+"""
 
 import fcntl
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
+from uuid import uuid4
 
 from recalib.errors import RecalibError
 from recalib.storage import is_temporary
 
 MARK = ".running"
+NOTES = ".snakemake/identity"  # deleted with all else that Snakemake has noted
 OTHERS = "studies"  # below the shipped study's folder lie those of the others
 _held = []  # open files: the system lets go of them when the process ends, however it ends
 
@@ -21,8 +27,62 @@ class Busy(RecalibError):
         super().__init__(f"another run is at work in {folder}: wait until it has ended")
 
 
+class Unknown(RecalibError):
+    """Results whose notes are gone, so that nobody can say from what they were made."""
+
+    def __init__(self, folder: str):
+        self.folder = folder
+        super().__init__(
+            f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can say"
+            f" whether it is up to date; valid: remove {folder}, or, if nothing was changed since,"
+            f" {folder}/{MARK}"
+        )
+
+
+class ReadOnly(RecalibError):
+    """A folder in which nothing can be written."""
+
+    def __init__(self, folder: str):
+        self.folder = folder
+        super().__init__(f"nothing can be written in {folder}; valid: a copy of the project")
+
+
+def check_writable(folder: str) -> None:
+    """Raise ReadOnly where no file can be made; the folder itself need not be there yet."""
+    made = Path(folder).absolute()
+    there = made if made.exists() else made.parent
+    if not os.access(there, os.W_OK):
+        raise ReadOnly(str(there))
+
+
+def check_known(folders: Iterable[str]) -> None:
+    """Raise Unknown for results whose notes were deleted, or left elsewhere."""
+    here = _read(NOTES)
+    for folder in folders:
+        if _read(f"{folder}/{MARK}") not in ("", here):
+            raise Unknown(folder)
+
+
+def _read(path: str) -> str:
+    with suppress(FileNotFoundError):
+        return Path(path).read_text(encoding="ascii")
+    return ""
+
+
+def _identity() -> str:
+    """Of Snakemake's notes in this folder."""
+    with Path(NOTES).open("a+", encoding="ascii") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        file.seek(0)
+        if not (identity := file.read()):
+            identity = uuid4().hex
+            file.write(identity)
+        return identity
+
+
 def hold(folders: Iterable[str]) -> None:
-    """Keep other runs out of these folders until this process ends, and tidy them up.
+    """Keep other runs out of these folders until this process ends, tidy them up, and note whose
+    they are.
 
     Raises Busy.
     """
@@ -33,6 +93,9 @@ def hold(folders: Iterable[str]) -> None:
             fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise Busy(folder) from None
+        mark.truncate(0)
+        mark.write(_identity())
+        mark.flush()
         _held.append(mark)
         sweep(folder)
 

@@ -13,6 +13,7 @@ ROOT = Path(__file__).parents[1]
 # Read as text: to parse all modules takes longer than all else that happens at the start.
 OURS = r"((?:recalib|workflow)[\w.]*)"
 IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", re.MULTILINE)
+NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
 @cache
@@ -20,38 +21,45 @@ def code(script: str) -> str:
     """A digest of the script and of every module that it imports, directly or not."""
     digest = hashlib.sha256()
     for module in modules(script):
-        digest.update(module.encode() + b"\0" + (ROOT / module).read_bytes())
+        digest.update(module.encode() + b"\0" + content(module))
     return digest.hexdigest()
 
 
 @cache
 def modules(script: str) -> list[str]:
     """The script and every module that it imports, as paths below the project."""
-    needed, waiting = set(), [ROOT / "workflow" / "scripts" / script]
+    needed, waiting = set(), {f"workflow/scripts/{script}"}
     while waiting:
-        path = waiting.pop()
-        if path not in needed:
-            needed.add(path)
-            waiting += imported(path)
-    return sorted(path.relative_to(ROOT).as_posix() for path in needed)
+        needed |= waiting
+        waiting = set().union(*map(imported, waiting)) - needed
+    return sorted(needed)
 
 
 @cache
-def imported(path: Path) -> list[Path]:
+def imported(module: str) -> frozenset[str]:
     """The modules of the project that a module imports, with the packages that they lie in."""
-    found: list[Path] = []
-    for source, names, module in IMPORT.findall(path.read_text(encoding="utf-8")):
-        for name in re.findall(r"(\w+)(?: as \w+)?", names) or [""]:
-            found += _files([*(source or module).split("."), name])
-    return found
+    text, found = content(module).decode(), set()
+    for source, names, whole in IMPORT.findall(text):
+        for name in NAME.findall(names) or [""]:
+            found.update(_files(f"{source or whole}.{name}"))
+    return frozenset(found)
 
 
-def _files(parts: list[str]) -> list[Path]:
+@cache
+def content(module: str) -> bytes:
+    """What the file of a module holds."""
+    return (ROOT / module).read_bytes()
+
+
+@cache
+def _files(name: str) -> list[str]:
     """The files behind a dotted name: the packages on the way, and the module if it is one."""
-    files, folder = [], ROOT
-    for part in parts:
-        folder = folder / part
-        for path in (folder / "__init__.py", folder.with_suffix(".py")):
-            if path.is_file():
-                files.append(path)
-    return files
+    parts = name.strip(".").split(".")
+    folders = ["/".join(parts[: end + 1]) for end in range(len(parts))]
+    possible = [path for each in folders for path in (f"{each}/__init__.py", f"{each}.py")]
+    return [path for path in possible if _exists(path)]
+
+
+@cache
+def _exists(module: str) -> bool:
+    return (ROOT / module).is_file()

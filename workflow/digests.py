@@ -1,10 +1,12 @@
 """Results that are damaged after they were written are named, not used, and made anew.
 
 A digest of each lies beside it: of what a format checks by itself, flipped bits are read as other
-data in a file of Parquet, and in text always.
+data in a file of Parquet, and in text always. `python -m workflow.digests FOLDER` looks at all
+results below a folder.
 """
 
 import hashlib
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -34,13 +36,20 @@ def keep(paths: Iterable[str]) -> None:
             temporary.write_text(_digest(path), encoding="ascii")
 
 
-def check(paths: Iterable[str]) -> None:
+def check(paths: Iterable[str | Path]) -> None:
     """Raise Damaged where a file is not what was written; what nobody noted is not judged."""
     damaged = [path for path in map(Path, paths) if _is_damaged(path)]
     for path in damaged:
         path.unlink()
     if damaged:
         raise Damaged(damaged)
+
+
+def check_all(folder: str) -> None:
+    """Check all results below a folder. Raises Damaged."""
+    noted = Path(folder).rglob(f"{FOLDER}/*.sha256")
+    paths = (path.parents[1] / path.stem for path in noted)
+    check(sorted(path for path in paths if path.exists()))
 
 
 def _beside(path: Path) -> Path:
@@ -55,3 +64,10 @@ def _digest(path: Path) -> str:
 def _is_damaged(path: Path) -> bool:
     noted = _beside(path)
     return noted.exists() and noted.read_bytes() != _digest(path).encode()
+
+
+if __name__ == "__main__":
+    try:
+        check_all(sys.argv[1])
+    except Damaged as damaged:
+        sys.exit(str(damaged))

@@ -12,7 +12,7 @@ rule benchmark_run:
         job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     threads: 1
     resources:
-        **room(mem_mb=2000, runtime=20),
+        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
@@ -59,6 +59,7 @@ rule real_run:
     input:
         fit=LAYOUT.real_data("fit"),
         test=LAYOUT.real_data("test"),
+        description=lambda w: study(w).real.description,
     output:
         LAYOUT.real_run("{learner}"),
     params:
@@ -66,7 +67,7 @@ rule real_run:
         job=lambda w: as_text(plan(w).real_run(w.learner)),
     threads: 1
     resources:
-        **room(mem_mb=2000, runtime=20),
+        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
@@ -76,6 +77,7 @@ rule real_run:
 rule real_twin:
     input:
         fit=LAYOUT.real_data("fit"),
+        description=lambda w: study(w).real.description,
         sample=lambda w: sample(w, w.learner),
     output:
         LAYOUT.real_twin("{learner}"),
@@ -84,7 +86,7 @@ rule real_twin:
         job=lambda w: as_text(plan(w).real_twin(w.learner)),
     threads: 1
     resources:
-        **room(mem_mb=2000, runtime=20),
+        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:

@@ -5,12 +5,17 @@ import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.persistence import PersistenceBase
 
 ROOT = Path(workflow.basedir)
 # The project's own modules, also where another copy of it is installed; and one core for each job:
 # without this, the linear algebra of every job starts a thread for each core of the machine.
 sys.path.insert(0, str(ROOT))
 os.environ.update(PYTHONPATH=str(ROOT), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+
+# Snakemake asks of every parameter whether it is a table, and brings pandas for that, which takes
+# longer than all else here. Ours are text.
+PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_builtin
 
 from recalib.errors import RecalibError
 from recalib.study.layout import RESULTS, SEARCHED, Layout
@@ -63,6 +68,7 @@ def room(mem_mb, runtime):
 wildcard_constraints:
     root="|".join(STUDIES),
     scenario=r"\w+(-\w+)?",
+    recording=r"\w+(-\w+)?(\.today)?",
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",

@@ -5,6 +5,7 @@ from functools import partial
 from recalib.study.evidence.claims import judging
 from recalib.study.evidence.coverage import needs as needs_of_coverage
 from recalib.study.evidence.needs import Request
+from recalib.study.evidence.outcome import needs as needs_of_outcome
 from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
 
 
@@ -51,6 +52,25 @@ rule claims:
         "Judge every claim of the paper"
     script:
         "../scripts/claims.py"
+
+
+def outcome_needs(wildcards):
+    return asked(wildcards.root, needs_of_outcome)
+
+
+rule outcome:
+    input:
+        evidence=lambda w: outcome_needs(w).inputs,
+    output:
+        LAYOUT.outcome,
+    params:
+        code=code("outcome.py"),
+        job=lambda w: as_text(outcome_needs(w)),
+    localrule: True
+    message:
+        "Say what came out"
+    script:
+        "../scripts/outcome.py"
 
 
 def coverage_needs(wildcards):

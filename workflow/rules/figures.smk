@@ -1,6 +1,6 @@
 """Figures: each is drawn from what it declares, and an unchanged result leaves it unchanged."""
 
-from recalib.study.plots.registry import FIGURES, drawn
+from recalib.study.plots.registry import FIGURES, IDEAS, drawn
 
 
 def figure_needs(wildcards):

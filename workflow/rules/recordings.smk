@@ -1,31 +1,35 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
 
+def recorded(wildcards):
+    return plan(wildcards).recording(wildcards.recording)
+
+
 rule recording:
     input:
-        scenario=LAYOUT.scenario("{scenario}"),
-        samples=lambda w: [sample(w, learner) for learner in plan(w).recorded()],
+        scenario=lambda w: layout(w).scenario(recorded(w).scenario),
+        samples=lambda w: [sample(w, name) for name in recorded(w).papers()],
         histories=lambda w: [
-            layout(w).history(w.scenario, learner) for learner in plan(w).recorded()
+            layout(w).history(recorded(w).scenario, name) for name in recorded(w).papers()
         ],
     output:
-        LAYOUT.recording("{scenario}"),
+        LAYOUT.recording("{recording}"),
     params:
         code=code("record.py"),
-        job=lambda w: as_text(plan(w).recording(w.scenario)),
+        job=lambda w: as_text(recorded(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
-        "Record the arm on {wildcards.scenario}"
+        "Record {wildcards.recording}"
     script:
         "../scripts/record.py"
 
 
 def recordings_of(root):
     """The recordings of a study, if it has learners that are recorded."""
-    scenarios = STUDIES[root].experiments.scenarios if PLANS[root].recorded() else []
-    return [Layout(root).recording(scenario) for scenario in scenarios]
+    names = PLANS[root].recordings()
+    return [Layout(root).recording(name) for name in names]
 
 
 rule before_and_after:
@@ -36,13 +40,13 @@ rule before_and_after:
             LAYOUT.figure("arm_before", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "Before recalibration"},
+            labels={"picture": "1: before recalibration"},
         ),
         after=report(
             LAYOUT.figure("arm_after", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "After recalibration"},
+            labels={"picture": "2: after recalibration"},
         ),
     params:
         code=code("pictures.py"),
@@ -54,10 +58,28 @@ rule before_and_after:
         "../scripts/pictures.py"
 
 
+rule film:
+    input:
+        recording=lambda w: layout(w).recording(study(w).scenario),
+    output:
+        LAYOUT.figure("arm", ".webp"),
+    params:
+        code=code("film.py"),
+        scenario=lambda w: study(w).scenario,
+    localrule: True
+    message:
+        "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
+    script:
+        "../scripts/film.py"
+
+
+PICTURES = "arm_before.png", "arm_after.png", "arm.webp"
+
+
 rule pictures:
     input:
-        ["figures/arm_before.png", "figures/arm_after.png"]
+        [f"figures/{picture}" for picture in PICTURES]
         if MAIN == RESULTS
-        else [Layout(MAIN).figure(name, ".png") for name in ("arm_before", "arm_after")],
+        else [Layout(MAIN).figure(picture, "") for picture in PICTURES],
     message:
         "The arm before and after: {input}"

@@ -1,5 +1,6 @@
 """The report: pages of figures and tables. `make report` puts them into one file."""
 
+import hashlib
 import re
 
 from recalib.study.evidence import report as report_
@@ -10,11 +11,37 @@ TEXTS = Path(report_.TEXTS)
 report: str(Path(Layout(MAIN).report_page(report_.FRONT, ".rst")).resolve())
 
 
+def read_in(root):
+    """The pages of docs/ that a study's report has as well, by the path of their text."""
+    pages = report_.READ if STUDIES[root].experiments.evidence else ()
+    explained = {report_.EXPLAINED: f"docs/{report_.EXPLAINED}.md"} if root == RESULTS else {}
+    return explained | {page: Layout(root).page(f"{page}.md") for page in pages}
+
+
+def kept_in(root):
+    """Those that are committed, with a digest: not asked for, since other targets write them."""
+    names = report_.KEPT if root == RESULTS else {}
+    both = ((f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in names.items())
+    paths = [path for pair in both for path in pair]
+    there = (ROOT / path for path in paths)
+    return {
+        path: hashlib.sha256(full.read_bytes()).hexdigest()
+        for path, full in zip(paths, there, strict=True)
+        if full.exists()
+    }
+
+
+def other_pages_of(root):
+    """All of them by name."""
+    return [*read_in(root), *(Path(path).stem for path in kept_in(root) if path.endswith(".md"))]
+
+
 def pages_of(root):
     """The pages of a study's report, by category."""
     return {
-        "Claims of the paper": ["claims"] if STUDIES[root].experiments.evidence else [],
+        "Claims of the paper": ["claims"] if judging(request(root)).claims else [],
         "Figures": drawn(STUDIES[root], request(root)),
+        "Method, findings, guidance": other_pages_of(root),
         "Tables": list(report_.TABLES),
     }
 
@@ -37,14 +64,20 @@ def report_of(root):
 
 # How many pages there are is known of each study by itself, hence a rule for each.
 for root_ in STUDIES:
-    texts_ = ["layout", "parts", *sum(pages_of(root_).values(), [])]
+    own_ = {*sum(pages_of(root_).values(), [])} - {*other_pages_of(root_)}
+    texts_ = ["layout", "parts", *sorted(own_)]
+    ideas_ = [Layout(root_).figure(name) for name in IDEAS] if root_ == RESULTS else []
 
     rule:
         name:
             f"report_pages_{STUDIES[root_].name}"
         input:
-            texts=[*(TEXTS / f"{name}.html" for name in texts_), TEXTS / f"{report_.FRONT}.rst"],
-            figures=[path for path in figures_of(root_) if path.endswith(".svg")],
+            texts=[
+                *(TEXTS / f"{name}.html" for name in texts_),
+                TEXTS / f"{report_.FRONT}.rst",
+            ],
+            read=list(read_in(root_).values()),
+            figures=[*(path for path in figures_of(root_) if path.endswith(".svg")), *ideas_],
             evidence=asked(root_, report_.needs).inputs,
         output:
             pages=[
@@ -55,6 +88,7 @@ for root_ in STUDIES:
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
         params:
             code=code("report_pages.py"),
+            kept=kept_in(root_),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
         localrule: True
         message:

@@ -1,6 +1,12 @@
 """What a study consists of, a target for each of them, and what the shipped one publishes."""
 
-from workflow.alone import hold
+from workflow.alone import check_known, check_writable, hold
+
+try:
+    check_writable(".snakemake")
+    check_known(STUDIES)
+except RecalibError as error:
+    raise WorkflowError(str(error)) from None
 
 
 def folder_of(job):
@@ -17,19 +23,31 @@ onstart:
     if workflow.local_exec:
         workflow.scheduler.job_rate_limiter = None
     try:
-        hold({folder_of(job) for job in workflow.dag.needrun_jobs()})
+        hold({folder_of(job) for job in workflow.dag.needrun_jobs() if job.output})
     except RecalibError as error:
         raise WorkflowError(str(error)) from None
 
 
+onsuccess:
+    for job in workflow.dag.jobs:
+        if job.rule.name == "outcome":
+            print(Path(job.output[0]).read_text(encoding="utf-8"))
+
+
+PAGES_BY_DEFAULT = ["README.md", "results.md", "findings.md", "choices.md"]
+
+
 def everything(root):
     """All results of a study, and what is made of them."""
-    its, wanted = Layout(root), [Layout(root).summary]
+    its = Layout(root)
+    wanted = [its.summary, its.claims, its.outcome]
+    wanted += [its.learned(*run) for run in TRAININGS[root].runs]
     if STUDIES[root].expected:
         wanted.append(its.check)
     if STUDIES[root].experiments.evidence:
-        wanted += [its.claims, *with_copies(root, pages=["README.md", "findings.md"])]
+        wanted += with_copies(root, pages=PAGES_BY_DEFAULT)
     drawn_ = [Path(path).stem for path in figures_of(root)]
+    drawn_ += IDEAS if root == RESULTS else []
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]
 
 
@@ -54,7 +72,7 @@ rule publish_figure:
     output:
         "figures/{figure}.{suffix}",
     wildcard_constraints:
-        suffix="svg|png",
+        suffix="svg|png|webp",
     localrule: True
     message:
         "Publish {output}"

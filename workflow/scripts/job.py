@@ -13,14 +13,16 @@ from workflow.digests import check, keep
 def job(snakemake) -> Iterator[None]:
     """Check what is read, note what was written, and say how long it took.
 
-    An error of recalib is shown as a line.
+    An error of recalib, or of the system, is shown as a line.
     """
     start = time.perf_counter()
     try:
         check(snakemake.input)
         yield
         keep(snakemake.output)
-    except RecalibError as error:
+    except (RecalibError, OSError) as error:
         sys.exit(f"{snakemake.rule}: {error}")
+    except KeyboardInterrupt:
+        sys.exit(f"{snakemake.rule}: interrupted")
     made = snakemake.output[0] if len(snakemake.output) else snakemake.rule
     print(f"{snakemake.rule}: made {made} in {time.perf_counter() - start:.1f} s", file=sys.stderr)

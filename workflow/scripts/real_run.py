@@ -7,5 +7,6 @@ from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:
     job_ = RealRun.model_validate_json(snakemake.params.job)
-    table = learn_from_tables(job_, snakemake.input.fit, snakemake.input.test)
+    paths = (snakemake.input[name] for name in ("fit", "test", "description"))
+    table = learn_from_tables(job_, *paths)
     table.to_csv(path, index=False)

@@ -7,4 +7,5 @@ from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:
     job_ = RealTwin.model_validate_json(snakemake.params.job)
-    learn_on_twin(job_, snakemake.input.fit, snakemake.input.sample).to_csv(path, index=False)
+    paths = (snakemake.input[name] for name in ("fit", "description", "sample"))
+    learn_on_twin(job_, *paths).to_csv(path, index=False)

@@ -1,0 +1,42 @@
+"""The site's pages: those of the repository from where they lie, and one from the docstrings."""
+
+from pathlib import Path
+
+from mkdocs.structure.files import File, Files
+
+import recalib
+
+SHOWN = (
+    "*.md",
+    "docs/*.md",
+    "figures/*",
+    "examples/*.py",
+    "CITATION.cff",
+    "config.yaml",
+    "LICENSE",
+    "workflow/real/*.toml",
+    "workflow/site/*.[cj]s*",
+)
+REFERENCE = """# Reference
+
+What `import recalib` has. [How it fits together](library.md).
+
+"""
+
+
+def on_files(files: Files, config) -> Files:
+    """All that the site has of this project, beside what the theme brings."""
+    root = Path(config.config_file_path).parent
+    for file in list(files.documentation_pages()):
+        files.remove(file)
+    for path in sorted(path for shown in SHOWN for path in root.glob(shown)):
+        name = path.relative_to(root).as_posix()
+        files.append(File.generated(config, name, abs_src_path=str(path)))
+    files.append(File.generated(config, "docs/reference.md", content=reference()))
+    return files
+
+
+def reference() -> str:
+    """The page of the public names, each documented where it is at home."""
+    homes = (f"{recalib._HOMES[name]}.{name}" for name in recalib.__all__)
+    return REFERENCE + "\n".join(f"::: {home}\n" for home in homes)
