@@ -2,10 +2,6 @@
 
 import os
 import shutil
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 
 # before NumPy is there: small matrices are slower on many threads than on one
@@ -29,9 +25,6 @@ settings.register_profile("untimed", deadline=None)  # what is compiled takes se
 settings.load_profile("untimed")
 
 ROOT = Path(__file__).parents[1]
-SNAKEMAKE = [sys.executable, "-m", "snakemake", "--cores", "2"]
-SMALL = ["--configfile", "tests/tiny.yaml"]
-TINY = "results/studies/tiny"  # where they lie, by the name in tests/tiny.yaml
 PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
 PARTS += ["tests", "docs", "figures"]
 
@@ -102,53 +95,9 @@ def damaged(robot) -> DamagedArm:
     return apply(robot, [LinkShortening("forearm_link", 0.04), *shift])
 
 
-def snakemake(project, *arguments, small=True) -> subprocess.CompletedProcess:
-    """Run the workflow in a copy of the project: on the small study, or as it is shipped."""
-    return subprocess.run(
-        [*SNAKEMAKE, *(SMALL if small else []), *arguments],
-        cwd=project,
-        text=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        check=False,
-    )
-
-
 def copy_project(folder: Path) -> Path:
+    """Copy what the workflow and the tests need of the project into a folder."""
     for part in PARTS:
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
         copy(ROOT / part, folder / part)
-    return folder
-
-
-@pytest.fixture(scope="session")
-def project(tmp_path_factory) -> Path:
-    """A copy of the project whose run was killed in the middle and started again."""
-    folder = copy_project(tmp_path_factory.mktemp("project"))
-    process = subprocess.Popen(
-        [*SNAKEMAKE, *SMALL],
-        cwd=folder,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    whole = f"{TINY}/runs/*/[!.]*.parquet"  # a dot begins the name of a file in the making
-    deadline = time.monotonic() + 600
-    while process.poll() is None and not list(folder.glob(whole)) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    assert process.poll() is None, "the run ended before it could be interrupted"
-    os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
-    gathered = [path.relative_to(folder / TINY / "runs") for path in folder.glob(whole)]
-    chunks = [
-        path
-        for run in gathered
-        for path in folder.glob(f"{TINY}/chunks/runs/{run.parent}/{run.stem}.*.parquet")
-    ]
-    done = {path: path.stat().st_mtime_ns for path in chunks}
-    finished = snakemake(folder)
-    assert finished.returncode == 0, finished.stdout
-    assert done and all(path.stat().st_mtime_ns == then for path, then in done.items()), (
-        "what was done is kept"
-    )
     return folder

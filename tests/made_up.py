@@ -4,18 +4,21 @@ As they are, they support every claim. Tests change what they are about.
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from itertools import product
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study import jobs
+from recalib.study import jobs, statistics
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import SWITCHES
+from recalib.study.evidence import effects
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
 from recalib.study.evidence.needs import Needs, Request
@@ -41,6 +44,16 @@ LADDERS = {"improved": 20, "ritter": 1600, "ritter_double": 1600}  # error times
 # Spread of errors: of searches at 0.05 to 0.1 in the experiments, of seeds at 0.05
 OF_SEARCHES, OF_SEEDS = 0.07, 0.05
 NOISE = 1e-9  # relative: more than machines differ by
+
+
+@contextmanager
+def few_resamples() -> Iterator[None]:
+    """A tenth of them: where intervals have to be there, and that is all."""
+    with (
+        mock.patch.object(statistics, "RESAMPLES", 2000),
+        mock.patch.object(effects, "RESAMPLES", 200),
+    ):
+        yield
 
 
 class MadeUp:
@@ -242,6 +255,7 @@ class MadeUp:
         """The verdict on one claim."""
         return self.judged(claim)["verdict"]
 
+    @few_resamples()
     def conclude(self) -> None:
         """Make the tables and verdicts that figures and pages read, as the workflow does."""
         layout, plan = self.layout, self.plan

@@ -6,8 +6,15 @@ import pytest
 
 from tests.conftest import ROOT
 
-LIBRARY = "nominal", "damaged", "identification", "learners"
+LIBRARY = "nominal", "damaged", "identification", "learners", "laboratory"
 STUDY = "mapping", "experiments", "evidence", "multiverse", "plots", "recording"
+# What the library draws with, in modules that nothing else of it imports, by what they need.
+LOOKS = {
+    "laboratory/drawings.py": {"matplotlib"},
+    "laboratory/page.py": {"jinja2"},
+    "laboratory/watching.py": {"rerun"},
+    "viewing.py": {"rerun"},
+}
 FOR_STUDIES_ALONE = {
     "jinja2",
     "matplotlib",
@@ -59,13 +66,31 @@ def test_the_library_knows_of_no_study_and_needs_none_of_its_packages():
         if "study" not in path.relative_to(ROOT).parts:
             names = imported(path)
             assert not [name for name in names if name.startswith("recalib.study")], path
-            assert not {name.split(".")[0] for name in names} & FOR_STUDIES_ALONE, path
+            heavy = {name.split(".")[0] for name in names} & FOR_STUDIES_ALONE
+            assert heavy <= LOOKS.get(path.relative_to(ROOT / "recalib").as_posix(), set()), path
+
+
+@pytest.mark.parametrize("package", sorted(set().union(*LOOKS.values())))
+def test_what_draws_a_calibration_is_not_needed_to_make_one(package):
+    """Where a package of the extra `laboratory` is absent, a file to look at is, and says so."""
+    text = (
+        f"import sys; sys.modules[{package!r}] = None\n"
+        "from recalib.laboratory import calibrate, correct, propose, command_line\n"
+        "from recalib.laboratory.files import looks\n"
+        "written, missing = looks()\n"
+        "print(len(written), missing)"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
+    )
+    assert ran.stdout.startswith("1 ") and f"{package} is missing; pip install" in ran.stdout
 
 
 def test_rerun_is_imported_by_the_recordings_alone():
     for path in (ROOT / "recalib").rglob("*.py"):
         uses = any(name.split(".")[0] == "rerun" for name in imported(path))
-        assert not uses or path.parent.name == "recording", path
+        allowed = path.parent.name == "recording" or path.name in ("viewing.py", "watching.py")
+        assert not uses or allowed, path
 
 
 def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
@@ -79,3 +104,21 @@ def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
         [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
     )
     assert ran.stdout.split() == []
+
+
+CHANGES = {"DamagedArm", "Finding"}  # what is gathered part by part
+
+
+def decorators(node) -> list[str]:
+    return [ast.unparse(each) for each in node.decorator_list if "dataclass" in ast.unparse(each)]
+
+
+def test_what_is_made_once_cannot_be_changed_afterwards():
+    """Values travel between parts, and stand in tables of what was computed of them."""
+    changing = set()
+    for path in (ROOT / "recalib").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            made = decorators(node) if isinstance(node, ast.ClassDef) else []
+            if made and "frozen=True" not in made[0]:
+                changing.add(node.name)
+    assert changing == CHANGES

@@ -4,10 +4,11 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
+from recalib.interfaces import Outcome
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED
 from recalib.learners.schedules import Schedule
-from recalib.training import measuring_grid, train
+from recalib.training import SUMMARIES, measuring_grid, train
 
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
 
@@ -37,9 +38,51 @@ def test_two_moves_an_iteration_are_counted(history):
     assert not history.refused.any()
 
 
-def test_summaries_are_ordered(history):
-    mean, p95, most = np.moveaxis(history.position, -1, 0)
-    assert (mean < p95).all() and (p95 <= most).all()
+def test_a_summary_is_the_mean_the_95th_percentile_and_the_largest():
+    errors = np.stack([np.arange(101.0) ** 2, np.ones(101)])
+    said = [summary(errors) for summary in SUMMARIES.values()]
+    assert np.array_equal(said, [[3350, 1], [95**2, 1], [100**2, 1]])
+    assert list(SUMMARIES) == ["", "_p95", "_max"]
+
+
+class Watched:
+    """A robot that stays where it is, and a learner that keeps what it is asked and told."""
+
+    moves, refused = 0, 0
+
+    def __init__(self, workspace):
+        self.workspace, self.told, self.asked = workspace, [], []
+
+    def achieve(self, commands):
+        executed = np.ones(commands.shape[:-1], dtype=bool)
+        return self.workspace.to_poses(np.zeros_like(commands)), executed
+
+    def execute(self, commands):
+        self.moves += commands.shape[1]
+        return Outcome(np.zeros_like(commands), np.ones(commands.shape[:-1], dtype=bool))
+
+    def command(self, desired):
+        self.asked.append(len(self.told))
+        return desired
+
+    def learn(self, desired, execute, fraction):
+        execute(desired[:, None])
+        self.told.append((desired[0, 0], fraction))
+
+
+def test_a_learner_is_told_each_pose_in_turn_and_what_fraction_of_the_training_is_done(robot):
+    its = Watched(robot.workspace)
+    desired, tests = np.zeros((1, 4, 6)), np.zeros((1, 3, 6))
+    desired[0, :, 0] = 0.1, 0.2, 0.3, 0.4
+    tests[0, :, 0] = 1.0, -1.0, 0.5
+    seen = []
+    history = train(its, its, desired, tests, [0, 3, 4], lambda *said: seen.append(said))
+    assert its.told == [(0.1, 0.0), (0.2, 0.25), (0.3, 0.5), (0.4, 0.75)]
+    assert its.asked == [0, 3, 4] == history.iterations.tolist() == history.moves.tolist()
+    # a quarter of a metre to either side, and half of that
+    assert history.position[0] == pytest.approx(np.tile([0.25 * 2.5 / 3, 0.25, 0.25], (3, 1)))
+    assert np.abs(history.orientation).max() < 1e-7
+    assert seen[1] == (3, pytest.approx(25 * 2.5 / 3), pytest.approx(0, abs=1e-5))
 
 
 def test_the_first_measurement_is_of_the_uncorrected_robot(history, controller, damaged, poses):

@@ -110,12 +110,14 @@ def otherwise(robot, change):
     match change:
         case "a longer link":
             model.jointPlacements[3].translation[0] += 1e-3
-            return replace(robot, arm=Arm(model, robot.arm.tool)), "kinematics differs"
+            return replace(robot, arm=Arm(model, "tool0", "base_link")), "kinematics differs"
         case "another tool":
-            return replace(robot, arm=Arm(model, "ee_link")), "tool is tool0, not ee_link"
+            arm = Arm(model, "ee_link", "base_link")
+            return replace(robot, arm=arm), "tool is tool0, not ee_link"
         case "other joints":
             model.names[1] = "waist"
-            return replace(robot, arm=Arm(model, robot.arm.tool)), "joints are .*, not .*waist"
+            arm = Arm(model, "tool0", "base_link")
+            return replace(robot, arm=arm), "joints are .*, not .*waist"
         case "another home":
             return replace(robot, home=robot.home + 0.1), r"home differs by up to 0\.1 m or rad"
         case "other coordinates":
@@ -177,9 +179,9 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1, 1), robot)
     arrays = dict(np.load(path))
-    header = json.loads(str(arrays.pop("header"))) | {"version": 3}
+    header = json.loads(str(arrays.pop("header"))) | {"version": 4}
     np.savez(path, header=json.dumps(header), **arrays)
-    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 3\); valid: .* 2\)"):
+    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 4\); valid: .* 3\)"):
         load(path, robot)
 
 

@@ -18,7 +18,8 @@ from packaging.utils import canonicalize_name
 import recalib
 from tests.conftest import ROOT
 
-EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem != "ur10")
+ALONE = "ur10", "notebook"  # the robot of the examples, and tests/test_notebook.py
+EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem not in ALONE)
 FOR_STUDIES = "matplotlib", "pandas", "pydantic", "rerun", "snakemake", "yaml"
 
 

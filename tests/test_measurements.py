@@ -9,6 +9,7 @@ from recalib.errors import BadMeasurement, InvalidFile
 from recalib.external import ExternalRobot
 from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import OFFSETS
+from recalib.identification.observations import Observations
 from recalib.interfaces import Outcome
 from recalib.learned import save
 from recalib.learners.gaussian_process import GaussianProcessLearner
@@ -125,21 +126,21 @@ def spoilt(values, bad):
         (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
         (lambda q, p: (q, spoilt(p, 1e6)), r"measurement 7 .*10 \(m in the base frame\)"),
         (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
-        (lambda q, p: (q, p[:19]), r"shapes: .*n at least 1"),
-        (lambda q, p: (q[:, :5], p), r"shapes: .*n at least 1"),
-        (lambda q, p: (q[:0], p[:0]), r"shapes: .*n at least 1"),
+        (lambda q, p: (q, p[:19]), r"shapes: .*n > 0"),
+        (lambda q, p: (q[:, :5], p), r"shapes: .*n > 0"),
+        (lambda q, p: (q[:0], p[:0]), r"shapes: .*n > 0"),
     ],
     ids=["NaN", "degrees", "no pose", "far off", "mm", "one less", "five joints", "none"],
 )
 def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
     with pytest.raises(BadMeasurement, match=said):
-        calibrate(robot.arm, [OFFSETS], *spoil(*table))
+        calibrate(robot.arm, [OFFSETS], Observations(*spoil(*table)))
 
 
 @pytest.mark.parametrize("rows", [[0], [0] * 20], ids=["one", "twenty times the same"])
 def test_little_is_learned_from_little_and_nothing_is_spoilt(rows, table, robot, damaged):
     angles, measured = table
-    found = calibrate(robot.arm, [OFFSETS], angles[rows], measured[rows])
+    found = calibrate(robot.arm, [OFFSETS], Observations(angles[rows], measured[rows]))
     before, after = (
         position_error(arm.forward(angles), damaged.forward(angles)) for arm in (robot.arm, found)
     )

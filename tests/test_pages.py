@@ -7,14 +7,16 @@ import pandas as pd
 import pytest
 
 from recalib.study.evidence.checks import expect
+from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.pages import PAGES, render
 from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.evidence.words import amounts, brief, measured, n, pair, verdicts
+from recalib.study.evidence.words import amounts, brief, measured, n, one, pair, verdicts
 from tests.conftest import ROOT
 from tests.made_up import MadeUp
 
 RESULTS = ROOT / "results"
 README = ROOT / "README.md"
+ALL_RESULTS = ROOT / "docs" / "results.md"
 needs_results = pytest.mark.skipif(
     not (RESULTS / "claims.json").exists(),
     reason="needs the results of a full run, which `make` leaves",
@@ -37,6 +39,7 @@ def test_numbers_are_written_for_people():
     row = {"final_position_error_cm": 0.283, "final_orientation_error_deg": 0.291}
     assert pair(row, "final") == "0.28 cm, 0.29 degrees"
     claim = {"measured": {"factor": 30.42, "rest": 0.5}, "interval": {"factor": [29.71, None]}}
+    assert one(claim, "factor") == "30.4 (29.7 to more)"
     assert measured(claim) == "factor: 30.4 (29.7 to more); rest: 0.5"
     assert amounts({"link": "forearm_link", "shorten": "4 cm"}) == "forearm_link 4 cm"
     assert amounts({"translate": ["5 cm", "0 cm", "1 cm"]}) == "5 cm, 0 cm, 1 cm"
@@ -85,7 +88,7 @@ def test_the_page_of_guidance_is_written_for_any_learners(few, tmp_path):
 @needs_results
 def test_the_table_of_trainings_says_what_the_summary_says():
     summary = pd.read_csv(RESULTS / "summary.csv")
-    table = rows(README.read_text(encoding="utf-8"), "All trainings")
+    table = rows(ALL_RESULTS.read_text(encoding="utf-8"), "All trainings")
     assert len(table) == len(summary)
     for cells, row in zip(table, summary.to_dict("records"), strict=True):
         assert cells[:2] == [row["scenario"], row["learner"]]
@@ -102,14 +105,44 @@ def test_the_table_of_trainings_says_what_the_summary_says():
 @needs_results
 def test_the_table_of_claims_says_what_the_verdicts_say():
     claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
-    table = rows(README.read_text(encoding="utf-8"), "Does the paper hold?")
+    table = rows(ALL_RESULTS.read_text(encoding="utf-8"), "Claims")
     assert [(cells[0], *cells[2:4]) for cells in table] == [
         (each["statement"], verdicts(each), brief(each)) for each in claims
     ]
 
 
 @needs_results
-@pytest.mark.parametrize("page", ["README.md", "docs/findings.md"])
+def test_the_readme_has_each_claim_in_a_line_under_its_verdict():
+    claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
+    section = README.read_text(encoding="utf-8").split("## Does the paper hold?\n")[1]
+    found, verdict = {}, None
+    for line in section.split("\n## ")[0].splitlines():
+        if heading := re.fullmatch(r"\*\*(.+)\*\*", line):
+            verdict = heading[1].lower()
+        elif line.startswith("- "):
+            said = re.fullmatch(r"- (.+?)\.( \*(\d+) of \d+\.\*)?", line)
+            found[said[1]] = verdict, said[3] and int(said[3])
+    judged = {claim["id"]: claim for claim in claims}
+    numbers = {name: one(its, next(iter(its["measured"]))) for name, its in judged.items()}
+    assert found == {
+        claim.short.format(numbers[claim.id]): (
+            judged[claim.id]["verdict"],
+            (judged[claim.id]["universes"] or {"holds": None})["holds"],
+        )
+        for claim in CLAIMS
+    }
+
+
+def test_the_readme_is_read_in_a_few_minutes():
+    text = README.read_text(encoding="utf-8")
+    assert len(text.split()) <= 900
+    assert len(re.findall(r"^\|", text, re.MULTILINE)) <= 20, "rows of tables"
+
+
+@needs_results
+@pytest.mark.parametrize(
+    "page", ["README.md", "docs/results.md", "docs/findings.md", "docs/choices.md"]
+)
 def test_the_committed_pages_are_those_of_the_results(page):
     made = RESULTS / "pages" / page.split("/")[-1]
     assert (ROOT / page).read_bytes() == made.read_bytes()

@@ -2,9 +2,11 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy.stats import norm
+from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.regression import Covariance, Process
+from recalib.regression import Covariance, Process, is_time_to_search
 
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
@@ -19,7 +21,38 @@ def test_a_smooth_function_is_found_where_it_was_not_seen():
 
 
 def test_noise_is_no_gain():
+    for _ in range(10):
+        assert Process(INPUTS[:20], GENERATOR.standard_normal((20, 1))).gain < 0
     assert Process(INPUTS, GENERATOR.standard_normal((60, 2))).gain < 0
+
+
+def test_the_gain_is_over_white_noise_less_what_hyperparameters_gain_by_chance():
+    """By scikit-learn's own kernels and its own likelihood, and by SciPy's of white noise."""
+    process = Process(INPUTS, SMOOTH)
+    trend, smooth, *lengths, noise = np.exp(process.hyperparameters)
+    kernel = ConstantKernel(trend) * DotProduct(1, "fixed") + ConstantKernel(smooth) * RBF(lengths)
+    outputs = (SMOOTH - SMOOTH.mean(axis=0)) / SMOOTH.std(axis=0)
+    regressor = GaussianProcessRegressor(kernel + WhiteKernel(noise), optimizer=None)
+    found = regressor.fit(INPUTS - INPUTS.mean(axis=0), outputs).log_marginal_likelihood_value_
+    schwarz = 6 / 2 * np.log(2 * 60)
+    assert process.gain == pytest.approx(found - norm.logpdf(outputs).sum() - schwarz)
+
+
+def test_hyperparameters_are_sought_when_the_points_have_doubled_up_to_where_they_tell_little():
+    sought = [points for points in range(1, 1000) if is_time_to_search(points - 1, points)]
+    assert sought == [1, 2, 4, 8, 16, 32, 64, 128]
+    assert is_time_to_search(40, 1000) and not is_time_to_search(40, 63)
+
+
+def test_the_unit_and_the_origin_of_outputs_and_the_origin_of_inputs_do_not_matter():
+    process = Process(INPUTS, SMOOTH)
+    shift = np.array([3, -1, 2])
+    other = Process(INPUTS + shift, 1e-3 * SMOOTH - 5)
+    np.testing.assert_allclose(other.hyperparameters, process.hyperparameters, atol=1e-2)
+    assert other.gain == pytest.approx(process.gain, abs=1e-2)
+    asked = INPUTS[:5] + 0.1
+    expected = 1e-3 * process.predict(asked) - 5
+    np.testing.assert_allclose(other.predict(asked + shift), expected, rtol=0, atol=1e-6)
 
 
 def test_known_hyperparameters_are_used_as_they_are():

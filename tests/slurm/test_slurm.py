@@ -27,7 +27,7 @@ pytestmark = [
     ),
 ]
 
-UNIVERSES, TOGETHER = 4, 2  # universes of the campaign, and of a job in Slurm
+UNIVERSES, TOGETHER, JOBS = 3, 2, 2  # universes of the campaign, those of a job, jobs in Slurm
 CAMPAIGN = ["--configfile", "tests/slurm/campaign.yaml"]
 # nobody minds to be asked often
 HERE = ["--slurm-init-seconds-before-status-checks", "1"]
@@ -132,7 +132,7 @@ def start(project, expected, cluster, request):
 def test_slurm_makes_the_same_bytes(start, expected):
     run = start()
     assert run.made() == expected
-    assert run.said().count("has been submitted with SLURM jobid") == UNIVERSES // TOGETHER
+    assert run.said().count("has been submitted with SLURM jobid") == JOBS
 
 
 def test_a_cancelled_job_is_done_again(start, expected, cluster):

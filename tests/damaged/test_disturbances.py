@@ -1,0 +1,135 @@
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
+from recalib.damaged.plant import Plant
+from recalib.errors import InvalidSetting
+from recalib.nominal.poses import orientation_error
+
+
+def generators(*seeds) -> list[np.random.Generator]:
+    return [np.random.default_rng(seed) for seed in seeds]
+
+
+@pytest.fixture(scope="module")
+def commands() -> np.ndarray:
+    return np.random.default_rng(2).uniform(-1, 1, (2, 40, 6))
+
+
+def test_noise_has_the_size_that_was_asked_for():
+    poses = np.tile(np.eye(4), (1, 4000, 1, 1))
+    measured = Disturbances(Noise(2e-4, 3e-4)).measure(generators(3), poses)
+    assert np.std(measured[..., :3, 3]) == pytest.approx(2e-4, rel=0.05)
+    angles = orientation_error(measured, poses)
+    assert np.sqrt(np.mean(angles**2) / 3) == pytest.approx(3e-4, rel=0.05)
+
+
+def test_outliers_are_as_many_and_as_far_as_asked_for():
+    poses = np.tile(np.eye(4), (1, 4000, 1, 1))
+    measured = Disturbances(outliers=Outliers(0.1, 0.05)).measure(generators(4), poses)
+    misses = np.linalg.norm(measured[..., :3, 3], axis=-1)
+    assert np.mean(misses > 0) == pytest.approx(0.1, rel=0.2)
+    assert np.allclose(misses[misses > 0], 0.05)
+
+
+def test_joints_stop_beside_their_angle():
+    stops = Disturbances(repeatability=Repeatability(1e-4)).of_joints(generators(5, 6), (3000, 6))
+    assert stops.shape == (2, 3000, 6)
+    assert np.std(stops, axis=1) == pytest.approx(np.full((2, 6), 1e-4), rel=0.05)
+    assert np.abs(np.corrcoef(stops[..., 0])[0, 1]) < 0.1, "each run with luck of its own"
+
+
+def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
+    """It shifts along the base's axes and turns about them."""
+    moved = np.tile(np.eye(4), (1, 5, 1, 1))
+    moved[..., :3, :3] = Rotation.from_euler("xyz", [0.3, -0.8, 1.2]).as_matrix()
+    moved[..., :3, 3] = 0.7, -0.2, 0.4
+    disturbances = Disturbances(Noise(1e-3, 1e-1), outliers=Outliers(0.5, 0.05))
+    added = []
+    for poses in (np.tile(np.eye(4), (1, 5, 1, 1)), moved):
+        measured = disturbances.measure(generators(3), poses)
+        turns = measured[..., :3, :3] @ poses[..., :3, :3].swapaxes(-1, -2)
+        added.append((measured[..., :3, 3] - poses[..., :3, 3], turns))
+    for one, other in zip(*added, strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)
+
+
+def test_a_plant_stops_beside_its_poses_by_what_its_joints_do(controller, damaged, commands):
+    loose = Disturbances(repeatability=Repeatability(1e-3))
+    plant = Plant(controller, [damaged], loose, generators(7, 8))
+    outcome = plant.execute(commands)
+    stops = loose.of_joints(generators(7, 8), commands.shape[1:])
+    angles = controller.targets(commands).angles + stops
+    expected = damaged.forward(angles.reshape(-1, 6)).reshape(*commands.shape[:2], 4, 4)
+    there = controller.robot.workspace.to_coordinates(expected)
+    np.testing.assert_allclose(outcome.achieved, there, rtol=0, atol=1e-12)
+
+
+def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
+    quiet = Plant(controller, [damaged])
+    noisy = Plant(
+        controller,
+        [damaged],
+        Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)),
+        generators(7, 8),
+    )
+    assert np.array_equal(noisy.achieve(commands)[0], quiet.achieve(commands)[0])
+    difference = noisy.execute(commands).achieved - quiet.execute(commands).achieved
+    assert 1e-3 < np.abs(difference).mean() < 1e-1
+    assert noisy.moves == quiet.moves == 40
+
+
+def test_each_run_has_luck_of_its_own_that_repeats(controller, damaged, commands):
+    same = np.repeat(commands[:1], 2, axis=0)
+    for disturbances in (
+        Disturbances(Noise(1e-3, 1e-3)),
+        Disturbances(repeatability=Repeatability(1e-3)),
+        Disturbances(outliers=Outliers(1.0, 0.05)),
+    ):
+        first, second = (
+            Plant(controller, [damaged], disturbances, generators(9, 10)).execute(same).achieved
+            for _ in range(2)
+        )
+        assert np.array_equal(first, second)
+        assert np.all(first[0, :, :3] != first[1, :, :3])
+
+
+def test_no_disturbance_at_all_changes_nothing(controller, damaged, commands):
+    quiet = Plant(controller, [damaged]).execute(commands).achieved
+    still = (
+        Plant(controller, [damaged], Disturbances(), generators(11, 12)).execute(commands).achieved
+    )
+    assert np.allclose(still, quiet, atol=1e-12)
+
+
+def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, commands):
+    disturbances = Disturbances(Noise(1e-3, 1e-3), Repeatability(1e-3), Outliers(0.5, 0.05))
+    both = Plant(controller, [damaged], disturbances, generators(9, 10)).execute(commands)
+    alone = Plant(controller, [damaged], disturbances, generators(10)).execute(commands[1:])
+    assert np.array_equal(both.achieved[1:], alone.achieved)
+
+
+@pytest.mark.parametrize(
+    ("kind", "sizes", "message"),
+    [
+        (Noise, (-1e-4, 0.0), "Noise.position is -0.0001; valid: a finite number from 0 on"),
+        (Noise, (0.0, np.nan), "Noise.orientation is nan"),
+        (Repeatability, (np.inf,), "Repeatability.angle is inf"),
+        (Outliers, (1.1, 0.05), "Outliers.share is 1.1; valid: from 0 to 1"),
+        (Outliers, (0.1, -0.05), "Outliers.size is -0.05"),
+    ],
+)
+def test_impossible_sizes_are_refused_by_name(kind, sizes, message):
+    with pytest.raises(InvalidSetting, match=message):
+        kind(*sizes)
+
+
+def test_disturbances_are_gathered_from_their_parts():
+    parts = noise, outliers, repeatability = (
+        Noise(1e-3, 1e-4),
+        Outliers(0.1, 0.05),
+        Repeatability(1e-3),
+    )
+    assert Disturbances.of(parts[:2]) == Disturbances(noise=noise, outliers=outliers)
+    assert Disturbances.of(parts) == Disturbances(noise, repeatability, outliers)

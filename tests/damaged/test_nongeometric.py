@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib.errors import InvalidSetting, UnknownName
+
+
+@pytest.fixture
+def angles(robot) -> np.ndarray:
+    return robot.home + np.random.default_rng(1).uniform(-0.5, 0.5, (20, 6))
+
+
+def deflection(robot, damage, angles) -> np.ndarray:
+    return apply(robot, [damage]).standing(angles) - angles
+
+
+def test_eccentric_gear_moves_its_joint_by_a_sine(robot, angles):
+    moved = deflection(robot, EccentricGear("elbow_joint", 0.01, 0.3), angles)
+    assert np.allclose(moved[:, 2], 0.01 * np.sin(angles[:, 2] + 0.3))
+    assert np.allclose(np.delete(moved, 2, axis=1), 0)
+
+
+def test_gravity_torque_is_the_slope_of_the_potential_energy(robot, angles):
+    import pinocchio as pin
+
+    model, data, step = robot.arm.model, robot.arm.model.createData(), 1e-6
+    torques = robot.arm.gravity_torque(angles)
+    for joint in range(6):
+        shift = step * np.eye(6)[joint]
+        up, down = (
+            np.array([pin.computePotentialEnergy(model, data, q + s) for q in angles])
+            for s in (shift, -shift)
+        )
+        assert np.allclose(torques[:, joint], (up - down) / (2 * step), atol=1e-5)
+
+
+def test_a_joint_sags_by_its_compliance_times_its_torque(robot, angles):
+    moved = deflection(robot, Sag("elbow_joint", 2e-4), angles)
+    torques = robot.arm.gravity_torque(angles)
+    assert np.allclose(moved, -2e-4 * torques * np.eye(6)[2], atol=1e-15)
+
+
+def test_sagging_lowers_the_arm(robot, angles):
+    for joint in robot.joints[1:4]:
+        before, after = (
+            apply(robot, damages).forward(angles)[:, 2, 3] for damages in ([], [Sag(joint, 1e-4)])
+        )
+        assert np.all(after < before)
+
+
+def test_backlash_is_half_the_gap_with_gravity(robot, angles):
+    moved = deflection(robot, Backlash("shoulder_lift_joint", 0.004), angles)[:, 1]
+    assert np.allclose(moved, -0.002 * np.sign(robot.arm.gravity_torque(angles)[:, 1]))
+
+
+def test_deflections_start_from_where_the_encoders_leave_the_joints(robot, angles):
+    """Torques, too: so that the order of damages does not matter."""
+    shift = EncoderShift("elbow_joint", 0.3)
+    both = apply(robot, [shift, Sag("elbow_joint", 1e-4), EccentricGear("elbow_joint", 0.01)])
+    shifted = angles + 0.3 * np.eye(6)[2]
+    sag = -1e-4 * robot.arm.gravity_torque(shifted)[:, 2]
+    expected = shifted[:, 2] + sag + 0.01 * np.sin(shifted[:, 2])
+    assert np.allclose(both.standing(angles)[:, 2], expected, atol=1e-14)
+
+
+def test_a_vertical_axis_has_no_load_and_rests_in_the_middle_of_its_gap(robot, angles):
+    assert not deflection(robot, Backlash("shoulder_pan_joint", 0.004), angles).any()
+
+
+def test_damages_combine_in_any_order(robot, angles):
+    damages = [
+        LinkShortening("forearm_link", 0.04),
+        EccentricGear("elbow_joint", 0.01),
+        EncoderShift("elbow_joint", 0.05),
+        Sag("shoulder_lift_joint", 1e-4),
+        Backlash("elbow_joint", 0.002),
+    ]
+    one, other = (apply(robot, order).forward(angles) for order in (damages, damages[::-1]))
+    assert np.allclose(one, other, atol=1e-12)
+    assert np.abs(one - apply(robot, damages[:1]).forward(angles)).max() > 1e-3
+
+
+@pytest.mark.parametrize("size", [-1e-3, np.nan, np.inf])
+@pytest.mark.parametrize("damage", [EccentricGear, Sag, Backlash])
+def test_sizes_below_zero_or_not_finite_are_refused(damage, size):
+    with pytest.raises(InvalidSetting, match=f"{damage.__name__}.* from 0 on"):
+        damage("elbow_joint", size)
+
+
+@pytest.mark.parametrize("damage", [EccentricGear, Sag, Backlash])
+def test_an_unknown_joint_is_named_with_the_known_ones(robot, damage):
+    with pytest.raises(UnknownName, match="elbow_joint"):
+        apply(robot, [damage("knee_joint", 0.01)])

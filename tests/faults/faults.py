@@ -1,0 +1,332 @@
+"""Every fault that is tried: what is done, and what then holds.
+
+Each takes a yard, returns how the project survived, and raises Broken where it did not.
+"""
+
+import itertools
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from contextlib import contextmanager
+from pathlib import Path
+
+from tests.faults.yard import RESULTS, Project, Yard, expect, kill
+
+Fault = Callable[[Yard], str]
+FAULTS: dict[str, Fault] = {}
+SHORT: list[str] = []  # the names of those that take little time
+SAME = "same results as undisturbed, no strays"
+CHAIN = 6  # times that everything is killed before a run may end
+INTERMEDIATE = (  # of each kind of file that a job reads, one
+    "scenarios/translation.json",
+    "chunks/search/improved_20.0.csv",
+    "chunks/runs/translation/improved.0.parquet",
+    "chunks/runs/translation/improved.0.npz",
+    "figures/figure1.svg",
+)
+LAST = ("recordings/translation.rrd", "runs/translation/improved.npz")  # no job reads these
+
+
+def tried(name: str, short: bool = False) -> Callable[[Fault], Fault]:
+    """Put a fault on the list."""
+
+    def add(fault: Fault) -> Fault:
+        FAULTS[name] = fault
+        if short:
+            SHORT.append(name)
+        return fault
+
+    return add
+
+
+@tried("kill -9 of all processes at random moments, run again each time")
+def killed(yard: Yard) -> str:
+    project, luck = yard.bare(), random.Random(1996)
+    for _ in range(CHAIN):
+        process = project.start()
+        project.until(process, project.scripts)
+        time.sleep(luck.uniform(0, 3))
+        kill(process)
+    project.run().well()
+    yard.finished(project)
+    return f"{CHAIN} times; then {SAME}"
+
+
+@tried("kill -9 of one job")
+def job_killed(yard: Yard) -> str:
+    project = yard.bare()
+    process = project.start()
+    project.until(process, project.scripts)
+    for script in project.scripts()[:1]:
+        script.kill()
+    project.ended(process).badly()
+    project.run().well()
+    yard.finished(project)
+    return f"the run fails; the next one: {SAME}"
+
+
+@tried("interrupted (Ctrl-C)")
+def interrupted(yard: Yard) -> str:
+    project = yard.bare()
+    process = project.start()
+    project.until(process, project.scripts)
+    os.killpg(process.pid, signal.SIGINT)
+    ran = project.ended(process)
+    # a job that still imports its modules cannot say it in our words
+    ran.said = re.sub(r"^Traceback(.*\n)+?KeyboardInterrupt$", "", ran.said, flags=re.MULTILINE)
+    ran.badly()
+    project.run().well()
+    yard.finished(project)
+    return f"the run ends, while jobs begin with Python's KeyboardInterrupt; the next one: {SAME}"
+
+
+@tried("two runs at once, the same study")
+def twice(yard: Yard) -> str:
+    project = yard.bare()
+    first = project.start()
+    project.until(first, project.scripts)
+    waiting = project.run().told(f"another run is at work in {RESULTS}: wait until it has ended")
+    expect(waiting.said.count("at work in") == 1, "one sentence")
+    project.ended(first).well()
+    yard.finished(project)
+    return "the second is told to wait; " + SAME
+
+
+@tried("two runs at once, different studies, one killed and run again")
+def side_by_side(yard: Yard) -> str:
+    project = yard.bare()
+    other = "--config", "name=other", "seed=7"
+    second = project.start(*other)
+    project.until(second, project.scripts)
+    first = project.start()
+    time.sleep(1)
+    kill(second)
+    project.run(*other).well()
+    project.ended(first).well()
+    yard.finished(project)
+    alone = yard.bare()
+    alone.run(*other).well()
+    its = Path("results/studies/other")
+    expect(project.made(its) == alone.made(its), "the results of the second as if it were alone")
+    return "both end, each with its own results"
+
+
+def flipped(data: bytes) -> bytes:
+    """A byte in the middle is another."""
+    half = len(data) // 2
+    return data[:half] + bytes([data[half] ^ 1]) + data[half + 1 :]
+
+
+DAMAGE = {
+    "a flipped byte": flipped,
+    "its end cut off": lambda data: data[: len(data) // 2],
+    "nothing in it": lambda data: b"",
+}
+
+
+@tried("an intermediate file of each kind (json, csv, parquet, npz, svg) damaged")
+def damaged(yard: Yard) -> str:
+    for file, damage in zip(INTERMEDIATE, itertools.cycle(DAMAGE.values())):
+        project = yard.done()
+        path = project.results / file
+        path.write_bytes(damage(path.read_bytes()))
+        project.run().told(f"damaged since it was written, and removed: {RESULTS / file}")
+        # what was made from it while it was whole does not need it
+        project.run("--", "all", *(str(RESULTS / each) for each in yard.expected)).well()
+        yard.finished(project)
+    return f"{', '.join(DAMAGE)} in turn: each named and removed, then made anew"
+
+
+@tried("a result that no job reads (rrd, npz) damaged")
+def last_damaged(yard: Yard) -> str:
+    project = yard.done()
+    for file in LAST:
+        path = project.results / file
+        path.write_bytes(flipped(path.read_bytes()))
+    verify = [os.sys.executable, "-m", "workflow.digests", str(RESULTS)]
+    ran = subprocess.run(verify, cwd=project.folder, capture_output=True, text=True, check=False)
+    said = ran.stderr
+    expect(ran.returncode != 0 and all(file in said for file in LAST), "all are named", said)
+    expect(said.count("\n") == 1, "it says one sentence", said)
+    project.run().well()
+    yard.finished(project)
+    return "make verify names and removes them; then made anew"
+
+
+@contextmanager
+def small_disk(project: Project, megabytes: int):
+    """The project's results on a disk that is nearly full. Yields how it was done."""
+    disk = project.folder / "results"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", f"size={megabytes}m", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode:
+        limit = megabytes * 2**20 // 4
+        yield (
+            f"files of at most {limit} bytes, since nothing may be mounted here",
+            {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))},
+        )
+        return
+    try:
+        yield f"a disk of {megabytes} MB", {}
+        kept = project.folder / "kept"
+        shutil.copytree(disk, kept, symlinks=True)
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)
+    disk.rmdir()
+    kept.rename(disk)
+
+
+@tried("disk full, then room again")
+def disk_full(yard: Yard) -> str:
+    size = sum(path.stat().st_size for path in yard.done().results.rglob("*") if path.is_file())
+    ways = set()
+    for part in (0.02, 0.5):
+        project = yard.bare()
+        with small_disk(project, max(1, int(part * size / 2**20))) as (way, options):
+            project.run(**options).badly()
+            project.whole()
+            ways.add(way)
+        project.run().well()
+        yard.finished(project)
+    return f"{', '.join(sorted(ways))}: said in a sentence; then {SAME}"
+
+
+@contextmanager
+def read_only(folder: Path):
+    """Nothing can be written below a folder."""
+    if os.geteuid():
+        _permit(folder, writing=False)
+        yield
+        _permit(folder, writing=True)
+        return
+    # permissions do not stop root
+    for how in (["--bind", folder, folder], ["-o", "remount,ro,bind", folder]):
+        mounted = subprocess.run(["mount", *how], capture_output=True, check=False)
+        expect(mounted.returncode == 0, "root may mount something read-only, to try it")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", folder], check=True)
+
+
+def _permit(folder: Path, writing: bool) -> None:
+    for path in (folder, *folder.rglob("*")):
+        mode = path.stat().st_mode
+        path.chmod(mode | 0o200 if writing else mode & ~0o222)
+
+
+@tried("a folder of results that is read-only", short=True)
+def results_read_only(yard: Yard) -> str:
+    project = yard.done()
+    with read_only(project.folder / "results"):
+        project.run().well()  # there is nothing to do
+        project.run("--forcerun", "summary").told("Write-protected output files")
+    yard.finished(project)
+    return "said in a sentence; results as before"
+
+
+@tried("a project that is read-only")
+def all_read_only(yard: Yard) -> str:
+    project = yard.done()
+    with read_only(project.folder):
+        project.run("--forcerun", "summary").badly()
+    yard.finished(project)
+    return "said in a sentence; results as before"
+
+
+def _runs(yard: Yard, project: Project | None = None, **options) -> str:
+    """A run from the beginning under other circumstances."""
+    project = project or yard.bare()
+    project.run(**options).well()
+    yard.finished(project)
+    return SAME
+
+
+NUMBA = "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"
+
+
+@tried("no home folder")
+def no_home(yard: Yard) -> str:
+    return _runs(yard, environment=dict.fromkeys(("HOME", *NUMBA)))
+
+
+@tried("a home folder that is not there and cannot be made")
+def no_such_home(yard: Yard) -> str:
+    return _runs(yard, environment=dict.fromkeys(NUMBA) | {"HOME": "/proc/nowhere"})
+
+
+@tried("LC_ALL=C, PYTHONUTF8=0")
+def locale(yard: Yard) -> str:
+    plain = {"LC_ALL": "C", "LANG": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    return _runs(yard, environment=plain)
+
+
+@tried("a path with spaces, quotes and letters of other alphabets")
+def odd_path(yard: Yard) -> str:
+    return _runs(yard, yard.bare("a b's \u0440\u0443\u043a\u0430 \u624b\u81c2 $x"))
+
+
+@tried("the clock goes back by a day in the middle, then right again")
+def clock(yard: Yard) -> str:
+    expect(shutil.which("faketime"), "faketime is installed")
+    project = yard.bare()
+    project.run("--until", "train").well()
+    project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")
+    project.run().well()
+    yard.finished(project)
+    return f"Snakemake says what is older than what; then {SAME}"
+
+
+@tried("results dated ahead by a day, and a setting changed")
+def ahead(yard: Yard) -> str:
+    project = yard.done()
+    then = time.time() + 86400
+    for path in project.results.rglob("*"):
+        os.utime(path, (then, then))
+    project.run("--config", "training={tests: 11}").well()
+    project.run().well()
+    yard.finished(project)
+    return "what depends on it runs again, and back"
+
+
+@tried("no terminal, no input, TERM unset")
+def no_terminal(yard: Yard) -> str:
+    return _runs(yard, environment=dict.fromkeys(("TERM", "COLUMNS", "DISPLAY")), stdin=None)
+
+
+@tried("umask 077")
+def umask_closed(yard: Yard) -> str:
+    return _runs(yard, umask=0o077)
+
+
+@tried("umask 000")
+def umask_open(yard: Yard) -> str:
+    return _runs(yard, umask=0o000)
+
+
+@tried(".snakemake deleted and a setting changed", short=True)
+def notes_deleted(yard: Yard) -> str:
+    project = yard.done()
+    shutil.rmtree(project.folder / ".snakemake")
+    other = "--config", "training={tests: 11}"
+    project.run(*other).told(f"remove {RESULTS}, or, if nothing was changed since,")
+    (project.results / ".running").unlink()
+    project.run().well()
+    yard.finished(project)
+    return "said in a sentence, with what to remove"
+
+
+@tried("no network for `real`", short=True)
+def no_network(yard: Yard) -> str:
+    nowhere = dict.fromkeys(("http_proxy", "https_proxy", "all_proxy"), "http://127.0.0.1:9")
+    project = yard.done()
+    ran = project.run("--", "results/studies/faults/real/fit.csv", environment=nowhere)
+    ran.told("real_data: ")
+    yard.finished(project)
+    return "said in a sentence"

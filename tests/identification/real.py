@@ -1,0 +1,67 @@
+"""An arm as it is, with an instrument somewhere and targets somewhere on its tool."""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.error_model import OFFSETS, ErrorModel
+
+NOISE = 2e-4, np.radians(0.02)  # m, rad
+
+
+def anywhere(random, reach):
+    frame = np.eye(4)
+    frame[:3, :3] = Rotation.random(rng=random).as_matrix()
+    frame[:3, 3] = random.uniform(-reach, reach, 3)
+    return frame
+
+
+class Real:
+    """An arm with links off by 1 mm and 0.1 degrees, joints by 1 degree or 1 mm."""
+
+    def __init__(self, nominal, seed, targets=1):
+        self.random = np.random.default_rng(seed)
+        model, count = ErrorModel(nominal, OFFSETS), len(nominal.joints)
+        links = np.repeat([[1e-3, np.radians(0.1)]], 3, axis=1).repeat(count + 1, axis=0)
+        offsets = np.where(nominal.slides, 1e-3, np.radians(1))
+        parameters = np.concatenate([links.ravel(), offsets])
+        parameters *= self.random.standard_normal(len(parameters))
+        self._arm, self._offsets = model.arm(parameters), parameters[-count:]
+        self._limits = nominal.model.lowerPositionLimit, nominal.model.upperPositionLimit
+        self._base = anywhere(self.random, 2.0)
+        self._targets = np.array([anywhere(self.random, 0.2) for _ in range(targets)])
+
+    def postures(self, count):
+        low, high = (np.clip(limit, -np.pi, np.pi) for limit in self._limits)
+        return self.random.uniform(low, high, (count, len(low)))
+
+    def touching(self, ball, socket, count):
+        """Postures (count, joints) in which a ball at a point of the tool sits in a socket [m].
+
+        The socket is in the arm's base; the ball sits there to a tenth of a millimetre.
+        """
+        starts = 20 * count
+        goals = socket + 1e-4 * self.random.standard_normal((starts, 3))
+        joints = self.postures(starts)
+        for _ in range(30):
+            tool, jacobians = self._arm.forward_and_jacobian(joints + self._offsets)
+            lever = tool[:, :3, :3] @ ball
+            turning = np.cross(jacobians[:, 3:].swapaxes(1, 2), lever[:, None]).swapaxes(1, 2)
+            missing = goals - tool[:, :3, 3] - lever
+            steps = np.linalg.pinv(jacobians[:, :3] + turning) @ missing[..., None]
+            joints = joints + np.clip(steps[..., 0], -0.3, 0.3)
+        low, high = self._limits
+        there = (np.abs(missing) < 1e-9).all(axis=1) & (joints > low).all(axis=1)
+        found = joints[there & (joints < high).all(axis=1)]
+        assert len(found) >= count
+        return found[:count]
+
+    def ball(self, ball, joints):
+        tool = self._arm.forward(joints + self._offsets)
+        return tool[:, :3, 3] + tool[:, :3, :3] @ ball
+
+    def poses(self, joints, targets=0, noise=NOISE):
+        seen = self._base @ self._arm.forward(joints + self._offsets) @ self._targets[targets]
+        turns = noise[1] * self.random.standard_normal((len(joints), 3))
+        seen[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ seen[:, :3, :3]
+        seen[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))
+        return seen

@@ -1,0 +1,46 @@
+import numpy as np
+import pytest
+
+from recalib.damaged.damage import apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.identification.calibration import angles_for, calibrate
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.observations import Observations
+
+
+@pytest.fixture(scope="module")
+def calibrations(controller):
+    """Of two arms, with and without something left for a Gaussian process."""
+    robot, generator = controller.robot, np.random.default_rng(1)
+    angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(generator, 40)))
+    gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
+    found = [
+        calibrate(robot.arm, (terms,), Observations(angles, gear.forward(angles)))
+        for terms in (OFFSETS, JOINT_ERRORS)
+    ]
+    assert [calibration.residual is None for calibration in found] == [False, True]
+    return found
+
+
+def test_the_angles_take_each_arm_to_its_poses_as_if_it_were_alone(controller, calibrations):
+    workspace = controller.robot.workspace
+    commands = workspace.sample(np.random.default_rng(2), 2, 5)
+    poses, start = workspace.to_poses(commands), controller.targets(commands).angles
+    together = angles_for(calibrations, poses, start)
+    for calibration, own, first, angles in zip(calibrations, poses, start, together, strict=True):
+        assert np.allclose(calibration.forward(angles), own, atol=1e-8)
+        assert np.array_equal(angles_for([calibration], own[None], first[None])[0], angles)
+
+
+def test_an_arm_that_cannot_reach_its_pose_keeps_no_other_from_it(controller, calibrations):
+    workspace = controller.robot.workspace
+    commands = workspace.sample(np.random.default_rng(3), 2, 1)
+    poses, start = workspace.to_poses(commands), controller.targets(commands).angles
+    poses[0, 0, :3, 3] += 5.0  # m
+    angles = angles_for(calibrations, poses, start)
+    assert np.all(np.isfinite(angles))
+    assert np.allclose(calibrations[1].forward(angles[1]), poses[1], atol=1e-8)
+
+
+def test_no_poses_need_no_angles(calibrations):
+    assert angles_for(calibrations, np.empty((2, 0, 4, 4)), np.empty((2, 0, 6))).shape == (2, 0, 6)

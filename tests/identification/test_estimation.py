@@ -1,0 +1,64 @@
+"""The most probable arm is that of a slow implementation, and doubts are where they belong."""
+
+import numpy as np
+import pytest
+
+from recalib.damaged.disturbances import Disturbances, Noise
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.observations import Observations
+from tests import reference
+
+NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))
+
+
+def postures(controller, count, seed=1) -> np.ndarray:
+    workspace = controller.robot.workspace
+    sample = workspace.sample(np.random.default_rng(seed), count)
+    return controller.inverse(workspace.to_poses(sample))
+
+
+def noisy(arm, angles, seed) -> np.ndarray:
+    return NOISY.measure([np.random.default_rng(seed)], arm.forward(angles)[None])[0]
+
+
+@pytest.mark.parametrize("terms", [OFFSETS, JOINT_ERRORS], ids=["offsets", "joint errors"])
+@pytest.mark.parametrize("what", ["poses", "positions", "no outlier"])
+def test_the_estimate_is_that_of_the_slow_implementation(robot, controller, damaged, terms, what):
+    model, angles = ErrorModel(robot.arm, terms), postures(controller, 14)
+    measured = noisy(damaged, angles, 2)
+    if what != "no outlier":
+        measured[3, :3, 3] += 0.03, -0.04, 0.0
+    if what == "positions":
+        measured = measured[:, :3, 3]
+    by_posture = model.terms(angles)
+    parameters, noise, weights, evidence = reference.identify(
+        lambda these: model.linearise(these, angles, by_posture), model.deviations, measured
+    )
+    found = identify(model, Observations(angles, measured))
+    unknown = np.sqrt(np.diag(found.covariance))
+    assert np.abs((found.parameters - parameters) / unknown).max() < 0.01
+    assert found.noise == pytest.approx(noise, rel=1e-3)
+    assert found.weights == pytest.approx(weights, abs=1e-3)
+    assert found.log_evidence == pytest.approx(evidence, abs=0.02)
+
+
+@pytest.mark.parametrize("what", ["poses", "positions"])
+def test_one_good_measurement_in_a_hundred_is_doubted(robot, controller, damaged, what):
+    angles = postures(controller, 600)
+    measured = noisy(damaged, angles, 3)
+    if what == "positions":
+        measured = measured[:, :3, 3]
+    found = identify(ErrorModel(robot.arm, OFFSETS), Observations(angles, measured))
+    assert 2 <= np.sum(found.weights < 1) <= 11  # of 6: within two standard deviations
+    assert found.weights.min() > 0.3
+
+
+def test_the_estimate_does_not_depend_on_the_order_of_the_measurements(robot, controller, damaged):
+    model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 12)
+    measured, order = noisy(damaged, angles, 4), np.random.default_rng(5).permutation(12)
+    one, other = (
+        identify(model, Observations(angles[rows], measured[rows])) for rows in (slice(None), order)
+    )
+    assert other.parameters == pytest.approx(one.parameters, abs=1e-9)
+    assert other.weights == pytest.approx(one.weights[order], abs=1e-6)

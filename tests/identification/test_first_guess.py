@@ -1,0 +1,101 @@
+import numpy as np
+import pytest
+
+from recalib.errors import BadMeasurement
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.first_guess import NoFirstGuess, fewest, guess_frames
+from recalib.identification.observations import Distance, Observations
+from recalib.nominal.arms import load_arm
+from tests.arms import SCARA
+from tests.identification.real import Real
+
+ARMS = {"ur10": ("ur10_robot.urdf", "tool0"), "panda": ("panda.urdf", "panda_link8")}
+
+
+@pytest.fixture(scope="module", params=ARMS)
+def arm(request):
+    return load_arm(*ARMS[request.param])
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return load_arm(*ARMS["panda"])
+
+
+def misses(real, nominal, seen):
+    """By how much [m] fresh positions are missed, of the first target, after identification."""
+    model = ErrorModel(nominal, OFFSETS, guess_frames(nominal, seen))
+    parameters, fresh = identify(model, seen).parameters, real.postures(50)
+    gaps = model.predict(parameters, fresh) - real.poses(fresh, noise=(0, 0))
+    return np.linalg.norm(gaps[:, :3, 3], axis=1)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("what", ["poses", "positions"])
+def test_instrument_and_target_may_be_anywhere(what, seed, arm):
+    real = Real(arm, seed)
+    joints = real.postures(30 if what == "positions" else 20)
+    measured = real.poses(joints)
+    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    assert misses(real, arm, seen).mean() < 5e-4
+
+
+@pytest.mark.parametrize("what", ["poses", "positions"])
+def test_a_few_gross_outliers_do_not_matter(what, arm):
+    real = Real(arm, 5)
+    joints = real.postures(40)
+    measured = real.poses(joints)
+    measured[:4] = measured[4:8]
+    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    assert misses(real, arm, seen).mean() < 5e-4
+
+
+def test_several_targets_sit_anywhere_on_one_tool(panda):
+    real = Real(panda, 6, targets=3)
+    joints, targets = real.postures(48), np.arange(48) % 3
+    seen = Observations(joints, real.poses(joints, targets)[:, :3, 3], targets)
+    assert misses(real, panda, seen).mean() < 5e-4
+
+
+def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(tmp_path):
+    path = tmp_path / "scara.urdf"
+    path.write_text(SCARA)
+    nominal = load_arm(path)
+    real = Real(nominal, 7)
+    joints = real.postures(30)
+    assert misses(real, nominal, Observations(joints, real.poses(joints))).mean() < 5e-4
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda seen: seen[np.arange(2)], "2 rows leave open .* at least 6"),
+        (lambda seen: seen[np.zeros(20, dtype=int)], "along a line"),
+        (lambda seen: Observations(seen.joints[::-1], seen.measured), "explains what was seen"),
+    ],
+    ids=["too few", "one posture", "rows mixed up"],
+)
+def test_frames_that_nothing_tells_are_refused(change, said, panda):
+    real = Real(panda, 8)
+    joints = real.postures(30)
+    seen = Observations(joints, real.poses(joints)[:, :3, 3])
+    with pytest.raises(NoFirstGuess, match=said):
+        guess_frames(panda, change(seen))
+
+
+def test_it_says_how_many_rows_it_needs():
+    joints, two = np.zeros((8, 6)), np.arange(8) % 2
+    assert fewest(Observations(joints, np.zeros((8, 4, 4)))) == 3
+    assert fewest(Observations(joints, np.zeros((8, 3)))) == 6
+    assert fewest(Observations(joints, np.zeros((8, 3)), two)) == 7
+    assert fewest(Observations(joints, sockets=two, distances=[Distance(0, 1, 0.3)])) == 4
+
+
+def test_a_target_or_socket_beyond_the_known_ones_is_refused(panda):
+    model = ErrorModel(panda, OFFSETS)
+    seen = Observations(np.zeros((3, 7)), np.zeros((3, 3)), np.array([0, 0, 1]))
+    with pytest.raises(BadMeasurement, match=r"target of measurement 2 measured \(1\); .*below 1"):
+        identify(model, seen)
+    with pytest.raises(BadMeasurement, match="socket of measurement 0"):
+        identify(model, Observations(np.zeros((3, 7)), sockets=np.zeros(3, dtype=int)))

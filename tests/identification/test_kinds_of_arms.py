@@ -1,0 +1,96 @@
+"""Arms of any joints are identified, by instruments or without one."""
+
+import numpy as np
+import pytest
+
+from recalib.identification.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.first_guess import guess_frames
+from recalib.identification.frames import HELD
+from recalib.identification.observations import Distance, Observations
+from recalib.nominal.arms import load_arm
+from tests.arms import GANTRY, SCARA, urdf
+from tests.identification.bars import BALL, SOCKETS, aligned, missed
+from tests.identification.real import Real
+
+
+@pytest.fixture
+def load(tmp_path):
+    def from_text(text):
+        path = tmp_path / "small.urdf"
+        path.write_text(text)
+        return load_arm(path)
+
+    return from_text
+
+
+@pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])
+@pytest.mark.parametrize("what", ["poses", "positions"])
+def test_joints_that_slide_are_identified(text, what, load):
+    arm = load(text)
+    real = Real(arm, 1)
+    joints = real.postures(30)
+    poses = real.poses(joints)
+    seen = Observations(joints, poses if what == "poses" else poses[:, :3, 3])
+    model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
+    found = identify(model, seen)
+    assert found.converged
+    nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), seen)
+    after, before = (
+        missed(real, lambda fresh, its=its: model.predict(its.parameters, fresh))
+        for its in (found, nominal)
+    )
+    assert after < 4e-4 and before > 3 * after
+
+
+def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
+    joints = [("turn", "revolute", "0 0 1", "0 0 1"), ("slide", "prismatic", "1 0 0", "0 0 0")]
+    for mass, gravity in ((0.0, True), (1.0, False)):
+        model = ErrorModel(load(urdf(*joints, mass=mass)), JOINT_ERRORS)
+        held = model.coefficients(model.deviations <= HELD)
+        assert held["offset"].tolist() == [False, False]
+        assert held["compliance"].tolist() == [gravity, True]
+        assert held["sine 1"].tolist() == held["cosine 1"].tolist() == [False, True]
+
+
+def test_an_offset_of_a_joint_that_slides_is_a_length(load):
+    model = ErrorModel(load(GANTRY), OFFSETS)
+    parameters = np.zeros_like(model.deviations)
+    parameters[model.offset_columns] = 0, 0, 0.01
+    moved = model.predict(parameters, np.zeros((1, 3))) - model.predict(
+        0 * parameters, np.zeros((1, 3))
+    )
+    assert np.allclose(moved[0, :3, 3], [0, 0.006, 0.008])
+
+
+@pytest.fixture(scope="module")
+def balls():
+    """Of a Panda: what joint angles alone tell, and before and after [m] with frames aligned."""
+    arm = load_arm("panda.urdf", "panda_link8")
+    real = Real(arm, 1)
+    joints = np.concatenate([real.touching(BALL, socket, 40) for socket in SOCKETS])
+    fresh = real.postures(100)
+    tool, true = arm.forward(fresh), real.ball(BALL, fresh)
+
+    def after(seen):
+        model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
+        found = identify(model, seen)
+        return aligned(model.predict(found.parameters, fresh)[:, :3, 3], true), model, found
+
+    before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)
+    return joints, np.repeat([0, 1], 40), before, after
+
+
+def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
+    joints, sockets, before, after = balls
+    left, model, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
+    assert before > 20 * left
+    one, other = model.sockets(found.parameters)
+    assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=2e-4)
+    assert found.noise == pytest.approx([1e-4], rel=0.3)
+
+
+def test_the_known_distance_sets_the_scale(balls):
+    joints, sockets, _, after = balls
+    left, *_ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
+    assert left > 1e-3

@@ -1,0 +1,52 @@
+import pytest
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.first_guess import guess_frames
+from recalib.identification.observations import Observations
+from recalib.identification.openness import Open, open_parameters
+from recalib.nominal.arms import load_arm
+from tests.identification.real import Real
+
+BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters
+
+
+@pytest.fixture(scope="module")
+def panda():
+    return load_arm("panda.urdf", "panda_link8")
+
+
+def found(arm, hold=None, positions=False):
+    real = Real(arm, 1)
+    joints = real.postures(40)
+    if hold is not None:
+        joints[:, hold] = joints[0, hold]
+    poses = real.poses(joints)
+    seen = Observations(joints, poses[:, :3, 3] if positions else poses)
+    model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
+    return open_parameters(Calibration(model, identify(model, seen)), seen)
+
+
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+def test_an_arm_of_turning_joints_has_four_parameters_a_joint_and_six_at_its_ends(panda, positions):
+    open_ones = found(panda, positions=positions)
+    # without orientations three are held, of how the target is turned, and three are not told
+    assert len(open_ones) == 8 * 6 + 7 - (4 * 7 + 6)
+    assert all(one.lasting for one in open_ones)
+
+
+def test_the_offset_of_the_last_joint_is_a_turn_of_the_target(panda):
+    (last,) = [one for one in found(panda) if one.parameter == OFFSET + 6]
+    assert last == Open(OFFSET + 6, (TARGET + 5,), True)
+
+
+def test_the_offset_of_the_first_joint_is_a_move_of_the_instrument(panda):
+    (first,) = [one for one in found(panda) if one.parameter == OFFSET]
+    assert set(first.partners) <= {*BASE}
+
+
+def test_a_joint_that_never_moved_leaves_open_what_moving_it_would_tell(panda):
+    by_data = [one for one in found(panda, hold=3) if not one.lasting]
+    assert len(by_data) >= 2
+    assert not [one for one in found(panda) if not one.lasting]

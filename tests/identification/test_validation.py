@@ -1,0 +1,124 @@
+import numpy as np
+import pytest
+
+from recalib.identification.first_guess import guess_frames
+from recalib.identification.frames import Frames
+from recalib.identification.held_out import FOLDS, blocks, random_folds
+from recalib.identification.observations import Observations
+from recalib.identification.soundness import Implausible, TooFewRows
+from recalib.identification.validation import (
+    GEOMETRIC,
+    HYBRID,
+    KINDS,
+    NOTHING,
+    RANDOM,
+    WAYS,
+    validate,
+)
+from recalib.nominal.arms import load_arm
+from tests.identification.real import Real
+
+ROWS = 40
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return load_arm("ur10_robot.urdf", "tool0")
+
+
+def seen_of(real, count):
+    joints = real.postures(count)
+    return Observations(joints, real.poses(joints))
+
+
+@pytest.fixture(scope="module")
+def real(arm):
+    return Real(arm, 1)
+
+
+@pytest.fixture(scope="module")
+def validation(arm, real):
+    """With an outlier in row 7."""
+    seen = seen_of(real, ROWS)
+    seen.measured[7, 2, 3] += 0.02
+    return validate(arm, seen, guess_frames(arm, seen))
+
+
+def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
+    assert validation.chosen == GEOMETRIC
+    fresh = real.postures(200)
+    missed = validation.calibration.misses(Observations(fresh, real.poses(fresh)))
+    errors = np.linalg.norm(missed[:, :3], axis=1)
+    said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
+    assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
+    assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
+    assert np.mean(errors <= validation.radii(fresh)) >= 0.9
+    assert 0.9 <= validation.coverage(RANDOM) <= 0.98
+
+
+def test_a_row_that_is_grossly_off_is_predicted_and_not_counted(validation):
+    assert np.flatnonzero(~validation.counted) == [7]
+    assert validation.full[GEOMETRIC].estimate.weights[7] < 0.01
+    for way in WAYS:
+        for kind in KINDS[1:]:
+            assert np.argmax(validation.errors(way, kind)[:, 0]) == 7
+
+
+def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
+    for way in WAYS:
+        kinds = validation.held_out[way]
+        assert kinds[HYBRID] is kinds[GEOMETRIC]
+
+
+def test_each_target_and_each_socket_is_in_all_parts():
+    joints = np.random.default_rng(2).uniform(-1, 1, (60, 6))
+    numbers = np.arange(60) % 3
+    for seen in (
+        Observations(joints, joints[:, :3], numbers),
+        Observations(joints, sockets=numbers),
+    ):
+        for folds in (random_folds(seen), blocks(seen)):
+            for number in range(3):
+                assert set(folds[numbers == number]) == set(range(FOLDS))
+    assert np.ptp(np.bincount(random_folds(seen))) <= 1
+
+
+def test_blocks_lie_together():
+    centres = np.repeat(np.eye(6)[:FOLDS], 8, axis=0)
+    folds = blocks(Observations(centres + np.random.default_rng(3).normal(0, 0.01, (40, 6)), 0))
+    assert len(np.unique(folds.reshape(FOLDS, 8), axis=1).T) == 1 and len(set(folds)) == FOLDS
+
+
+@pytest.mark.parametrize("count", [16, 30])
+def test_a_third_of_the_rows_may_be_grossly_wrong(arm, count):
+    real = Real(arm, count)
+    seen = seen_of(real, count)
+    bad = np.arange(count // 3) * 3
+    seen.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
+    found = validate(arm, seen, guess_frames(arm, seen))
+    assert np.array_equal(np.flatnonzero(~found.counted), bad)
+    fresh = real.postures(50)
+    misses = found.calibration.seen(fresh) - real.poses(fresh, noise=(0, 0))
+    assert np.linalg.norm(misses[:, :3, 3], axis=1).mean() < 1e-3
+
+
+def test_an_arm_without_errors_is_left_alone(arm):
+    random = np.random.default_rng(4)
+    joints = random.uniform(-1, 1, (30, 6))
+    measured = arm.forward(joints)[:, :3, 3] + random.normal(scale=1e-3, size=(30, 3))
+    found = validate(arm, Observations(joints, measured), Frames())
+    assert found.chosen == NOTHING
+    assert np.allclose(found.calibration.forward(joints), arm.forward(joints), atol=1e-6)
+
+
+def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
+    real = Real(arm, 5)
+    seen = seen_of(real, 30)
+    seen.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
+    with pytest.raises(Implausible, match=r"still misses by [0-9.]+ mm .*rows ([0-9]+, ){4}"):
+        validate(arm, seen, guess_frames(arm, seen))
+
+
+def test_few_rows_are_refused(arm):
+    with pytest.raises(TooFewRows, match="9 rows; valid: at least 10"):
+        validate(arm, seen_of(Real(arm, 6), 9))

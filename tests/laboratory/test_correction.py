@@ -1,0 +1,72 @@
+import numpy as np
+import pytest
+
+from recalib.errors import InvalidFile
+from recalib.identification.calibration import calibrate
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.observations import Observations
+from recalib.laboratory.correct import correct
+from recalib.laboratory.correction import Correction, load_correction
+from recalib.laboratory.measurements import Measurements
+from recalib.nominal.arms import find_urdf, load_arm
+
+HOME = np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
+
+
+@pytest.fixture(scope="module")
+def correction():
+    """Of a seven-jointed arm with an offset and an eccentric gear."""
+    arm = load_arm("panda.urdf", "panda_hand_tcp")
+    joints = HOME + np.random.default_rng(6).uniform(-0.6, 0.6, (60, 7))
+    bent = joints + 0.01 + 0.004 * np.sin(joints)
+    seen = Observations(joints, arm.forward(bent))
+    calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), seen)
+    return Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
+
+
+@pytest.fixture
+def saved(correction, tmp_path):
+    path = tmp_path / "correction.npz"
+    correction.save(path)
+    return path
+
+
+def test_a_file_needs_no_other(correction, saved):
+    again, joints = load_correction(saved), HOME + 0.3
+    assert again.arm.tool == "panda_hand_tcp" and again.urdf == correction.urdf
+    assert np.array_equal(again.learned, correction.learned)
+    here, there = (each.calibration.forward(joints[None]) for each in (correction, again))
+    assert np.abs(here - there).max() < 1e-14
+
+
+@pytest.mark.parametrize("keep", [0, 100, -1])
+def test_a_file_that_is_not_whole_is_refused(keep, saved):
+    saved.write_bytes(saved.read_bytes()[:keep])
+    with pytest.raises(InvalidFile, match="not whole, or not written by recalib calibrate"):
+        load_correction(saved)
+
+
+def test_a_redundant_arm_stays_near_the_posture_that_is_given(correction):
+    joints = HOME + np.random.default_rng(7).uniform(-0.4, 0.4, (10, 7))
+    goals = correction.calibration.forward(joints)
+    beside = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
+    desired = Measurements(10, beside, goals[:, :3, 3], goals[:, :3, :3])
+    commands = correct(correction, desired)
+    reached = correction.calibration.forward(commands.joints)
+    assert np.abs(reached - goals).max() < 1e-7
+    assert np.abs(commands.joints - beside).max() < 0.1
+    assert np.array_equal(commands.poses, correction.arm.forward(commands.joints))
+
+
+def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correction):
+    commands = correct(correction, Measurements(1, HOME[None]))
+    reached = correction.calibration.forward(commands.joints)
+    assert np.abs(reached - correction.arm.forward(HOME[None])).max() < 1e-7
+    assert not np.allclose(commands.joints, HOME, atol=1e-3)
+
+
+def test_a_pose_alone_is_reached_from_what_was_learned(correction):
+    goals = correction.calibration.forward(correction.learned[:5] + 0.02)
+    commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
+    reached = correction.calibration.forward(commands.joints)
+    assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()

@@ -1,0 +1,59 @@
+import numpy as np
+import pytest
+
+from recalib.errors import InvalidFile
+from recalib.laboratory.command_line import main
+from recalib.laboratory.links import read_rows, urdf_of
+from recalib.nominal.arms import load_arm
+from recalib.nominal.denavit_hartenberg import CONVENTIONS, Row, arm_of_table
+
+HEADER = "joint,a [mm],alpha [deg],d [cm],theta [rad]"
+TABLE = f"""{HEADER},kind
+waist,10,-90,40,0.1,revolute
+shoulder,0,90,15,0,revolute
+boom,0,0,0,0,prismatic
+"wrist & co",-25,30,5,-0.3,revolute
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    (path := tmp_path / "links.csv").write_text(TABLE)
+    return path
+
+
+def test_a_table_is_read_in_its_units(path):
+    rows = read_rows(path)
+    assert rows[0] == Row("waist", 0.01, -np.pi / 2, 0.4, 0.1)
+    assert [row.slides for row in rows] == [False, False, True, False]
+
+
+@pytest.mark.parametrize("convention", CONVENTIONS)
+def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
+    out = tmp_path / "arm.urdf"
+    assert main(["urdf", str(path), "--convention", convention, "--out", str(out)]) == 0
+    assert "arm.urdf" in capsys.readouterr().out
+    arm, again = arm_of_table(read_rows(path), convention), load_arm(out)
+    assert out.read_text() == urdf_of(arm)
+    assert (again.joints, again.tool, again.base) == (arm.joints, arm.tool, arm.base)
+    assert again.massless and np.isinf(again.model.upperPositionLimit).all()
+    angles = np.random.default_rng(0).uniform(-2, 2, (10, 4))
+    np.testing.assert_allclose(again.forward(angles), arm.forward(angles), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (TABLE.replace("d [cm]", "d [deg]"), r"'d' is in 'deg'; valid: d \[cm\]"),
+        (TABLE.replace("theta [rad]", "offset [rad]"), "nobody knows column 'offset'"),
+        (f"{HEADER}\nwaist,1,2,3\n", "row 1 has 4 cells; valid: 5"),
+        ("joint,a [mm],d [mm]\nwaist,1,2\n", "column 'alpha' is missing"),
+        (TABLE.replace("prismatic", "helical"), "row 3 of column 'kind' is 'helical'; valid: rev"),
+        (f"{HEADER}\n,1,2,3,4\n", "row 1 of column 'joint' is empty"),
+        (TABLE.replace("15", "half"), "row 2 of column 'd' is 'half'; valid: a number"),
+    ],
+)
+def test_what_is_no_such_table_is_refused(text, message, path):
+    path.write_text(text)
+    with pytest.raises(InvalidFile, match=message):
+        read_rows(path)

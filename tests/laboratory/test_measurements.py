@@ -1,0 +1,281 @@
+"""Tables that cannot be used, each with the sentence that says why."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import InvalidFile
+from recalib.laboratory.description import read_description
+from recalib.laboratory.measurements import read_measurements
+from recalib.nominal.arms import load_arm
+
+ROWS = 10
+GANTRY = """<robot name="gantry">
+  <link name="floor"/><link name="bridge"/><link name="tool"/>
+  <joint name="rail" type="prismatic"><parent link="floor"/><child link="bridge"/>
+    <axis xyz="1 0 0"/><limit lower="0" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="wrist" type="revolute"><parent link="bridge"/><child link="tool"/>
+    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>"""
+
+
+@pytest.fixture(scope="module")
+def gantry(tmp_path_factory):
+    path = tmp_path_factory.mktemp("gantry") / "gantry.urdf"
+    path.write_text(GANTRY)
+    return load_arm(path)
+
+
+@pytest.fixture
+def write(tmp_path):
+    def write(columns: dict, name: str = "table.csv"):
+        rows = zip(*columns.values(), strict=True)
+        lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
+        path = tmp_path / name
+        path.write_text("\n".join(lines))
+        return path
+
+    return write
+
+
+def joints() -> dict:
+    return {
+        "rail [mm]": np.linspace(0, 1500, ROWS),
+        "wrist [deg]": np.linspace(-90, 90, ROWS),
+    }
+
+
+def positions() -> dict:
+    return {f"{axis} [mm]": np.linspace(1, 2, ROWS) for axis in "xyz"}
+
+
+def with_cell(columns: dict, column: str, row: int, cell: object) -> dict:
+    cells = [*columns[column]]
+    cells[row - 1] = cell
+    return columns | {column: cells}
+
+
+def quaternion(numbers: str) -> dict:
+    cells = ([number] * ROWS for number in numbers.split())
+    return dict(zip(("qx", "qy", "qz", "qw"), cells, strict=True))
+
+
+def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, write):
+    turned = {"roll [deg]": [90] * ROWS, "pitch [rad]": [0] * ROWS, "yaw [deg]": [0] * ROWS}
+    read = read_measurements(write(turned | positions() | {**joints()}), gantry)
+    assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
+    assert np.allclose(read.positions[-1], 0.002)
+    assert np.allclose(read.rotations[0], Rotation.from_euler("x", 90, degrees=True).as_matrix())
+    assert read.targets is read.sockets is read.nominal is None
+
+
+def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
+    turn = Rotation.from_rotvec([0.3, -0.2, 0.9])
+    ways = (
+        dict(zip(("qx", "qy", "qz", "qw"), turn.as_quat(), strict=True)),
+        dict(zip(("rx [rad]", "ry [rad]", "rz [rad]"), turn.as_rotvec(), strict=True)),
+        dict(
+            zip(
+                ("roll [deg]", "pitch [deg]", "yaw [deg]"),
+                turn.as_euler("xyz", degrees=True),
+                strict=True,
+            )
+        ),
+    )
+    for way in ways:
+        columns = joints() | positions() | {name: [cell] * ROWS for name, cell in way.items()}
+        assert np.allclose(read_measurements(write(columns), gantry).rotations, turn.as_matrix())
+
+
+def test_targets_and_sockets_are_named(gantry, write):
+    names = ["left", "right"] * (ROWS // 2)
+    read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
+    assert [*read.sockets] == [*read.targets] == names and read.positions is None
+
+
+REFUSED = {
+    "a joint is missing": (
+        lambda: {"rail [mm]": range(ROWS)} | positions(),
+        "it lacks a column for joint 'wrist'; the arm's are rail [mm], wrist [deg]",
+    ),
+    "a joint is unknown": (
+        lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
+        "nobody knows column 'elbow'; valid: rail, wrist, x, y, z",
+    ),
+    "no unit": (
+        lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},
+        "column 'x' names no unit; valid: x [cm], x [m], x [mm]",
+    ),
+    "another unit": (
+        lambda: {"rail [deg]": range(ROWS), "wrist [deg]": range(ROWS)} | positions(),
+        "column 'rail' is in 'deg'; valid: rail [cm], rail [m], rail [mm]",
+    ),
+    "no number": (
+        lambda: with_cell(joints() | positions(), "y [mm]", 3, "far"),
+        "row 3 of column 'y' is 'far'; valid: a number",
+    ),
+    "nan": (
+        lambda: with_cell(joints() | positions(), "wrist [deg]", 5, "nan"),
+        "row 5 of column 'wrist' is 'nan'; valid: a number",
+    ),
+    "an empty cell": (
+        lambda: with_cell(joints() | positions(), "z [mm]", 1, ""),
+        "row 1 of column 'z' is ''; valid: a number",
+    ),
+    "millimetres for metres": (
+        lambda: joints() | {f"{axis} [m]": [430] * ROWS for axis in "xyz"},
+        "row 1 of column 'x' is 430 m; valid: up to 10 m, so that the unit may be another one",
+    ),
+    "degrees for radians": (
+        lambda: {"rail [mm]": range(ROWS), "wrist [rad]": [*[0] * 9, 57]} | positions(),
+        "row 10 of column 'wrist' is 57 rad; valid: up to 720 deg, so that",
+    ),
+    "a coordinate is missing": (
+        lambda: joints() | {"x [mm]": range(ROWS), "z [mm]": range(ROWS)},
+        "it has x, z and lacks y beside it",
+    ),
+    "half a rotation": (
+        lambda: joints() | positions() | {"rx [deg]": range(ROWS), "ry [deg]": range(ROWS)},
+        "it has rx, ry and lacks rz beside it",
+    ),
+    "two rotations": (
+        lambda: (
+            joints()
+            | positions()
+            | quaternion("0 0 0 1")
+            | {f"r{axis} [deg]": range(ROWS) for axis in "xyz"}
+        ),
+        "its rotations are given twice: qx, qy, qz, qw and rx, ry, rz; valid: once",
+    ),
+    "a rotation without a position": (
+        lambda: joints() | quaternion("0 0 0 1"),
+        "it has rotations without positions; valid: x, y, z, too",
+    ),
+    "a quaternion of no length": (
+        lambda: joints() | positions() | quaternion("0 0 0 0"),
+        "the quaternion in row 1 has length 0; valid: 1",
+    ),
+    "nothing measured": (joints, "nothing was measured in it; valid: x, y, z or socket"),
+    "positions and sockets": (
+        lambda: joints() | positions() | {"socket": ["left"] * ROWS},
+        "it has both positions and sockets; valid: one of them",
+    ),
+    "errors beside nothing": (
+        lambda: joints() | {f"{axis}_missed [mm]": range(ROWS) for axis in "xyz"},
+        "x_missed, y_missed, z_missed stand beside x_nominal, y_nominal, z_nominal and no x, y, z",
+    ),
+    "too few rows": (
+        lambda: {name: cells[:5] for name, cells in (joints() | positions()).items()},
+        "it has 5 rows; valid: at least 10",
+    ),
+    "no row": (
+        lambda: {name: [] for name in joints() | positions()},
+        "it has a header and no row",
+    ),
+    "a name twice": (
+        lambda: joints() | positions() | {"x [m]": range(ROWS)},
+        "it has more than one column 'x'",
+    ),
+    "no name": (lambda: joints() | {"[mm]": range(ROWS)}, "heading '[mm]' is no name with a unit"),
+}
+
+
+@pytest.mark.parametrize(("columns", "sentence"), REFUSED.values(), ids=REFUSED)
+def test_a_table_that_cannot_be_used_is_refused(columns, sentence, gantry, write):
+    with pytest.raises(InvalidFile) as refused:
+        read_measurements(write(columns()), gantry)
+    assert sentence in str(refused.value)
+    assert str(refused.value).startswith("cannot use ") and "table.csv: " in str(refused.value)
+
+
+TEXTS = {
+    "empty": (b"", "it is empty"),
+    "blank lines": (b"\n \n,\n", "it is empty"),
+    "semicolons": (b"rail [mm];wrist [deg]\n1;2\n", "separated by semicolons; valid: commas"),
+    "not a table": (b"\xff\xfe\x00\x01", "it is no CSV in UTF-8"),
+    "a short row": (b"rail [mm],wrist [deg]\n1,2\n3\n", "row 2 has 1 cells; valid: 2, as in"),
+}
+
+
+@pytest.mark.parametrize(("text", "sentence"), TEXTS.values(), ids=TEXTS)
+def test_a_file_that_is_no_table_is_refused(text, sentence, gantry, tmp_path):
+    path = tmp_path / "table.csv"
+    path.write_bytes(text)
+    with pytest.raises(InvalidFile) as refused:
+        read_measurements(path, gantry)
+    assert sentence in str(refused.value)
+
+
+def test_a_file_that_is_not_there_is_refused(gantry, tmp_path):
+    with pytest.raises(InvalidFile, match="No such file"):
+        read_measurements(tmp_path / "table.csv", gantry)
+
+
+DESCRIPTION = """
+[columns]
+j1 = "rail [mm]"
+j2 = "wrist [deg]"
+x_t = "x_nominal [mm]"
+y_t = "y_nominal [mm]"
+z_t = "z_nominal [mm]"
+x_dif = "x_missed [mm]"
+y_dif = "y_missed [mm]"
+z_dif = "z_missed [mm]"
+step = "ignored"
+[instrument]
+roll_pitch_yaw = ["0 deg", "0 deg", "180 deg"]
+[target]
+position = ["0 mm", "0.07 mm", "31 mm"]
+[[distance]]
+sockets = ["left", "right"]
+length = "250 mm"
+"""
+
+
+def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
+    path = tmp_path / "description.toml"
+    path.write_text(DESCRIPTION)
+    said = read_description(path)
+    assert np.allclose(said.instrument, np.diag([-1, -1, 1, 1]))
+    assert np.allclose(said.target[:3, 3], [0, 0.00007, 0.031])
+    assert said.distances == {("left", "right"): 0.25}
+    columns = dict(zip(("j1", "j2"), joints().values(), strict=True)) | {"step": range(ROWS)}
+    columns |= {f"{axis}_t": range(ROWS) for axis in "xyz"}
+    columns |= {f"{axis}_dif": [1] * ROWS for axis in "xyz"}
+    read = read_measurements(write(columns), gantry, said)
+    assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
+    assert np.allclose(read.positions - read.nominal, 0.001)
+    del columns["step"]
+    with pytest.raises(InvalidFile, match="its description names column 'step'; it has j1, j2"):
+        read_measurements(write(columns), gantry, said)
+
+
+WRONG = {
+    "no TOML": ("columns = [", "it is no TOML"),
+    "a part": ("[camera]\n", "part is 'camera'; valid: columns, instrument, target, distance"),
+    "a column": ("[columns]\nj1 = 3\n", "columns is {'j1': 3}; valid: lines such as"),
+    "a pose": ("[target]\nplace = 3\n", "target is {'place': 3}; valid: position and roll_pitch"),
+    "two numbers": ('[target]\nposition = ["1 m", "2 m"]\n', "valid: a list of three quantities"),
+    "no unit": (
+        '[target]\nposition = ["1", "0 m", "0 m"]\n',
+        "target.position is '1'; valid: a length in mm, cm, m",
+    ),
+    "one frame alone": (
+        "[instrument]\nposition = ['1 m', '0 m', '0 m']\n",
+        "instrument is 'alone'; valid: both instrument and target, or neither",
+    ),
+    "one socket": (
+        '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
+        "distance.sockets is ['a', 'a']; valid: the names of two sockets",
+    ),
+    "no length": ('[[distance]]\nsockets = ["a", "b"]\n', "valid: sockets and length"),
+}
+
+
+@pytest.mark.parametrize(("text", "sentence"), WRONG.values(), ids=WRONG)
+def test_a_description_that_cannot_be_used_is_refused(text, sentence, tmp_path):
+    path = tmp_path / "description.toml"
+    path.write_text(text)
+    with pytest.raises(InvalidFile) as refused:
+        read_description(path)
+    assert sentence in str(refused.value)

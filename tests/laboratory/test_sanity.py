@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+
+from recalib.laboratory.sanity import WrongNominal, check_nominal
+from recalib.nominal.arms import load_arm
+
+TOOL_POINT = 0.0, 0.02, 0.12  # m
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return load_arm("ur10_robot.urdf", "tool0")
+
+
+@pytest.fixture(scope="module")
+def joints():
+    middle = np.radians([20, -65, 100, -40, 95, 10])
+    return middle + np.random.default_rng(3).uniform(-0.7, 0.7, (40, 6))
+
+
+@pytest.fixture(scope="module")
+def nominal(arm, joints):
+    """Where a tool point of the nominal arm is, in its base."""
+    return (arm.forward(joints) @ [*TOOL_POINT, 1])[:, :3]
+
+
+def turned(degrees: float) -> np.ndarray:
+    pose = np.eye(4)
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    pose[:2, :2] = [[c, -s], [s, c]]
+    return pose
+
+
+def test_positions_of_the_nominal_arm_pass(arm, joints, nominal):
+    assert check_nominal(arm, joints, nominal, np.eye(4), np.array(TOOL_POINT)) is None
+    assert check_nominal(arm, joints, arm.forward(joints)[:, :3, 3]) is None
+
+
+def test_frames_that_nobody_knows_are_told_not_refused(arm, joints, nominal):
+    fit = check_nominal(arm, joints, nominal @ turned(180)[:3, :3].T)
+    assert np.allclose(fit.base, turned(180), atol=1e-6)
+    assert np.allclose(fit.target, TOOL_POINT, atol=1e-6)
+    told = str(fit)
+    assert "turned by 180.0 deg" in told and "a tool point at (0, 20, 120) mm" in told
+
+
+def changed(joints: np.ndarray, column: int, value) -> np.ndarray:
+    other = joints.copy()
+    other[:, column] = value(other[:, column])
+    return other
+
+
+MISTAKES = {
+    "a sign": (lambda q, p: (changed(q, 2, np.negative), p), "the sign of elbow_joint"),
+    "a zero": (
+        lambda q, p: (changed(q, 1, lambda column: column + np.pi / 2), p),
+        "the zero of shoulder_lift_joint, off by 90 deg",
+    ),
+    "the order": (
+        lambda q, p: (q[:, [0, 1, 2, 4, 3, 5]], p),
+        "the columns of wrist_1_joint and wrist_2_joint exchanged",
+    ),
+    "degrees for radians": (
+        lambda q, p: (np.degrees(q), p),
+        "joint columns in degrees that say rad",
+    ),
+    "radians for degrees": (
+        lambda q, p: (np.radians(q), p),
+        "joint columns in radians that say deg",
+    ),
+    "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
+    "two at once": (
+        lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
+        "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
+    ),
+    "base turned": (lambda q, p: (q, p @ turned(-90)[:3, :3].T), "the base turned by 90.0 deg"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "words"), MISTAKES.values(), ids=MISTAKES)
+def test_the_likely_mistake_is_named(spoil, words, arm, joints, nominal):
+    with pytest.raises(WrongNominal) as refused:
+        check_nominal(arm, *spoil(joints, nominal), np.eye(4), np.array(TOOL_POINT))
+    assert f"likely: {words}" in str(refused.value)
+
+
+def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):
+    with pytest.raises(WrongNominal, match="likely: a tool point at"):
+        check_nominal(arm, joints, nominal, np.eye(4), np.zeros(3))
+
+
+def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
+    with pytest.raises(WrongNominal, match="is it another arm"):
+        check_nominal(load_arm("ur5_robot.urdf", "tool0"), joints, nominal)

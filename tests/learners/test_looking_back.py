@@ -1,0 +1,75 @@
+"""Learners that look back: when they learn anew, from what, and what they keep."""
+
+import numpy as np
+import pytest
+
+from recalib.errors import BadMeasurement
+from recalib.learners.experience import Experience
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.geometric import GeometricLearner
+from recalib.learners.hybrid import HybridLearner
+from recalib.regression import Process
+
+MOVES = 10
+SENT = np.random.default_rng(3).uniform(-1, 1, (2, MOVES, 6))
+ACHIEVED = SENT + 0.1 * np.sin(SENT[..., ::-1])
+EXECUTED = np.ones((2, MOVES), dtype=bool)
+EXECUTED[0, 4] = False
+
+
+def observed(learner, first, last):
+    moves = slice(first, last)
+    learner.observe(SENT[:, moves], ACHIEVED[:, moves], EXECUTED[:, moves])
+    return learner
+
+
+def test_the_process_is_that_of_the_moves_that_were_carried_out():
+    learner = observed(GaussianProcessLearner(2), 0, MOVES)
+    asked = np.random.default_rng(4).uniform(-1, 1, (2, 3, 6))
+    commands = learner.command(asked)
+    for run in range(2):
+        its = EXECUTED[run]
+        process = Process(ACHIEVED[run, its], (SENT - ACHIEVED)[run, its])
+        np.testing.assert_allclose(commands[run], asked[run] + process.predict(asked[run]))
+
+
+def test_hyperparameters_are_sought_anew_when_the_moves_have_doubled_and_kept_between():
+    learner, seen = GaussianProcessLearner(2), []
+    for move in range(MOVES):
+        state = observed(learner, move, move + 1).state()[1]
+        assert state["moves"]["executed"].shape == (move + 1,)
+        seen.append(tuple(state["process"]["hyperparameters"]))
+    # fewer than six moves say nothing of them; from eight on they are sought, and at sixteen anew
+    assert len({*seen[:7]}) == 1 != len({*seen[6:8]})
+    assert len({*seen[7:]}) == 1
+    lengths = [len(observed(learner, 0, 0).state()[run]["process"]["inputs"]) for run in (0, 1)]
+    assert lengths == [MOVES - 1, MOVES]
+
+
+@pytest.mark.parametrize("kind", [GeometricLearner, HybridLearner])
+def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_command(
+    kind, controller, damaged
+):
+    workspace, learner = controller.robot.workspace, kind(2, controller)
+    targets = controller.targets(SENT)
+    poses = damaged.forward(targets.angles.reshape(-1, 6)).reshape(2, MOVES, 4, 4)
+    executed = EXECUTED & targets.executed
+    learner.observe(SENT, workspace.to_coordinates(poses), executed)
+    commands = learner.command(SENT)
+    for run, calibration in enumerate(learner.calibrations):
+        assert len(calibration.estimate.weights) == executed[run].sum()
+        angles = controller.targets(commands[run][None]).angles[0]
+        found = workspace.to_coordinates(calibration.forward(angles))
+        np.testing.assert_allclose(found, SENT[run], rtol=0, atol=1e-6)
+    fresh = kind(2, controller)
+    fresh.restore(learner.state())
+    assert np.array_equal(fresh.command(SENT), commands)
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, -1e6])
+def test_no_move_is_kept_that_measured_nothing(number):
+    experience, spoilt = Experience(2), ACHIEVED.copy()
+    spoilt[1, 3, 2] = number
+    with pytest.raises(BadMeasurement, match="move 3 of run 1"):
+        experience.add(SENT, spoilt, EXECUTED)
+    assert experience.moves == 0

@@ -1,0 +1,88 @@
+"""The learners on an arm of seven joints with damages by name."""
+
+import numpy as np
+import pytest
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.disturbances import Disturbances, Noise, Repeatability
+from recalib.damaged.nongeometric import EccentricGear, Sag
+from recalib.damaged.plant import Plant
+from recalib.errors import UnknownName
+from recalib.learned import save
+from recalib.learners.gaussian_process import GaussianProcessLearner
+from recalib.learners.geometric import GeometricLearner
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.hybrid import HybridLearner
+from recalib.learners.rules import IMPROVED
+from recalib.learners.schedules import Schedule
+from recalib.loading import load
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import load_robot
+from recalib.training import train
+from tests.arms import RAILED, panda
+
+DAMAGES = (
+    LinkShortening("panda_link4", 0.03),
+    EncoderShift("panda_joint3", np.radians(4)),
+    EncoderShift("panda_joint6", np.radians(-3)),
+)
+
+
+@pytest.fixture(scope="module")
+def controller() -> Controller:
+    return Controller(panda())
+
+
+def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
+    """The part of both initial errors that is left."""
+    random, workspace = np.random.default_rng(5), plant.workspace
+    poses = workspace.sample(random, runs, iterations), workspace.sample(random, runs, 50)
+    history = train(plant, learner, *poses, [0, iterations])
+    errors = np.stack([history.position[..., 0], history.orientation[..., 0]])
+    return (errors[..., -1] / errors[..., 0]).mean(axis=-1)
+
+
+def hierarchical() -> HierarchicalLearner:
+    widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
+    return HierarchicalLearner(2, IMPROVED, Schedule(4.0, widths, 0.8, 0.4))
+
+
+@pytest.mark.parametrize(
+    ("make", "iterations", "most"),
+    [
+        (lambda controller: hierarchical(), 100, 0.15),
+        (lambda controller: GaussianProcessLearner(2), 60, 0.02),
+        (lambda controller: GeometricLearner(2, controller), 12, 1e-6),
+    ],
+)
+def test_a_learner_recalibrates_seven_joints(make, iterations, most, controller):
+    plant = Plant(controller, [apply(controller.robot, DAMAGES)])
+    assert np.all(left(make(controller), plant, iterations) < most)
+
+
+def test_gears_and_sag_of_seven_joints_are_identified(controller, tmp_path):
+    robot = controller.robot
+    more = EccentricGear("panda_joint7", 0.01), Sag("panda_joint4", 2e-4)
+    disturbances = Disturbances(Noise(1e-5, 1e-5), Repeatability(1e-6))
+    luck = [np.random.default_rng(1)]
+    plant = Plant(controller, [apply(robot, [*DAMAGES, *more])], disturbances, luck)
+    learner = HybridLearner(1, controller)
+    assert np.all(left(learner, plant, 32, runs=1) < 0.01)
+    save(tmp_path / "learned.npz", learner, robot)
+    desired = robot.workspace.sample(np.random.default_rng(6), 1, 3)
+    again = load(tmp_path / "learned.npz", robot)
+    assert np.array_equal(again.command(desired), learner.command(desired))
+
+
+def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_path):
+    (path := tmp_path / "railed.urdf").write_text(RAILED)
+    turns = {"pan": 0.3, "lift": -0.8, "elbow": 1.4, "bend": -0.4, "twist": 1.1, "turn": 0.5}
+    sides = [0.2, 0.2, 0.2], np.radians([20, 20, 20])
+    robot = load_robot(path, "link_7", {"rail": 0.2} | turns, *sides)
+    controller = Controller(robot)
+    slid = controller.targets(robot.workspace.sample(np.random.default_rng(4), 1, 20)).angles
+    assert np.ptp(slid[..., 0]) > 0.02  # m
+    plant = Plant(controller, [apply(robot, [EncoderShift("elbow", 0.05)])])
+    assert np.all(left(GeometricLearner(2, controller), plant, 12) < 1e-6)
+    with pytest.raises(UnknownName, match="unknown turning joint of railed 'rail'; valid: bend"):
+        apply(robot, [EncoderShift("rail", 0.05)])

@@ -1,0 +1,59 @@
+"""The page that says how many mutants the tests notice, and which they do not."""
+
+import difflib
+from collections.abc import Mapping
+from pathlib import Path
+
+import jinja2
+import yaml
+from cosmic_ray.work_db import use_db
+from cosmic_ray.work_item import WorkItem, WorkResult
+from scipy.stats import binomtest
+
+HERE = Path(__file__).parent
+PAGE = HERE.parents[1] / "docs" / "mutants.md"
+
+
+def difference(before: str, after: str) -> str:
+    """The lines that differ, each behind its sign."""
+    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), n=0, lineterm="")
+    return "\n".join(line for line in lines if not line.startswith(("---", "+++", "@@")))
+
+
+def _survivor(item: WorkItem, result: WorkResult, reasons: Mapping) -> dict:
+    module, lines = str(item.mutations[0].module_path), result.diff.splitlines()
+    was, now = (
+        " ".join(line[1:].strip() for line in lines if line.startswith(sign)) for sign in "-+"
+    )
+    reason = reasons.get((module, was, now), "")
+    line = item.mutations[0].start_pos[0]
+    return {"module": module, "line": line, "was": was, "now": now, "reason": reason}
+
+
+def write_page(sessions: Mapping[str, Path]) -> None:
+    """Say what the sessions of cosmic-ray, by the part of the project, have found."""
+    explained = yaml.safe_load((HERE / "survivors.yaml").read_text(encoding="utf-8")) or []
+    reasons = {(each["module"], each["was"], each["now"]): each["why"] for each in explained}
+    rows, survivors = [], []
+    for part, path in sessions.items():
+        with use_db(path) as mutants:
+            judged = [each for each in mutants.completed_work_items if each[1].test_outcome]
+            left = [_survivor(*each, reasons) for each in judged if not each[1].is_killed]
+            rows.append({"part": part, "of": mutants.num_work_items, "judged": len(judged)})
+        rows[-1]["survived"] = len(left)
+        rows[-1]["explained"] = sum(bool(each["reason"]) for each in left)
+        survivors += sorted(left, key=lambda each: (each["module"], each["line"]))
+    rows = [row | {"interval": _interval(row)} for row in rows if row["judged"]]
+    whole = {
+        key: sum(row[key] for row in rows) for key in ("of", "judged", "survived", "explained")
+    }
+    template = jinja2.Template((HERE / "page.md.j2").read_text(encoding="utf-8"))
+    page = template.render(rows=rows, whole=whole | {"interval": _interval(whole)}, left=survivors)
+    PAGE.write_text(page + "\n", encoding="utf-8")
+
+
+def _interval(row: Mapping) -> str:
+    if not row["judged"]:
+        return "-"
+    its = binomtest(row["survived"], row["judged"]).proportion_ci(method="wilson")
+    return f"{100 * its.low:.0f} to {100 * its.high:.0f} %"

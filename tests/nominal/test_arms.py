@@ -1,0 +1,151 @@
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.arms import load_arm
+from tests.arms import GANTRY, SCARA, urdf
+
+# Of example-robot-data: the tool, and how many joints move it.
+ARMS = {
+    "ur3_robot.urdf": ("tool0", 6),
+    "ur5_gripper.urdf": ("tool0", 6),
+    "ur10_robot.urdf": ("tool0", 6),
+    "z1.urdf": ("link06", 6),
+    "kinova.urdf": ("j2s6s200_end_effector", 6),
+    "panda.urdf": ("panda_hand_tcp", 7),
+    "xarm7.urdf": ("link_eef", 7),
+    "talos_left_arm.urdf": ("wrist_left_ft_tool_link", 6),
+    "so100.urdf": ("gripper", 5),
+    "TwoDofs.urdf": ("Tip", 2),
+    "tiago.urdf": ("hand_tool_link", 8),
+    "baxter.urdf": ("left_gripper", 7),
+}
+SLIDER = "slide", "prismatic", "1 0 0", "0 0 0"
+
+
+@pytest.fixture
+def load(tmp_path):
+    def from_text(text, *links):
+        path = tmp_path / "small.urdf"
+        path.write_text(text)
+        return load_arm(path, *links)
+
+    return from_text
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_an_arm_of_example_robot_data_has_the_joints_that_move_its_tool(name):
+    tool, count = ARMS[name]
+    arm = load_arm(name, tool)
+    assert len(arm.joints) == arm.model.nq == arm.model.nv == len(arm.axes) == count
+    assert list(np.flatnonzero(arm.slides)) == ([0] if name == "tiago.urdf" else [])
+    poses, jacobians = arm.forward_and_jacobian(np.zeros((2, count)))
+    assert poses.shape == (2, 4, 4) and jacobians.shape == (2, 6, count)
+    assert arm.gravity_torque(np.zeros((2, count))).shape == (2, count)
+    assert not arm.massless
+
+
+def test_a_scara_moves_as_its_closed_form_says(load):
+    arm = load(SCARA)
+    assert (arm.base, arm.tool) == ("base", "link_5")
+    assert arm.joints == ("shoulder", "elbow", "quill", "wrist")
+    assert arm.slides.tolist() == [False, False, True, False]
+    assert arm.model.upperPositionLimit.tolist() == [2, np.inf, 2, 2]
+    shoulder, elbow, quill, wrist = 0.3, 4.0, 0.12, -0.7
+    both = shoulder + elbow
+    pose = arm.forward(np.array([[shoulder, elbow, quill, wrist]]))[0]
+    assert np.allclose(pose[0, 3], 0.35 * np.cos(shoulder) + 0.25 * np.cos(both))
+    assert np.allclose(pose[1, 3], 0.35 * np.sin(shoulder) + 0.25 * np.sin(both))
+    assert np.allclose(pose[2, 3], 0.4 - quill - 0.15)
+    assert np.allclose(pose[:2, 0], [np.cos(both + wrist), np.sin(both + wrist)])
+
+
+def test_a_gantry_adds_its_slides_along_their_axes(load):
+    arm = load(GANTRY)
+    x, y, z = 0.3, -0.2, 0.5
+    assert arm.slides.all() and np.allclose(arm.axes[2], [0, 0.6, 0.8])
+    assert np.allclose(arm.forward(np.array([[x, y, z]]))[0, :3, 3], [x, y + 0.6 * z, 1 + 0.8 * z])
+
+
+def test_without_masses_an_arm_says_so(load):
+    assert load(SCARA).massless
+    heavy = load(urdf(SLIDER, ("turn", "revolute", "0 1 0", "1 0 0"), mass=2.0))
+    assert not heavy.massless
+
+
+@pytest.mark.parametrize("base", ["panda_link2", "panda_link4"])
+def test_poses_are_in_the_frame_of_the_base_and_gravity_stays_down(base):
+    whole, part = load_arm("panda.urdf", "panda_hand"), load_arm("panda.urdf", "panda_hand", base)
+    under = len(whole.joints) - len(part.joints)
+    assert part.joints == whole.joints[under:] and part.base == base
+    angles = np.random.default_rng(0).uniform(-1, 1, (3, len(part.joints)))
+    padded = np.pad(angles, ((0, 0), (under, 0)))
+    link = load_arm("panda.urdf", base).forward(np.zeros((1, under)))
+    assert np.allclose(link @ part.forward(angles), whole.forward(padded))
+    assert np.allclose(part.gravity_torque(angles), whole.gravity_torque(padded)[:, under:])
+
+
+def test_a_joint_that_is_called_like_a_link_keeps_its_name():
+    assert load_arm("so100.urdf", "jaw").joints[-1] == "gripper"
+
+
+def test_an_installed_description_is_found_by_its_name(monkeypatch, tmp_path):
+    (path := tmp_path / "scara.urdf").write_text(SCARA)
+    monkeypatch.setitem(sys.modules, "robot_descriptions", SimpleNamespace())
+    name = "robot_descriptions.scara_description"
+    monkeypatch.setitem(sys.modules, name, SimpleNamespace(URDF_PATH=str(path)))
+    assert len(load_arm("scara_description").joints) == 4
+    with pytest.raises(InvalidSetting, match=r"'arm_description'; valid: .* has to be installed"):
+        load_arm("arm_description")
+
+
+CIRCLE = """<link name="one"/><link name="two"/>
+<joint name="j" type="fixed"><parent link="one"/><child link="two"/></joint>
+<joint name="k" type="fixed"><parent link="two"/><child link="one"/></joint></robot>"""
+MIMIC = '<mimic joint="slide"/>'
+
+
+@pytest.mark.parametrize(
+    ("text", "links", "error", "message"),
+    [
+        (SCARA, ["hand"], UnknownName, "tool link of small.urdf 'hand'; valid: base, link_1"),
+        (SCARA, ["link_5", "bed"], UnknownName, "base link of small.urdf 'bed'; valid: base,"),
+        (SCARA, ["link_2", "link_3"], UnsuitableRobot, "link_3 does not carry link_2 in small"),
+        (SCARA, ["link_5", "link_4"], UnsuitableRobot, "no joint of small.urdf moves link_5"),
+        (urdf(SLIDER, ("drift", "planar", "0 0 1", "0 0 0")), [], UnsuitableRobot, "drift .* plan"),
+        (urdf(SLIDER, ("fly", "floating", "0 0 1", "0 0 0")), [], UnsuitableRobot, "fly .* float"),
+        (urdf(SLIDER, ("ape", *SLIDER[1:], MIMIC)), [], UnsuitableRobot, "ape .* is mimic"),
+        (urdf(), [], InvalidSetting, "tool is None; .* at its ends are none"),
+        (
+            SCARA.replace("link_3", "link_1").replace('<link name="link_1"/>', "", 1),
+            [],
+            UnsuitableRobot,
+            "no URDF",
+        ),
+        (
+            SCARA.replace("</robot>", CIRCLE),
+            ["one"],
+            UnknownName,
+            "tool link .* 'one'; valid: base",
+        ),
+        (urdf(("a", "revolute", "0 0 0", "0 0 0")), [], UnsuitableRobot, "axis of a has no length"),
+        (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "no URDF"),
+        (
+            '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="x"><xacro:arm/></robot>',
+            [],
+            UnsuitableRobot,
+            "small.urdf is a xacro file; valid: what `xacro small.urdf` expands it to",
+        ),
+    ],
+)
+def test_what_is_no_such_arm_is_refused_by_name(load, text, links, error, message):
+    with pytest.raises(error, match=message):
+        load(text, *links)
+
+
+def test_of_several_ends_the_tool_has_to_be_named():
+    with pytest.raises(InvalidSetting, match="at its ends are panda_leftfinger, panda_right"):
+        load_arm("panda.urdf")

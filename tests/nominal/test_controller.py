@@ -1,0 +1,106 @@
+from itertools import product
+
+import numpy as np
+import pytest
+
+from recalib.errors import UnfitWorkspace, Unreachable
+from recalib.nominal.chain import Chain
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.study.plants import nominal_controller
+from tests.conftest import changed
+
+
+@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
+def test_forward_of_inverse_is_the_pose(name, plan):
+    controller = nominal_controller(plan.nominal(name))
+    workspace = controller.robot.workspace
+    poses = workspace.to_poses(
+        workspace.sample(np.random.default_rng(1), 10_000 if name == "ur10" else 1000)
+    )
+    reached = controller.robot.arm.forward(controller.inverse(poses))
+    assert position_error(reached, poses).max() < 1e-9
+    assert orientation_error(reached, poses).max() < 1e-9
+
+
+def test_a_command_gives_the_same_angles_whatever_comes_before_and_beside_it(controller):
+    workspace = controller.robot.workspace
+    poses = workspace.to_poses(workspace.sample(np.random.default_rng(2), 40) * 1.2)
+    together = controller.solve(poses).angles
+    alone = np.concatenate([controller.solve(pose[None]).angles for pose in poses[::-1]])[::-1]
+    assert np.array_equal(together, alone)
+
+
+def test_neighbouring_commands_stay_on_the_branch_of_home(controller):
+    workspace = controller.robot.workspace
+    path = np.linspace(-1, 1, 400)[:, None] * np.array([1, -1, 1, -1, 1, -1])
+    angles = controller.inverse(workspace.to_poses(path))
+    assert np.abs(np.diff(angles, axis=0)).max() < 0.05
+
+
+def test_a_pose_out_of_reach_is_an_error_that_names_it(controller):
+    pose = controller.robot.workspace.centre.copy()
+    pose[0, 3] = 3.0
+    with pytest.raises(
+        Unreachable, match=r"\(3.000, .*no joint angles reach it \(residual"
+    ) as caught:
+        controller.inverse(np.stack([controller.robot.workspace.centre, pose]))
+    assert caught.value.residual > 1 and caught.value.position[0] == 3.0
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_pose_beyond_a_joint_limit_on_either_side_is_an_error(plan, controller, side):
+    turned = controller.robot.workspace.to_poses(np.array([[0, 0, 0, 0, 0, 5.0 * side]]))
+    [[*_, angle]] = controller.inverse(turned)  # 100 degrees of yaw
+    bounds = np.radians([-360, 360])
+    for beyond in (True, False):
+        bounds[int(angle > 0)] = angle + np.copysign(0.01, angle) * (-1 if beyond else 1)
+        limited = changed(plan.nominal("ur10"), limits={"wrist_3_joint": bounds})
+        if beyond:
+            with pytest.raises(Unreachable, match="only beyond the joint limits"):
+                nominal_controller(limited).inverse(turned)
+        else:
+            assert nominal_controller(limited).inverse(turned)[0, 5] == angle
+
+
+def test_commands_beyond_the_workspace_are_solved_on_the_branch_of_home(controller):
+    """As by going there in small steps, not by a polynomial of what it was never fitted to."""
+    workspace, chain = controller.robot.workspace, Chain.of(controller.robot.arm)
+    far = np.random.default_rng(0).uniform(-1, 1, (400, 6))
+    far *= 2.5 / np.abs(far).max(axis=1, keepdims=True)
+    angles, all_the_way = np.tile(controller.robot.home, (len(far), 1)), np.ones(len(far), bool)
+    for part in np.linspace(0, 1, 40)[1:]:
+        angles, residuals = chain.solve(workspace.to_poses(part * far), angles)
+        all_the_way &= residuals < 1e-9
+    found = controller.solve(workspace.to_poses(far)).angles
+    alike = np.isclose(found, angles, atol=1e-6).all(axis=1)
+    assert all_the_way.mean() > 0.5 and alike[all_the_way].mean() > 0.98
+
+
+def test_a_workspace_out_of_reach_is_refused(plan):
+    nominal = plan.nominal("ur10")
+    far = nominal.robot.workspace.model_copy(update={"position": (1.5, 1.5, 1.5)})
+    message = r"cannot reach \d+ of the 729 poses.*Make its workspace smaller"
+    with pytest.raises(UnfitWorkspace, match=message):
+        nominal_controller(changed(nominal, workspace=far))
+
+
+@pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
+def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
+    message = "turn elbow_joint to .* beyond its limits of {:.1f} to {:.1f} deg".format(*limits)
+    limited = changed(plan.nominal("ur10"), limits={"elbow_joint": np.radians(limits)})
+    with pytest.raises(UnfitWorkspace, match=message):
+        nominal_controller(limited)
+
+
+def test_a_workspace_too_near_to_a_singularity_is_refused(robot, controller):
+    """By the largest condition number on a grid, in units of the workspace: by Pinocchio's."""
+    workspace = robot.workspace
+    grid = np.array([*product((-1.0, 0.0, 1.0), repeat=6)])
+    _, jacobians = robot.arm.forward_and_jacobian(controller.inverse(workspace.to_poses(grid)))
+    in_units = jacobians / workspace.half_ranges[:, None]
+    greatest = np.linalg.svd(in_units, compute_uv=False)[:, [0, -1]]
+    condition = (greatest[:, 0] / greatest[:, 1]).max()
+    Controller(robot, greatest_condition=condition * 1.0001)
+    with pytest.raises(UnfitWorkspace, match=f"singularity.* reaches {condition:.3g}; "):
+        Controller(robot, greatest_condition=condition * 0.9999)

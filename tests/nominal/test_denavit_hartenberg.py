@@ -1,0 +1,101 @@
+"""Tables of Denavit-Hartenberg parameters against closed forms, their products and a URDF."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from recalib.errors import InvalidSetting, UnknownName
+from recalib.nominal.arms import load_arm
+from recalib.nominal.denavit_hartenberg import Row, arm_of_table
+
+# Universal Robots' own table of the UR5 (support article on DH parameters), standard: d, a, alpha.
+UR5 = (
+    (0.089159, 0.0, np.pi / 2),
+    (0.0, -0.425, 0.0),
+    (0.0, -0.39225, 0.0),
+    (0.10915, 0.0, np.pi / 2),
+    (0.09465, 0.0, -np.pi / 2),
+    (0.0823, 0.0, 0.0),
+)
+
+
+def turn(axis: int, angle: float) -> np.ndarray:
+    c, s, matrix = np.cos(angle), np.sin(angle), np.eye(4)
+    one, other = (axis + 1) % 3, (axis + 2) % 3
+    matrix[[one, one, other, other], [one, other, one, other]] = c, -s, s, c
+    return matrix
+
+
+def slide(axis: int, length: float) -> np.ndarray:
+    matrix = np.eye(4)
+    matrix[axis, 3] = length
+    return matrix
+
+
+NUMBERS = st.floats(-2, 2)
+ROWS = st.lists(
+    st.builds(Row, st.just(""), NUMBERS, NUMBERS, NUMBERS, NUMBERS, st.booleans()),
+    min_size=1,
+    max_size=8,
+)
+
+
+@given(rows=ROWS, angle=NUMBERS)
+@pytest.mark.parametrize("convention", ["standard", "modified"])
+def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle):
+    rows = [Row(f"j{i}", r.a, r.alpha, r.d, r.theta, r.slides) for i, r in enumerate(rows)]
+    arm, expected = arm_of_table(rows, convention), np.eye(4)
+    for row in rows:
+        along_z = turn(2, row.theta + angle * (not row.slides)) @ slide(
+            2, row.d + angle * row.slides
+        )
+        along_x = turn(0, row.alpha) @ slide(0, row.a)
+        parts = (along_z, along_x) if convention == "standard" else (along_x, along_z)
+        expected = expected @ parts[0] @ parts[1]
+    assert np.allclose(arm.forward(np.full((1, len(rows)), angle))[0], expected, atol=1e-12)
+    assert arm.joints == tuple(row.name for row in rows) and arm.massless
+    assert arm.slides.tolist() == [row.slides for row in rows]
+
+
+def test_the_published_table_of_the_ur5_is_its_urdf_up_to_where_base_and_tool_are():
+    rows = [
+        Row(f"joint {i}", a=a, d=d, alpha=alpha) for i, (d, a, alpha) in enumerate(UR5, start=1)
+    ]
+    table, urdf = arm_of_table(rows), load_arm("ur5_robot.urdf", "tool0")
+    angles = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
+    by_table, by_urdf = table.forward(angles), urdf.forward(angles)
+    # UR's base is turned by half a turn against ROS's; its tool's frame is the same.
+    np.testing.assert_allclose(turn(2, np.pi) @ by_table, by_urdf, rtol=0, atol=1e-10)
+
+
+def test_a_stanford_arm_is_its_closed_form():
+    """Its first three joints, standard: two that turn, one that slides."""
+    rows = [
+        Row("waist", d=0.4, alpha=-np.pi / 2),
+        Row("shoulder", d=0.15, alpha=np.pi / 2),
+        Row("boom", slides=True),
+    ]
+    waist, shoulder, boom = 0.7, -1.1, 0.5
+    position = arm_of_table(rows).forward(np.array([[waist, shoulder, boom]]))[0, :3, 3]
+    out = boom * np.sin(shoulder)
+    expected = [
+        np.cos(waist) * out - 0.15 * np.sin(waist),
+        np.sin(waist) * out + 0.15 * np.cos(waist),
+        0.4 + boom * np.cos(shoulder),
+    ]
+    assert np.allclose(position, expected)
+
+
+@pytest.mark.parametrize(
+    ("rows", "convention", "error", "message"),
+    [
+        ([Row("a")], "craig", UnknownName, "'craig'; valid: modified, standard"),
+        ([], "standard", InvalidSetting, "at least one"),
+        ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; valid: another name"),
+        ([Row("a", alpha=np.nan)], "standard", InvalidSetting, "alpha of a is nan; valid: a num"),
+    ],
+)
+def test_a_table_that_makes_no_arm_is_refused(rows, convention, error, message):
+    with pytest.raises(error, match=message):
+        arm_of_table(rows, convention)

@@ -1,0 +1,73 @@
+import numpy as np
+import pytest
+
+from recalib.nominal.arms import load_arm
+from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.newton import solve_groups
+
+# Tools, and postures away from where these arms are singular.
+ARMS = {
+    "ur10_robot.urdf": ("tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.0]),
+    "panda.urdf": ("panda_hand_tcp", [0.0, -0.7, 0.2, -2.1, 0.0, 1.6, 0.5]),
+    "tiago.urdf": ("hand_tool_link", [0.2, 1.0, -0.5, 1.0, 1.2, -1.0, 0.5, 0.5]),
+    "so100.urdf": ("gripper", [0.0, 1.0, -1.2, 0.5, 0.5]),
+}
+
+
+def by_chain(arm, poses, start):
+    return Chain.of(arm).solve(poses, start)
+
+
+def in_groups(arm, poses, start):
+    def look(_, angles):
+        return [each[None] for each in arm.forward_and_jacobian(angles[0])]
+
+    found, left = solve_groups(look, poses[None], start[None], TOLERANCE, steps=15)
+    return found[0], left[0]
+
+
+@pytest.mark.parametrize("solve", [by_chain, in_groups])
+@pytest.mark.parametrize("name", ARMS)
+def test_what_an_arm_reaches_is_found_from_nearby(name, solve):
+    tool, posture = ARMS[name]
+    arm, random = load_arm(name, tool), np.random.default_rng(1)
+    angles = posture + random.uniform(-0.3, 0.3, (20, len(posture)))
+    start, poses = angles + random.uniform(-0.1, 0.1, angles.shape), arm.forward(angles)
+    found, left = solve(arm, poses, start)
+    assert left.max() <= TOLERANCE
+    np.testing.assert_allclose(arm.forward(found), poses, rtol=0, atol=1e-10)
+    if len(arm.joints) <= 6:
+        np.testing.assert_allclose(found, angles, rtol=0, atol=1e-8)
+    else:  # hardly farther than where the pose came from
+        far, farther = (np.linalg.norm(each - start, axis=1) for each in (found, angles))
+        assert np.all(far < 1.05 * farther)
+
+
+def test_a_step_of_a_redundant_arm_is_the_shortest():
+    tool, posture = ARMS["panda.urdf"]
+    arm, start = load_arm("panda.urdf", tool), np.array([posture])
+    pose, jacobian = arm.forward_and_jacobian(start)
+    pose[0, :3, 3] += 1e-5
+    angles, left = Chain.of(arm).solve(pose, start)
+    idle = np.linalg.svd(jacobian[0])[2][-1]  # the motion that leaves the tool where it is
+    assert left <= TOLERANCE
+    assert abs(idle @ (angles - start)[0]) < 1e-4 * np.linalg.norm(angles - start)
+
+
+def test_a_start_where_the_arm_is_singular_is_left(robot):
+    straight = np.zeros((2, 6))
+    _, jacobians = robot.arm.forward_and_jacobian(straight)
+    assert np.linalg.matrix_rank(jacobians[0]) < 6
+    near = robot.arm.forward(np.full((2, 6), 0.3))
+    angles, residuals = Chain.of(robot.arm).solve(near, straight)
+    assert residuals.max() <= TOLERANCE
+    assert np.allclose(robot.arm.forward(angles), near, atol=1e-10)
+
+
+def test_of_a_pose_that_nothing_reaches_the_best_angles_are_kept(robot):
+    pose = robot.arm.forward(robot.home[None])
+    pose[0, 0, 3] += 3.0  # m
+    angles, residuals = Chain.of(robot.arm).solve(pose, robot.home[None])
+    assert TOLERANCE < residuals[0] <= 3.0
+    missed = pose[0, :3, 3] - robot.arm.forward(angles)[0, :3, 3]
+    assert np.abs(missed).max() <= residuals[0] + 1e-12

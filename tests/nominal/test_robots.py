@@ -1,0 +1,100 @@
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.robots import load_robot
+from recalib.study.plants import nominal_robot
+from tests.conftest import changed
+
+
+@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
+def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, plan):
+    robot = nominal_robot(plan.nominal(name))
+    step = 1e-6
+    _, jacobian = robot.arm.forward_and_jacobian(robot.home[None])
+    ahead, behind = (robot.arm.forward(robot.home + sign * step * np.eye(6)) for sign in (1, -1))
+    linear = (ahead[:, :3, 3] - behind[:, :3, 3]) / (2 * step)
+    angular = [
+        pin.log3(a[:3, :3] @ b[:3, :3].T) / (2 * step) for a, b in zip(ahead, behind, strict=True)
+    ]
+    assert np.allclose(jacobian[0], np.concatenate([linear.T, np.transpose(angular)]), atol=1e-8)
+
+
+def test_the_workspace_is_centred_on_home(robot):
+    assert np.allclose(robot.workspace.centre, robot.arm.forward(robot.home[None])[0])
+    assert np.allclose(2 * robot.workspace.half_ranges[:3], [0.5, 0.6, 0.5])
+    assert np.allclose(np.degrees(2 * robot.workspace.half_ranges[3:]), 40)
+
+
+def test_a_locked_gripper_leaves_six_joints(plan):
+    joints = nominal_robot(plan.nominal("z1")).joints
+    assert joints == tuple(f"joint{index}" for index in range(1, 7))
+
+
+def test_every_link_has_a_length(robot):
+    assert list(robot.links.items())[:3] == [
+        ("base_link", 0),
+        ("shoulder_link", 1),
+        ("upper_arm_link", 2),
+    ]
+    assert len(robot.links) == 7
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "message"),
+    [
+        ({"urdf": "ur11.urdf"}, UnknownName, "ur10_robot.urdf"),
+        ({"tool": "tool9"}, UnknownName, "tool0"),
+        ({"tool": "world"}, UnsuitableRobot, "no joint of ur10_robot.urdf moves world"),
+        ({"home": {"elbow": 0.0}}, UnknownName, "elbow_joint"),
+        ({"home": {"elbow_joint": 0.0}}, InvalidSetting, "shoulder_pan_joint"),
+        (
+            {"limits": {"elbow_joint": (0.0, np.pi / 2)}},
+            InvalidSetting,
+            "elbow_joint is '120 deg'; valid: 0.0 deg to 90.0",
+        ),
+    ],
+)
+def test_an_impossible_robot_is_refused_with_what_would_be_valid(plan, change, error, message):
+    with pytest.raises(error, match=message):
+        nominal_robot(changed(plan.nominal("ur10"), **change))
+
+
+def test_names_may_stand_in_any_order(robot):
+    home = dict(zip(robot.joints, robot.home, strict=True))
+    limits = {joint: (-3.0 - index, 3.0 + index) for index, joint in enumerate(robot.joints)}
+    ranges = [0.5, 0.6, 0.5], np.radians([40, 40, 40])
+    turned = [dict(reversed(each.items())) for each in (home, limits)]
+    one, other = (
+        load_robot(robot.urdf, "tool0", its[0], *ranges, limits=its[1])
+        for its in ((home, limits), turned)
+    )
+    assert np.array_equal(one.home, robot.home) and np.array_equal(other.home, robot.home)
+    for its in (one, other):
+        assert its.lower.tolist() == [-3, -4, -5, -6, -7, -8]
+        assert its.upper.tolist() == [3, 4, 5, 6, 7, 8]
+        assert np.array_equal(its.workspace.centre, robot.workspace.centre)
+
+
+def test_a_workspace_without_size_is_refused(robot):
+    home = dict(zip(robot.joints, robot.home, strict=True))
+    with pytest.raises(InvalidSetting, match="above zero"):
+        load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], np.radians([40, 40, 40]))
+
+
+def test_a_urdf_from_anywhere_will_do(robot, tmp_path):
+    path = tmp_path / "mine.urdf"
+    path.write_bytes(robot.urdf.read_bytes())
+    home = dict(zip(robot.joints, robot.home, strict=True))
+    mine = load_robot(path, "tool0", home, [0.5, 0.6, 0.5], np.radians([40, 40, 40]))
+    assert mine.name == "mine"
+    assert np.array_equal(mine.workspace.centre, robot.workspace.centre)
+
+
+def test_a_file_that_is_no_urdf_is_refused_by_its_path(tmp_path):
+    path = tmp_path / "notes.urdf"
+    for text in ("nothing", "<robot/>", "<robot name='none'><joint/></robot>"):
+        path.write_text(text)
+        with pytest.raises(UnsuitableRobot, match=r"notes\.urdf is no URDF"):
+            load_robot(path, "tool0", {}, [1, 1, 1], [1, 1, 1])

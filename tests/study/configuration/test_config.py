@@ -1,0 +1,194 @@
+"""A mistake in the configuration is told in a sentence, with its place, before any work starts."""
+
+import subprocess
+import sys
+import time
+
+import pytest
+import yaml
+
+from recalib.study.configuration import schema
+from recalib.study.configuration.checks import check
+from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguration
+from recalib.study.configuration.reading import read_study
+from recalib.study.configuration.robot_checks import check_robots
+from recalib.study.configuration.study import Study
+from tests.conftest import ROOT
+
+SHIPPED = ROOT / "config.yaml"
+TEXT = SHIPPED.read_text(encoding="utf-8")
+MISTAKES = yaml.safe_load((ROOT / "tests" / "mistakes.yaml").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def mistakes_of(here, text, *overlays) -> list[str]:
+    (here / "config.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_study("config.yaml", *overlays, checks=(check, check_robots))
+    return caught.value.mistakes
+
+
+def position(text, offset) -> str:
+    """Line and column, from 1, of a character."""
+    before = text[:offset].split("\n")
+    return f"{len(before)}:{len(before[-1]) + 1}"
+
+
+@pytest.mark.parametrize("row", MISTAKES, ids=[row["now"] for row in MISTAKES])
+def test_a_mistake_is_told_in_one_sentence_with_its_place(here, row):
+    assert row["was"] in TEXT
+    changed = TEXT.replace(row["was"], row["now"], 1)
+    place = changed.find(row.get("at", "@"))
+    changed = changed.replace("@", "", 1)
+    (said,) = mistakes_of(here, changed)
+    where = position(changed, place) if place >= 0 else "1:1"
+    expected = f"config.yaml:{where}: {row['says']}"
+    assert said.startswith(expected[:-3]) if expected.endswith("...") else said == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("seed: 1\n\trobot: ur10\n", "2:1: a tab; valid: spaces"),
+        ("robot: ur10\n  seed: 1\n", "2:7: no YAML: mapping values are not allowed here"),
+        ("a:\n  b: 1\n   c: 1\n", "3:5: no YAML: mapping values are not allowed here"),
+        ("a:\n    b: {c: 1}\n      d: 2\n", "3:7: wrong indentation"),
+        ("a: [1, 2\nb: 3\n", "2:2: no YAML: expected ',' or ']', but got ':' in what begins in"),
+        ("seed: 1\nseed: 2\n", "2:1: seed stands twice, first in line 1"),
+        ("a: {b: {c: 1, c: 2}}\n", "1:15: a.b.c stands twice, first in line 1"),
+        ("a: *nowhere\n", "1:4: no YAML: found undefined alias 'nowhere'"),
+        ("a: !!python/name:os.getcwd x\n", "1:4: no YAML: the tag tag:yaml.org,2002:python/na"),
+        ("seed: !!int many\n", "1:7: no YAML: the tag tag:yaml.org,2002:int"),
+        ("? [a]\n: 1\n", "1:3: no YAML: a key that is no text"),
+        ("a: {<<: 3}\n", "1:9: no YAML: expected a mapping or list of mappings for merging, but"),
+        ("a: 'b\n", "2:1: no YAML: found unexpected end of stream in what begins in line 1"),
+        ("a: %b\n", "1:4: no YAML: found character '%' that cannot start any token"),
+        ("a: 1\n---\nb: 2\n", "2:1: no YAML: but found another document in what begins in line 1"),
+        ("- a\n", "1:1: no configuration; valid: keys with their values"),
+    ],
+)
+def test_what_is_no_yaml_is_told_with_its_place(here, text, said):
+    (mistake,) = mistakes_of(here, text)
+    assert mistake.startswith(f"config.yaml:{said}")
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"a: \xff\n", "config.yaml: no text in UTF-8"),
+        (b"a: \x07\n", "config.yaml: no text in UTF-8"),
+        (b"a: &a [*a]\n", "config.yaml: an anchor within itself, or too many brackets"),
+        (b"a: " + b"[" * 9999, "config.yaml: an anchor within itself, or too many brackets"),
+    ],
+    ids=["Latin-1", "control character", "recursion", "brackets"],
+)
+def test_what_is_no_text_is_refused(here, content, said):
+    (here / "config.yaml").write_bytes(content)
+    with pytest.raises(InvalidConfiguration, match=f"^{said}$"):
+        read_study("config.yaml")
+
+
+def test_a_missing_file_is_named():
+    with pytest.raises(InvalidConfiguration, match=r"^mine\.yaml: No such file or directory$"):
+        read_study(SHIPPED, "mine.yaml")
+
+
+def test_an_empty_file_lacks_everything_and_the_first_mistakes_are_shown(here):
+    (here / "config.yaml").write_text("# nothing\n", encoding="utf-8")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_study("config.yaml")
+    lines = str(caught.value).splitlines()
+    assert lines[0].startswith("config.yaml:1:1: name is missing: ")
+    assert len(caught.value.mistakes) == len(Study.model_fields)
+    assert lines[MOST_SHOWN:] == [f"... and {len(Study.model_fields) - MOST_SHOWN} more"]
+
+
+def test_several_mistakes_are_told_in_the_order_of_their_places(here):
+    changed = TEXT.replace("greatest_condition: 60", "greatest_condition: 0", 1)
+    changed = changed.replace("trials: 64", "trials: many", 1).replace("seed: 1996", "sede: 1", 1)
+    keys = [line.split(": ")[1].split()[0] for line in mistakes_of(here, changed)]
+    assert keys == ["sede", "controller.greatest_condition", "search.trials"]
+
+
+def test_the_shipped_configuration_passes_in_no_time():
+    started = time.perf_counter()
+    study = read_study(SHIPPED)
+    assert time.perf_counter() - started < 0.5
+    assert check_robots(study) == []
+
+
+def test_a_redundant_arm_is_asked_for_no_evidence():
+    study = read_study(SHIPPED, ROOT / "workflow" / "studies" / "panda.yaml")
+    assert check_robots(study) == []
+    asked = study.experiments.model_copy(update={"evidence": True, "ensemble": {}})
+    (mistake,) = check_robots(study.model_copy(update={"experiments": asked}))
+    assert mistake.path == ("experiments", "evidence")
+    assert "valid: false with the panda, an arm of 7 joints" in mistake.fault
+
+
+def test_reading_a_configuration_loads_no_robot():
+    script = (
+        "import sys; from recalib.study.configuration.reading import read_study;"
+        "read_study('config.yaml'); sys.exit(not {'pinocchio', 'scipy'}.isdisjoint(sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", script], cwd=ROOT).returncode == 0
+
+
+def test_a_study_survives_the_round_trip():
+    study = read_study(SHIPPED)
+    assert Study.model_validate_json(study.model_dump_json()) == study
+
+
+def test_overlays_change_keys_and_replace_all_else(here):
+    (here / "mine.yaml").write_text(
+        "name: mine\nrobots: {ur3: {tool: ee_link}}\nlearners: {improved: {iterations: 60}}\n"
+        "experiments: {scenarios: [intact], evidence: false}\n"
+    )
+    shipped = read_study(SHIPPED)
+    mine = read_study(SHIPPED, "mine.yaml", {"seed": 3, "name": "yours"}, {"seed": 4})
+    assert (mine.name, mine.seed) == ("yours", 4)
+    assert mine.experiments.scenarios == ("intact",)
+    assert mine.robots["ur3"].tool == "ee_link"
+    assert mine.robots["ur3"].home == shipped.robots["ur3"].home
+    assert mine.robots["ur5"] == shipped.robots["ur5"]
+    assert mine.learners["improved"].iterations == 60
+    assert mine.learners["improved"].maps == "separate"
+
+
+def test_a_mistake_in_an_overlay_names_the_overlay(here):
+    (here / "mine.yaml").write_text("name: mine\ntraining:\n  seeds: 1\n")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_study(SHIPPED, "mine.yaml", {"sede": 3, "training": {"tests": "many"}})
+    assert caught.value.mistakes == [
+        "mine.yaml:3:3: training.seeds is 1; valid: a whole number from 2 to 10000",
+        "the command line: training.tests is 'many'; valid: a whole number from 1 to 10000",
+        "the command line: sede: unknown key; did you mean seed?",
+    ]
+
+
+def test_a_mistake_in_a_file_that_an_overlay_mends_is_none(here):
+    (here / "config.yaml").write_text(TEXT.replace("seed: 1996", "seed: many", 1))
+    assert read_study("config.yaml", {"seed": 2}).seed == 2
+
+
+def test_the_editors_schema_is_that_of_the_types():
+    assert (ROOT / schema.FILE).read_text(encoding="utf-8") == schema.text(), (
+        "python -m recalib.study.configuration.schema writes it anew"
+    )
+
+
+def test_every_key_is_described():
+    whole = schema.json_schema()
+    resolved = schema.Schema(whole).resolved
+    undescribed = [
+        key
+        for part in (whole, *whole["$defs"].values())
+        for key, value in part["properties"].items()
+        if not (value.get("description") or resolved(value).get("description"))
+    ]
+    assert undescribed == []

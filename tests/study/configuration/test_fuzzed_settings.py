@@ -1,0 +1,210 @@
+"""Whatever stands in config.yaml is refused in a sentence before any work starts, or makes sense.
+
+Every part of the configuration is replaced by values that people mistype and machines invent. What
+is accepted must give a study all of whose jobs can be made.
+"""
+
+import json
+import math
+import re
+from functools import partial
+
+import numpy as np
+import pytest
+
+from recalib.study.configuration.checks import check, used_scenarios
+from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.configuration.reading import read_study
+from recalib.study.configuration.robot_checks import check_robots
+from recalib.study.configuration.study import Study
+from recalib.study.configuration.values import from_file
+from recalib.study.entrants import MOVES, PEERS
+from recalib.study.evidence.claims import judging
+from recalib.study.evidence.needs import Request
+from recalib.study.experiments.search import draw
+from recalib.study.experiments.settings import rules_of
+from recalib.study.layout import Layout, root_of
+from recalib.study.plan import Plan
+from recalib.study.plots.registry import drawn
+from recalib.study.studies import named_files
+from recalib.study.trainings import Trainings, rules
+from recalib.training import measuring_grid
+from tests.conftest import ROOT
+
+SHIPPED = ROOT / "config.yaml"
+TREE = from_file(SHIPPED).plain()
+WRONG = None, True, "", "nonsense", [], [[]], {"a": 1}
+NUMBERS = (math.nan, math.inf, -math.inf, 10**6, 10**18, 1e300, 1e-300, 0, -1, 1, 1.5, 1996.0, [1])
+TEXTS = ("../../up", "$(reboot)", "; rm x", "a\n", "é", "%s{}", "x" * 999, 3, math.nan)
+QUANTITIES = ("0 cm", "0 deg", "-4 cm", "4", "4 inch", "nan cm", "inf deg", "1e400 m", "1e9 deg")
+FEW = {"robot", "scenario", "settings"}  # words: none of these values is another one
+NAMED = "robots", "scenarios", "home"  # mappings whose keys are names
+REFUSAL = re.compile(
+    r"(the command line|config\.yaml:\d+:\d+): [a-z]\S*"
+    r"(: (unknown|no valid) \w+; .+|: a name with another meaning; valid: a new one"
+    r"| (is|has|lacks|moves) .+; (valid: .+|did you mean [\w.]+\?)"
+    r"|: .+ again; valid: once| is missing: .+| does not fit: .+)",
+    re.DOTALL,
+)
+
+
+def parts(tree, path=(), kind=()):
+    """The path of every part, and its kind: the same for all robots and for a list's entries."""
+    yield path, kind
+    if isinstance(tree, dict):
+        for key, value in tree.items():
+            its = "each" if path and path[-1] in NAMED else key
+            yield from parts(value, (*path, key), (*kind, its))
+    elif isinstance(tree, list):
+        for index, value in enumerate(tree):
+            yield from parts(value, (*path, index), (*kind, "each"))
+
+
+def others(value):
+    """What might stand in the place of a value."""
+    yield from WRONG
+    match value:
+        case bool():
+            yield from (not value, 1, "yes", math.nan)
+        case int() | float():
+            yield from (*NUMBERS, float(value), -value, value + 1, 10 * value, str(value))
+        case str() if re.match(r"-?[\d.]+ \w", value):
+            yield from (*QUANTITIES, f"-{value}", f"1000{value}", f"{value} {value}")
+        case str():
+            yield from (*TEXTS, value.upper(), f"{value}_2", f"{value}-ur5", f"{value}_200")
+        case list():
+            yield from (value * 2, value[:1], value[::-1], [*value, *value[:1]], value * 500)
+            yield from ([*value, None], [*value, math.nan], {"0": value}, value[:1] * 3)
+        case dict():
+            some = next(iter(value.values()))
+            yield from ({"a/b": some}, {"$(reboot)": some}, {"twin": some}, {"": some}, [some])
+
+
+def settings(key):
+    """Paths below a key of the configuration, each with something else to stand there."""
+    known = set()
+    for path, kind in parts(TREE[key], (key,), (key,)):
+        if kind not in known:
+            known.add(kind)
+            value = at(TREE, path)
+            told = {repr(value): None} | {repr(other): other for other in others(value)}
+            yield from ((path, other) for other in [*told.values()][1:])
+
+
+def at(tree, path):
+    for part in path:
+        tree = tree[part]
+    return tree
+
+
+def overlay(path, value):
+    """The mapping that sets a part to a value: lists are laid over as a whole."""
+    *parents, last = path
+    above = at(TREE, parents)
+    if isinstance(above, list):
+        return overlay(parents, [*above[:last], value, *above[last + 1 :]])
+    return overlay(parents, {last: value}) if parents else {last: value}
+
+
+OF_ROBOTS = {"robots", "controller", "paper_damage", "scenarios", "universes"}
+
+
+class Robots:
+    """What the robots say, asked once for all studies that are the same to them."""
+
+    def __init__(self):
+        self._said = {}
+
+    def __call__(self, study: Study) -> list:
+        parts = study.model_dump_json(include=OF_ROBOTS)
+        its = study.real.robot, study.experiments.evidence, study.experiments.ensemble
+        same = parts, *used_scenarios(study), repr(its)
+        if same not in self._said:
+            self._said[same] = check_robots(study)
+        return self._said[same]
+
+
+def jobs_of(study: Study):
+    """A job of each kind for all that the study consists of: of many chunks, the ends."""
+    plan, trainings = Plan(study), Trainings(study)
+    yield from (plan.design(), plan.true_mapping(), plan.visits(), plan.summary())
+    yield from (plan.benchmark_table(), plan.real_table())
+    yield from (plan.assignments(robot) for robot in study.robots)
+    for scenario in trainings.scenarios():
+        yield from (plan.scenario(scenario), plan.recording(scenario))
+    for learner, scenario in {learner: scenario for scenario, learner in trainings.runs}.items():
+        chunks = plan.training_chunks(learner)
+        first, last = (plan.training(scenario, learner, chunks[end]) for end in (0, -1))
+        assert first.first == 0 and last.last == plan.seeds(learner)
+        yield from (first, last)
+    for name in trainings.tuned():
+        yield from (plan.search(name, plan.search_chunks(name)[-1]), plan.sample(name))
+    for learner, series in study.experiments.ensemble.items():
+        for name in series:
+            yield plan.draws(name, learner, plan.draw_chunks(name, learner)[-1])
+    for learner in study.benchmark.learners:
+        yield plan.benchmark(learner, "0")
+    yield from map(plan.real_data, ("fit", "test"))
+    yield from map(plan.real_run, study.real.learners)
+    yield from map(plan.real_twin, study.real.twin)
+
+
+def assert_sense(study: Study) -> None:
+    """All jobs can be made and travel, and what they would draw and measure is something."""
+    for job in jobs_of(study):
+        text = job.model_dump_json()
+        assert "NaN" not in text and "Infinity" not in text
+        json.loads(text)
+    trainings, layout = Trainings(study), Layout(root_of(study.name))
+
+    def request():
+        return Request(study, trainings, layout, layout.searched)
+
+    assert "figure2" in drawn(study, request)
+    if study.experiments.evidence:
+        assert judging(request).inputs
+    its = study.training
+    for learner in {learner for _, learner in trainings.runs}:
+        iterations = rules(study, learner).iterations
+        grid = measuring_grid(
+            iterations, its.measure_every, its.measure_evenly, min(its.measurements, 100)
+        )
+        assert grid[0] == 0 and grid[-1] == iterations
+    for learner in study.benchmark.learners:
+        budgets = [*study.benchmark.moves, *study.benchmark.longer]
+        assert len(budgets) == len({*budgets})
+        if learner not in PEERS:
+            most = MOVES * rules(study, learner).iterations
+            assert [each for each in budgets if each % MOVES == 0 and each <= most]
+    learner = rules_of(next(iter(study.learners.values())))
+    trials = draw(learner, study.search.ranges.model_dump(), 2, np.random.default_rng(1))
+    assert (trials.to_numpy() > 1e-9).all() and np.isfinite(trials.to_numpy()).all()
+
+
+@pytest.fixture(scope="module")
+def robots() -> Robots:
+    return Robots()
+
+
+def test_thousands_of_settings_are_tried():
+    assert sum(len([*settings(key)]) for key in TREE) > 3000
+
+
+@pytest.mark.parametrize("key", TREE)
+def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    accepted, wrong = 0, []
+    for path, value in settings(key):
+        try:
+            study = read_study(
+                SHIPPED, overlay(path, value), checks=(check, partial(named_files, ROOT), robots)
+            )
+            assert_sense(study)
+            accepted += 1
+        except InvalidConfiguration as error:
+            unclear = [line for line in error.mistakes if not REFUSAL.fullmatch(line)]
+            wrong += [(path, value, line) for line in unclear]
+        except Exception as error:  # the very thing that must not happen
+            wrong.append((path, value, repr(error)))
+    assert wrong == []
+    assert (accepted > 0) == (key not in FEW), "or nothing is known of what passes"

@@ -1,0 +1,53 @@
+"""What is said at the end of a run: the claims that were tested, and no others."""
+
+import pytest
+
+from recalib.study.configuration.reading import read_study
+from recalib.study.evidence.claims import judging
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.outcome import needs, outcome
+from recalib.study.evidence.results import Evidence
+from recalib.study.layout import Layout
+from recalib.study.studies import CONFIGURATION, OTHERS, layers_of
+from recalib.study.trainings import Trainings
+from tests.conftest import ROOT
+
+SWITCHES = {"separate-maps", "theta-increments", "jacobian-increments", "schedule"}
+
+
+def judged(name: str) -> set[str]:
+    """The claims that are judged in a study."""
+    known = sorted((ROOT / OTHERS).glob("*.yaml"))
+    path = next((path for path in known if path.stem == name), None)
+    layers = layers_of(path, known) if path else []
+    study, layout = read_study(ROOT / CONFIGURATION, *layers), Layout("results")
+    return {*judging(lambda: Request(study, Trainings(study), layout, layout.searched)).claims}
+
+
+@pytest.mark.parametrize(
+    ("study", "beside"),
+    [
+        ("quick", {"identity", "initial-error"}),
+        ("ur3", {"identity", "initial-error"}),
+        ("bent", set()),  # neither the intact robot nor the paper's damage
+        ("coarse", {"initial-error"}),
+    ],
+)
+def test_a_study_judges_what_its_trainings_tell_of(study, beside):
+    assert judged(study) == SWITCHES | {"ritter-slow", "figure-1"} | beside
+
+
+def test_the_shipped_study_judges_all():
+    assert len(judged("replication")) == 17
+
+
+def test_errors_and_verdicts_are_said_and_where_to_look(made_up):
+    evidence = Evidence(made_up.needs(needs))
+    text = outcome(evidence)
+    assert text.startswith("results: UR10, forearm_link 4 cm\n")
+    for row in evidence.summary().itertuples():
+        assert row.scenario in text and f"{row.final_position_error_cm:.2f} cm" in text
+    words = " ".join(text.split())
+    verdicts = [claim["verdict"] for claim in evidence.claims()]
+    assert len(verdicts) == 17 and words.count("supported") == len(verdicts)
+    assert "make view STUDY=results, or make web STUDY=results for a browser" in words

@@ -1,0 +1,175 @@
+"""Intervals say where repetitions lie: of studies whose luck is drawn here, again and again."""
+
+import numpy as np
+import pytest
+from scipy.stats import norm, sem
+from scipy.stats import t as student
+
+from recalib.study import statistics
+from recalib.study.evidence import coverage
+from recalib.study.evidence.results import Evidence
+from recalib.study.statistics import (
+    Draws,
+    bootstrap,
+    combined,
+    estimate,
+    first_within,
+    geometric,
+    ratio,
+    typical,
+)
+from tests.made_up import OF_SEARCHES, OF_SEEDS, MadeUp
+
+SEEDS = 5
+
+
+def rng(*keys):
+    return np.random.default_rng(keys)
+
+
+def training(random, searches, of_searches=OF_SEARCHES, of_seeds=OF_SEEDS):
+    """Errors (search, seed) around 1."""
+    luck = of_searches * random.normal(size=(searches, 1))
+    return np.exp(luck + of_seeds * random.normal(size=(searches, SEEDS)))
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """A tenth of the resamples: enough for widths, and for shares of hundreds."""
+    monkeypatch.setattr(statistics, "RESAMPLES", 2000)
+
+
+@pytest.mark.parametrize("searches", [4, 12])
+@pytest.mark.parametrize("compared", [1, 2], ids=["mean", "ratio"])
+def test_the_interval_holds_repetitions_as_often_as_it_says(searches, compared, quick):
+    judge, inside = (geometric, ratio)[compared - 1], []
+    for number in range(200):
+        random = rng(searches, number)
+        found = judge(*(training(random, searches) for _ in range(compared)), rng(number))
+        again = [np.log(training(random, searches)).mean() for _ in range(compared)]
+        inside.append(found.low <= np.exp(again[0] - sum(again[1:])) <= found.high)
+    # three standard errors of 95 %; drawing seeds counts some of their luck twice, hence 99
+    assert 0.905 <= np.mean(inside) <= 0.99
+
+
+def test_an_interval_grows_with_the_spread_of_searches_and_with_that_of_seeds(quick):
+    def width(of_searches, of_seeds):
+        lucky = (np.log(training(rng(number), 12, of_searches, of_seeds)) for number in range(5))
+        found = [estimate(values, rng(1)) for values in lucky]
+        return np.mean([each.high - each.low for each in found])
+
+    assert width(0.05, 0.05) > 1.2 * width(0.0, 0.05)
+    assert width(0.1, 0.05) > 1.5 * width(0.05, 0.05)
+    assert width(0.05, 0.2) > 1.5 * width(0.05, 0.05)
+
+
+def test_luck_that_both_trainings_share_by_seed_narrows_their_ratio(quick):
+    poses = rng(3).normal(0, 1, (12, SEEDS))
+    poses -= poses.mean(axis=1, keepdims=True)  # luck of seeds alone
+    together = ratio(np.exp(poses), np.exp(poses), rng(4))
+    apart = ratio(np.exp(poses), np.exp(poses[:, ::-1]), rng(4))
+    assert np.log(together.high / together.low) < 0.85 * np.log(apart.high / apart.low)
+
+
+def test_the_interval_of_a_mean_is_students_for_a_repetition():
+    """Seeds without luck: that of a mean of searches, sqrt(2) times as wide (their module says)."""
+    searches = rng(5).normal(3, 1, 30)
+    found = estimate(searches[:, None].repeat(SEEDS, axis=1), rng(6))
+    half = np.sqrt(2) * student.ppf(0.975, 29) * sem(searches)
+    assert found.mean == pytest.approx(searches.mean())
+    assert [found.mean - found.low, found.high - found.mean] == pytest.approx([half] * 2, rel=0.08)
+
+
+def test_the_interval_of_a_ratio_has_the_degrees_of_freedom_of_both():
+    ours, theirs = (rng(7 + n).normal(0, 0.1, n)[:, None].repeat(SEEDS, axis=1) for n in (12, 30))
+    found = ratio(np.exp(ours), np.exp(theirs), rng(8))
+    spread = np.sqrt(ours[:, 0].var() / 12 + theirs[:, 0].var() / 30)
+    half = np.sqrt(2 * 12 / 11) * student.ppf(0.975, 11 + 29) * spread
+    gap = ours.mean() - theirs.mean()
+    low, high = np.log([found.low, found.high])
+    assert [gap - low, high - gap] == pytest.approx([half] * 2, rel=0.08)
+
+
+@pytest.mark.parametrize(("searches", "freedom"), [([12], 11), ([40, 12, 30], 11 + 29)])
+def test_its_percentiles_are_those_that_make_the_interval_of_a_mean_students(searches, freedom):
+    """Of a normal bootstrap; of many trainings the two with the fewest searches count."""
+    draws = Draws(rng(1))
+    for count in searches:
+        draws.means(np.zeros((count, 2)))
+    repeated = norm.ppf((np.arange(statistics.RESAMPLES) + 0.5) / statistics.RESAMPLES)
+    found = draws.estimate(np.array([0.2, *repeated]))
+    half = np.sqrt(2 * 12 / 11) * student.ppf(0.975, freedom)
+    assert found == pytest.approx((0.2, -half, half), rel=0.015)
+
+
+def test_an_estimate_is_three_cells_of_a_table():
+    cells = statistics.Estimate(2.0, 1.0, 4.0).columns("error")
+    assert cells == {"error": 2.0, "error_low": 1.0, "error_high": 4.0}
+
+
+def test_the_first_of_all_studies_is_the_one_itself():
+    values = rng(0).normal(size=(4, 3, 2))
+    means = Draws(rng(1)).means(values)
+    assert means.shape == (1 + statistics.RESAMPLES, 2)
+    assert np.allclose(means[0], values.mean(axis=(0, 1)))
+
+
+def test_one_search_has_no_interval():
+    found = estimate(rng(0).normal(1, 0.1, (1, SEEDS)), rng(1))
+    assert found.mean == pytest.approx(1, abs=0.2) and np.isnan([found.low, found.high]).all()
+
+
+def test_means_of_ratios_are_geometric():
+    ours, theirs = (training(rng(number), 3) for number in (0, 1))
+    assert geometric(ours, rng(2)).mean == pytest.approx(np.exp(np.log(ours).mean()))
+    assert ratio(ours, theirs, rng(2)).mean == pytest.approx(1 / ratio(theirs, ours, rng(2)).mean)
+
+
+def test_the_typical_search_is_the_median_one_of_two_the_better():
+    """Judged by the geometric mean of both errors, as everything is."""
+    position = np.array([4.0, 1, 3, 2])
+    errors = np.stack([position, 1 / position**3], axis=-1)[:, None].repeat(3, axis=1)
+    assert combined(errors)[:, 0] == pytest.approx(1 / position)
+    assert typical(errors) == 2, "of the two in the middle the one with the smaller error"
+    assert typical(errors[:3]) == 2
+
+
+def test_coverage_tells_how_often_half_of_the_searches_foretell_the_other(
+    study, tmp_path, monkeypatch, quick
+):
+    monkeypatch.setattr(coverage, "SPLITS", 25)
+    made_up = MadeUp(tmp_path, study)
+    table = coverage.coverage(Evidence(made_up.needs(coverage.needs)))
+    assert len(table) == 8 and table["inside"].mean() >= 0.9
+    monkeypatch.setattr(statistics, "LEVEL", 0.3)
+    narrow = coverage.coverage(Evidence(made_up.needs(coverage.needs)))
+    assert narrow["inside"].mean() < 0.7
+
+
+def test_the_interval_over_seeds_covers_their_mean_as_often_as_it_says():
+    covered = 0
+    for repetition in range(200):
+        values = rng(repetition).normal(3.0, 1.0, 30)
+        found = bootstrap(values, rng(0))
+        assert found.low < found.mean < found.high
+        covered += found.low <= 3.0 <= found.high
+    # 95 % less the known optimism of the percentile bootstrap at 30 values
+    assert 178 <= covered <= 198
+
+
+def test_the_interval_over_seeds_is_that_of_a_normal_mean_for_many_of_them():
+    values = rng(0).normal(3.0, 1.0, 400)
+    found = bootstrap(values, rng(1))
+    half = 1.96 * values.std() / np.sqrt(len(values))
+    assert [found.mean - found.low, found.high - found.mean] == pytest.approx([half] * 2, rel=0.07)
+
+
+def test_one_seed_has_no_interval():
+    found = bootstrap([2.0], rng(0))
+    assert found.mean == 2.0 and np.isnan(found.low)
+
+
+def test_a_threshold_counts_where_all_errors_are_within():
+    iterations, errors = np.array([0, 10, 20]), np.array([[3, 3], [1, 3], [1, 1.0]])
+    assert first_within(iterations, errors, np.array([1, 2])) == 20
+    assert first_within(iterations, errors, np.array([0.5, 2])) == np.inf

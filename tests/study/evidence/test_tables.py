@@ -1,0 +1,122 @@
+"""Tables of the benchmark and of the real arm, beside what one computes by hand."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.study import jobs
+from recalib.study.evidence.benchmark import errors, reached, seconds
+from recalib.study.evidence.effects import effects
+from recalib.study.evidence.guidance import moves_text
+from recalib.study.evidence.real import ERROR, real_errors
+from recalib.study.measured import ERRORS, errors_of
+
+SEEDS = 21
+JOB = jobs.BenchmarkTable(
+    scenarios=("sag", "noise"), learners=("hybrid", "improved"), thresholds=(1.0, 0.1), seed=7
+)
+
+
+@pytest.fixture(scope="module")
+def history() -> pd.DataFrame:
+    """Seed s of the hybrid gets below 1 cm after 2 + 2 s moves, of the map never; and others."""
+    rows = []
+    for scenario in ("noise", "sag", "gears"):
+        for learner in ("improved", "hybrid"):
+            for seed in range(SEEDS):
+                for moves in range(2, 62, 2):
+                    within = learner == "hybrid" and moves >= 2 + 2 * seed
+                    its = dict(zip(ERRORS, (0.5 if within else 2 + seed, 5.0), strict=True))
+                    rows.append(
+                        {"scenario": scenario, "learner": learner, "seed": seed, "moves": moves}
+                        | its
+                        | {"seconds_per_move": 0.25 if learner == "hybrid" else 0.1 * seed}
+                    )
+    return pd.DataFrame(rows).sample(frac=1, random_state=0)
+
+
+def test_errors_are_means_over_seeds_at_each_budget(history):
+    table = errors(JOB, history)
+    assert len(table) == 2 * 2 * 30
+    keys = table[["scenario", "learner"]].drop_duplicates().to_numpy().tolist()
+    assert keys == [[one, other] for one in JOB.scenarios for other in JOB.learners]
+    row = table[(table["learner"] == "improved") & (table["moves"] == 10)].iloc[0]
+    assert row["seeds"] == SEEDS and row[ERRORS[0]] == 12 and row[ERRORS[1]] == 5
+    assert 12 - 3.2 < row[f"{ERRORS[0]}_low"] < 12 - 1.5
+    assert 12 + 1.5 < row[f"{ERRORS[0]}_high"] < 12 + 3.2
+    assert row[f"{ERRORS[1]}_low"] == row[f"{ERRORS[1]}_high"] == 5
+
+
+def test_moves_to_a_threshold_are_a_median_between_the_5th_and_the_95th_percentile(history):
+    table = reached(JOB, history)
+    assert len(table) == 2 * 2 * 2 * 2
+    by = table.set_index(["scenario", "learner", "error", "threshold"])
+    row = by.loc[("sag", "hybrid", ERRORS[0], 1.0)]
+    assert [row["low"], row["moves"], row["high"]] == [4, 22, 40]
+    assert row["needs"] == "measured poses, nominal kinematics"
+    assert np.isinf(by.loc[("sag", "hybrid", ERRORS[0], 0.1), "moves"])
+    assert np.isinf(by.loc[("noise", "improved", ERRORS[0], 1.0), "low"])
+    assert by.loc[("noise", "improved", ERRORS[0], 1.0), "needs"].endswith("two moves for each")
+
+
+def test_computing_times_are_means_by_learner_in_their_order(history):
+    ordered = history.sort_values("learner", ascending=False, kind="stable")
+    table = seconds(ordered)
+    assert table["learner"].tolist() == ["improved", "hybrid"]
+    assert table["seconds_per_move"].tolist() == pytest.approx([1.0, 0.25])
+
+
+@pytest.mark.parametrize(
+    ("moves", "low", "high", "text"),
+    [
+        ([1234, 7], [900, 3], [5678, 9], "1,234 (900-5,678)"),
+        ([7, 7], [1, 2], [8, np.inf], "7 (2-more)"),  # of equal ones the last
+        ([7, np.inf], [1, 2], [8, np.inf], "-"),
+    ],
+)
+def test_moves_are_said_of_the_slower_error(moves, low, high, text):
+    assert moves_text(pd.DataFrame({"moves": moves, "low": low, "high": high})) == text
+
+
+def test_errors_on_the_real_arm_are_means_over_subsets():
+    runs = pd.DataFrame({"learner": ["b"] * 4 + ["a"] * 3, "poses": [5, 5, 5, 10, 5, 5, 5]})
+    runs[ERROR] = [1.0, 2, 6, 4, 7, 8, 9]
+    table = real_errors(jobs.RealTable(seed=1), runs)
+    assert table[["learner", "poses", "subsets"]].to_numpy().tolist() == [
+        ["b", 5, 3],
+        ["b", 10, 1],
+        ["a", 5, 3],
+    ]
+    assert table[ERROR].tolist() == [3, 4, 8]
+    assert np.isnan(table[f"{ERROR}_low"][1]) and 7 <= table[f"{ERROR}_low"][2] < 8
+
+
+def test_the_errors_of_a_history_are_by_search_and_seed_in_its_first_or_last_measurement():
+    order = np.random.default_rng(0).permutation(12)
+    table = pd.DataFrame({"iteration": [0, 4] * 6, "seed": np.repeat(range(6), 2)})
+    table["search"] = 1 + table["seed"] // 3
+    table[ERRORS[0]] = 10 * table["seed"] + table["iteration"]
+    table[ERRORS[1]] = -table[ERRORS[0]]
+    table = table.iloc[order]
+    assert errors_of(table)[..., 0].tolist() == [[4, 14, 24], [34, 44, 54]]
+    assert np.array_equal(errors_of(table, "first")[..., 1], [[0, -10, -20], [-30, -40, -50]])
+
+
+def test_an_effect_is_the_ratio_of_geometric_means_with_an_interval_and_a_bar_of_chance():
+    random = np.random.default_rng(1)
+    levels = np.repeat(["low", "high"], 100)
+    luck = 0.2 * random.normal(size=200)
+    values = pd.Series(np.exp(luck + np.where(levels == "high", np.log(1.5), 0)))
+    design = pd.DataFrame({"it": levels, "other": random.permutation(levels)})
+    table = effects(values, design, random)
+    row, noise = table.iloc[0], table.iloc[1]
+    means = np.log(values).groupby(levels).mean()
+    assert (row["factor"], row["least"], row["largest"]) == ("it", "low", "high")
+    assert np.log(row["effect"]) == pytest.approx(means["high"] - means["low"])
+    spread = np.sqrt(2 * luck.var() / 100)
+    bounds = [np.log(row["effect"] / row["low"]), np.log(row["high"] / row["effect"])]
+    assert bounds == pytest.approx([1.96 * spread] * 2, rel=0.12)
+    # of the absolute difference when the labels are shuffled: two sides, and two factors
+    bar = 2.24 * np.sqrt(np.log(values).var() / 50)
+    assert np.log(row["chance"]) == pytest.approx(bar, rel=0.12)
+    assert noise["effect"] < noise["chance"]

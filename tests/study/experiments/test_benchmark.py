@@ -1,0 +1,79 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.errors import UnknownName
+from recalib.interfaces import Outcome
+from recalib.study.entrants import PEERS, make_peer
+from recalib.study.evidence.guidance import moves_text, where_worse
+from recalib.study.experiments.benchmark import Timed, measured_at, moves_to_reach
+from recalib.study.measured import ERRORS
+
+
+def test_a_map_is_measured_where_its_moves_meet_a_budget():
+    assert measured_at([1, 2, 3, 4, 400, 1000], iterations=200, moves=2) == [1, 2, 200]
+    assert measured_at([1, 2, 3, 500], iterations=400, moves=1) == [1, 2, 3]
+
+
+def test_every_peer_can_be_made_and_knows_nothing_yet(controller):
+    for name in PEERS:
+        desired = np.zeros((2, 3, 6))
+        commands = make_peer(name, 2, controller).command(desired)
+        assert np.allclose(commands, desired, atol=1e-9), name
+    with pytest.raises(UnknownName, match="gaussian_process"):
+        make_peer("magic", 1, controller)
+
+
+def test_only_the_time_of_the_learner_is_taken():
+    class Slow:
+        def command(self, desired):
+            return desired
+
+        def learn(self, desired, execute, fraction):
+            execute(desired[:, None])
+
+    clock = iter(
+        [0.0, 1.0, 11.0, 13.0]
+    )  # learning from 0 to 13 s, of which the robot moves from 1 to 11 s
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("recalib.study.experiments.benchmark.time.perf_counter", lambda: next(clock))
+        timed = Timed(Slow())
+        timed.learn(
+            np.zeros((1, 6)), lambda commands: Outcome(commands, np.ones((1, 1), bool)), 0.0
+        )
+    assert timed.seconds == 3.0
+
+
+def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
+    errors = {2: [3, 1, 0.5], 0: [3, 3, 3], 1: [1, 4, 0]}  # a row of measurements by seed
+    table = [
+        {"seed": seed, "moves": moves, ERRORS[0]: error}
+        for seed, each in errors.items()
+        for moves, error in zip((2, 4, 8), each, strict=True)
+    ]
+    assert moves_to_reach(pd.DataFrame(table), ERRORS[0], 1).tolist() == [np.inf, 2, 4]
+
+
+def test_the_slower_error_decides():
+    reached = pd.DataFrame({"moves": [4, 12], "low": [3, 8], "high": [6, np.inf]})
+    assert moves_text(reached) == "12 (8-more)"
+    assert moves_text(reached.assign(moves=[4, np.inf])) == "-"
+
+
+def test_where_the_hybrid_is_worse_than_the_best_peer_is_said():
+    rows = [
+        {"scenario": "links", "learner": learner, "moves": moves, ERRORS[0]: value, ERRORS[1]: 1e-9}
+        for moves, values in ((2, (9, 1, 5)), (4, (1.05, 1, 5)), (8, (1.2, 1, 5)), (16, (9, 1, 5)))
+        for learner, value in zip(("hybrid", "gaussian_process", "affine"), values, strict=True)
+    ]
+    rows += [row | {"learner": "improved", ERRORS[0]: 0.1} for row in rows[:3]]  # is no peer
+    assert where_worse(pd.DataFrame(rows), [2, 4, 8]) == [
+        {
+            "scenario": "links",
+            "moves": 8,
+            "error": "position",
+            "hybrid": 1.2,
+            "best": 1,
+            "learner": "gaussian process",
+        }
+    ]

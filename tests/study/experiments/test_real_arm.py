@@ -1,0 +1,149 @@
+"""What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.errors import InvalidFile, UnknownName
+from recalib.laboratory.description import read_description
+from recalib.laboratory.sanity import WrongNominal
+from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
+from recalib.study.experiments.tracker import read_of
+from recalib.study.plants import nominal_robot
+from tests.conftest import ROOT
+
+# As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
+DH_A = 0, -0.425, -0.39225, 0, 0, 0
+DH_D = 0.089159, 0, 0, 0.10915, 0.09465, 0.0823
+DH_TWIST = np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0
+# With it the manufacturer's arm gets to the nominal positions of the public tables, to 0.01 mm.
+TOOL_POINT = 0.0, 0.07e-3, 31e-3  # m
+
+
+def manufacturers_position(angles: np.ndarray) -> np.ndarray:
+    """Tool point (3,) [m] in the manufacturer's base at joint angles (6,) [rad]."""
+    pose = np.eye(4)
+    for q, a, d, twist in zip(angles, DH_A, DH_D, DH_TWIST, strict=True):
+        c, s, ct, st = np.cos(q), np.sin(q), np.cos(twist), np.sin(twist)
+        pose = pose @ [
+            [c, -s * ct, s * st, a * c],
+            [s, c * ct, -c * st, a * s],
+            [0, st, ct, d],
+            [0, 0, 0, 1],
+        ]
+    return (pose @ [*TOOL_POINT, 1])[:3]
+
+
+@pytest.fixture(scope="module")
+def description(plan):
+    return read_description(ROOT / plan.study.real.description)
+
+
+@pytest.fixture(scope="module")
+def ur5(plan, description):
+    return with_tool_point(nominal_robot(plan.nominal("ur5")), description.target[:3, 3])
+
+
+@pytest.fixture(scope="module")
+def table(ur5) -> pd.DataFrame:
+    """150 poses of an arm with small defects, with 0.02 mm of noise, as tables have them."""
+    generator = np.random.default_rng(1)
+    middle = np.radians([20, -65, 100, -40, 95, 0])
+    angles = middle + np.radians([22, 18, 20, 28, 23, 8]) * generator.uniform(-1.5, 1.5, (150, 6))
+    defects = [
+        LinkShortening("forearm_link", 0.001),
+        EncoderShift("shoulder_lift_joint", 0.002),
+        EccentricGear("elbow_joint", 0.003, 0.4),
+    ]
+    measured = apply(ur5, defects).forward(angles)[:, :3, 3] * [-1, -1, 1]
+    nominal = np.array([manufacturers_position(q) for q in angles])
+    missed = measured - nominal + 2e-5 * generator.standard_normal((150, 3))
+    columns = {"step_order": range(150)}
+    columns |= {f"joint_{number + 1}": np.degrees(angles[:, number]) for number in range(6)}
+    columns |= {f"{axis}_t": 1e3 * nominal[:, index] for index, axis in enumerate("xyz")}
+    columns |= {f"{axis}_dif": 1e3 * missed[:, index] for index, axis in enumerate("xyz")}
+    return pd.DataFrame(columns)
+
+
+@pytest.fixture(scope="module")
+def recording(table, ur5, description, tmp_path_factory):
+    path = tmp_path_factory.mktemp("recorded") / "recording.csv"
+    table.to_csv(path, index=False)
+    return read_of(ur5.arm, path, description)
+
+
+def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
+    distance = np.linalg.norm(
+        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
+    )
+    assert distance.max() < 5e-5
+
+
+def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
+    flange = nominal_robot(plan.nominal("ur5"))
+    assert np.allclose(
+        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
+        [*TOOL_POINT, 1],
+    )
+
+
+def test_learners_leave_ever_smaller_errors(recording, ur5):
+    known, unknown = recording[:100], recording[100:]
+    left = {name: 1e3 * remaining_errors(name, ur5.arm, known, unknown).mean() for name in LEARNERS}
+    assert left["uncorrected"] == pytest.approx(
+        1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean()
+    )
+    assert left["affine"] < left["uncorrected"] / 2
+    assert left["quadratic"] < left["affine"]
+    assert left["gaussian_process"] < left["affine"]
+    assert left["geometric"] < left["quadratic"]
+    assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
+
+
+def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
+    with pytest.raises(UnknownName, match="hybrid"):
+        remaining_errors("oracle", ur5.arm, recording, recording)
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda t: t.drop(columns="y_dif"), lambda t: t.assign(y_dif="far")]
+)
+def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, ur5, description, tmp_path):
+    spoil(table).to_csv(tmp_path / "spoilt.csv", index=False)
+    with pytest.raises(InvalidFile, match="y_dif"):
+        read_of(ur5.arm, tmp_path / "spoilt.csv", description)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "likely"),
+    [
+        (
+            lambda t: t.assign(**{f"joint_{n}": np.radians(t[f"joint_{n}"]) for n in range(1, 7)}),
+            "joint columns in radians that say deg",
+        ),
+        (
+            lambda t: t.assign(**{f"{axis}_t": t[f"{axis}_t"] / 1e3 for axis in "xyz"}),
+            "positions in metres that say mm",
+        ),
+        (lambda t: t.assign(x_t=-t["x_t"], y_t=-t["y_t"]), "the base turned by 180.0 deg"),
+    ],
+    ids=["radians", "metres", "another frame"],
+)
+def test_a_table_in_other_units_or_frames_is_refused(
+    spoil, likely, table, ur5, description, tmp_path
+):
+    path = tmp_path / "table.csv"
+    spoil(table).to_csv(path, index=False)
+    with pytest.raises(WrongNominal, match=f"likely: {likely}"):
+        read_of(ur5.arm, path, description)
+
+
+@pytest.mark.parametrize("learner", LEARNERS)
+def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
+    unknown = recording[100:]
+    before = remaining_errors("uncorrected", ur5.arm, recording, unknown).mean()
+    for rows in ([0], [0] * 20):
+        left = remaining_errors(learner, ur5.arm, recording[rows], unknown)
+        assert left.mean() < 1.5 * before

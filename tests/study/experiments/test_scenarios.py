@@ -1,0 +1,47 @@
+import numpy as np
+import pytest
+
+from recalib.damaged.disturbances import Noise, Outliers, Repeatability
+from recalib.errors import UnknownName
+from recalib.study import jobs
+from recalib.study.experiments import campaign
+from recalib.study.plants import resolve
+from recalib.study.trainings import scenario_of
+
+
+def test_a_scenario_may_name_its_robot(study):
+    assert scenario_of(study, "links") == ("links", "ur10")
+    assert scenario_of(study, "links_encoders-z1") == ("links_encoders", "z1")
+    with pytest.raises(UnknownName, match="intact, links"):
+        scenario_of(study, "link")
+    with pytest.raises(UnknownName, match="ur10, ur3, ur5, z1"):
+        scenario_of(study, "links-ur7")
+
+
+def test_compared_learners_see_the_same_poses_and_never_the_tests():
+    short, long = (
+        campaign.desired_poses(1, "links", range(3), 20),
+        campaign.desired_poses(1, "links", range(1, 3), 200),
+    )
+    assert np.array_equal(short[1:], long[:, :20])
+    tests = campaign.test_poses(1, "links", range(3), 20)
+    assert not np.isclose(tests, short).any()
+    assert not np.isclose(short, campaign.desired_poses(1, "encoders", range(3), 20)).any()
+    assert not np.isclose(short[0], short[1]).any()
+
+
+def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):
+    """So a run that is trained in another chunk meets the same noise."""
+    noisy = Noise(1e-3, 1e-3), Outliers(0.3, 0.05), Repeatability(1e-3)
+    commands = np.zeros((1, 4, 6))
+
+    def met(name, seed, runs):
+        job = jobs.Scenario(name=name, damages=noisy, nominal=plan.nominal("ur10"), poses=2, seed=1)
+        resolved = resolve(job)
+        plant = resolved.plant(resolved.controller(), seed, runs)
+        return plant.execute(np.repeat(commands, len(runs), axis=0)).achieved
+
+    both = met("noise", 1, [3, 4])
+    assert np.array_equal(both[1:], met("noise", 1, [4]))
+    for other in (both[:1], met("outliers", 1, [4]), met("noise", 2, [4])):
+        assert not np.isclose(both[1:], other).any()

@@ -1,0 +1,235 @@
+"""Figures: drawn from what they declare, for any study, and the same on every machine."""
+
+import numpy as np
+import pytest
+
+from recalib.study.evidence.findings import figures as figures_of_findings
+from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.layout import Layout
+from recalib.study.plots.drawings import DRAWINGS
+from recalib.study.plots.looks import LOOKS, OTHER, UNKNOWN, looks
+from recalib.study.plots.registry import FIGURES, drawn, needs_of
+from recalib.study.plots.steady import LOG, rounded
+from recalib.study.plots.style import (
+    BORDER,
+    FAILS,
+    HOLDS,
+    ORIENTATION,
+    POSITION,
+    STYLE,
+    plt,
+    save,
+)
+from recalib.study.trainings import Trainings
+from tests.conftest import ROOT
+from tests.made_up import NOISE, OF_SEARCHES, MadeUp, few_resamples
+
+# those of the multiverse are drawn for the shipped study alone
+OF_UNIVERSES = "figure14", "figure15", "multiverse"
+EVERYWHERE = [name for name in FIGURES if name not in OF_UNIVERSES]
+
+
+def bytes_of(figure: str, needs, folder) -> list[bytes]:
+    paths = [folder / f"{figure}{suffix}" for suffix in (".svg", ".png")]
+    with plt.rc_context(STYLE):
+        save(DRAWINGS[figure](Evidence(needs)), *paths)
+    return [path.read_bytes() for path in paths]
+
+
+class WithNoise(Evidence):
+    """Results with noise in all that was measured."""
+
+    def _table(self, path):
+        table = super()._table(path)
+        rng = np.random.default_rng(1)
+        for column in table.select_dtypes("float").columns.difference(["scale", "width"]):
+            table[column] *= 1 + NOISE * rng.choice([-1, 1], len(table))
+            if path.endswith(".csv"):  # the workflow writes six digits of what has this noise
+                table[column] = [float(f"{value:.6g}") for value in table[column]]
+        return table
+
+
+def needs_of_a_full_run(figure, study):
+    """What a figure reads of the results that `make` leaves; None where they are not there."""
+    its = MadeUp.__new__(MadeUp)
+    its.study, its.trainings, its.layout = study, Trainings(study), Layout("results")
+    its.sample_at = "workflow/search/{}.csv".format
+    ask = its.request()
+    FIGURES[figure].needs(ask)
+    there = all((ROOT / path).exists() for path in ask.needs.inputs)
+    return ask.needs if there and not ask.lacking else None
+
+
+@few_resamples()
+@pytest.mark.parametrize("figure", FIGURES)
+def test_noise_in_the_last_digits_changes_no_byte(figure, request, study, tmp_path, monkeypatch):
+    """Of the results of a full run; where there are none, of made-up ones."""
+    monkeypatch.chdir(ROOT)
+    if needs := needs_of_a_full_run(figure, study):
+        first = bytes_of(figure, needs, tmp_path)
+        monkeypatch.setitem(globals(), "Evidence", WithNoise)
+        again = bytes_of(figure, needs, tmp_path)
+    elif figure in EVERYWHERE:
+        results = [request.getfixturevalue(name) for name in ("made_up", "disturbed")]
+        needs = [needs_of(figure, each.request) for each in results]
+        first, again = (bytes_of(figure, each, tmp_path) for each in needs)
+    else:
+        pytest.skip("needs the results of a full run, which `make` leaves")
+    assert first == again and min(map(len, first)) > 5000
+
+
+@pytest.mark.parametrize("figure", EVERYWHERE)
+def test_a_figure_reads_what_it_declares_and_nothing_else(figure, made_up, tmp_path):
+    needs = needs_of(figure, made_up.request)
+    cases = [{"files": tuple(p for p in needs.files if p != path)} for path in needs.files[:3]]
+    for kind in ("facts", "samples"):
+        its = getattr(needs, kind)
+        cases += [{kind: {k: v for k, v in its.items() if k != key}} for key in its]
+    for case in cases:
+        less = needs.model_copy(update=case)
+        with pytest.raises(Undeclared), plt.rc_context(STYLE):
+            DRAWINGS[figure](Evidence(less))
+        plt.close("all")
+
+
+def smaller(study, learners, **update):
+    """The study with these learners on the paper's damage, and no evidence."""
+    plan = study.experiments.model_copy(
+        update={
+            "scenarios": ("links_encoders",),
+            "learners": learners,
+            "beside": (),
+            "switches": False,
+            "ladder": {},
+            "robots": (),
+            "ensemble": {},
+            "evidence": False,
+        }
+        | update
+    )
+    return study.model_copy(update={"name": "small", "experiments": plan})
+
+
+@pytest.mark.parametrize(
+    ("learners", "update", "figures"),
+    [
+        (("improved", "ritter_200"), {}, ["figure1", "figure2", "figure3"]),
+        (("ritter",), {}, ["figure2", "figure3"]),
+        (
+            ("improved", "ritter_200"),
+            {"beside": ("ritter_double_200", "ritter_double")},
+            ["figure1", "figure2", "figure3", "figure4"],
+        ),
+    ],
+)
+def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, update, figures):
+    its = smaller(few, learners, **update)
+    made_up = MadeUp(tmp_path, its)
+    assert drawn(its, made_up.request) == figures
+    for figure in figures:
+        bytes_of(figure, made_up.needs(FIGURES[figure].needs), tmp_path)
+
+
+def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
+    its = smaller(few, ("improved", "ritter_200"), beside=("ritter_double_200", "ritter_double"))
+    made_up = MadeUp(tmp_path, its, {"ritter_double_200": 0.2})
+    with plt.rc_context(STYLE):
+        figure = DRAWINGS["figure4"](Evidence(made_up.needs(FIGURES["figure4"].needs)))
+    axes = figure.axes[0]
+    labels = [label.get_text() for label in axes.get_yticklabels()]
+    assert labels == ["ritter double 200, a learner"], "10,000 iterations are not compared"
+    # four searches each: three standard errors of the ratio
+    ratios = [float(text.get_text()) for text in axes.texts if text.get_text()[0].isdigit()]
+    assert ratios == pytest.approx([2, 0.05], rel=3 * OF_SEARCHES * np.sqrt(2 / 4))
+    plt.close(figure)
+
+
+def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
+    made_up = MadeUp(tmp_path, smaller(few, ("improved",)))
+    with plt.rc_context(STYLE):
+        figure = DRAWINGS["figure1"](Evidence(made_up.needs(FIGURES["figure1"].needs)))
+    assert "UR10, forearm_link 4 cm" in figure.get_suptitle()
+    plt.close(figure)
+
+
+def drawn_by(figure: str, made_up):
+    with plt.rc_context(STYLE):
+        drawing = DRAWINGS[figure](Evidence(needs_of(figure, made_up.request)))
+        drawing.draw_without_rendering()
+    return drawing
+
+
+OF_RESULTS = [name for name in EVERYWHERE if FIGURES[name].part != "ideas"]
+
+
+@pytest.mark.parametrize("figure", OF_RESULTS)
+def test_legends_hide_no_data_and_the_grid_lies_below(figure, made_up):
+    drawing = drawn_by(figure, made_up)
+    legends = [*drawing.legends, *filter(None, (axes.get_legend() for axes in drawing.axes))]
+    for axes in drawing.axes:
+        assert axes.get_axisbelow() is True
+        for legend in legends:
+            assert not legend.get_window_extent().overlaps(axes.get_window_extent())
+    plt.close(drawing)
+
+
+@pytest.mark.parametrize("figure", OF_RESULTS)
+def test_every_line_across_a_figure_says_what_it_is(figure, made_up):
+    """Those that part one side from the other: at each ends some text of the axes."""
+    drawing = drawn_by(figure, made_up)
+    for axes in drawing.axes:
+        own = [line for line in axes.lines if str(line.get_color()) == BORDER["color"]]
+        said = [text.xy for text in axes.texts if hasattr(text, "xy")]
+        for line in own:
+            (x, _), (y, _) = line.get_data()
+            assert any(np.isclose(x, at[0]) or np.isclose(y, at[1]) for at in said), figure
+    plt.close(drawing)
+
+
+def test_a_colour_means_one_thing_throughout():
+    """A learner, its kin of other iterations, an error, or a verdict."""
+    of_learners = {look.color for look in LOOKS.values()}
+    others = [POSITION["color"], ORIENTATION["color"], HOLDS, FAILS]
+    others += [color for color, _ in (*OTHER.values(), *UNKNOWN)]
+    assert len({*others}) == len(others)
+    assert not {*others} & of_learners
+    assert len(of_learners) == len(LOOKS)
+
+
+def test_every_figure_has_a_drawing_and_a_text_in_the_report():
+    assert list(FIGURES) == list(DRAWINGS)
+    for figure, its in FIGURES.items():
+        text = ROOT / "workflow" / "report" / f"{figure}.html"
+        assert text.exists() == (its.part in ("trainings", "evidence"))
+    assert set(figures_of_findings()) < set(FIGURES)
+
+
+def test_rounding_keeps_plain_numbers_and_moves_nothing_that_is_seen():
+    values = np.array([0.0, 1, 3, 0.25, 1000, -7.5, 12345.0, 1.2345e-3])
+    assert np.allclose(rounded(values), values, rtol=1e-3)
+    assert rounded([0, 1, 3, 0.25, 1000]).tolist() == [0, 1, 3, 0.25, 1000]
+    halves = np.array([0.12345, 2.5005, 10.015])
+    assert (rounded(halves) == rounded(halves * (1 + NOISE))).all()
+    assert (rounded(halves) == rounded(halves * (1 - NOISE))).all()
+    assert rounded([3e-11], 0.1).tolist() == [0], "what rounding leaves is nothing on this axis"
+
+
+def test_logarithms_of_an_axis_have_no_last_digits():
+    figure, axes = plt.subplots()
+    axes.set_xscale(LOG)
+    value = 0.1234567
+    near = np.nextafter(value, 1)
+    drawn_at = axes.transData.transform([(value, 0.5), (near, 0.5)])
+    assert drawn_at[0, 0] == drawn_at[1, 0]
+    plt.close(figure)
+
+
+def test_every_learner_looks_like_itself_and_unlike_the_others(study):
+    benchmark = looks(study.benchmark.learners)
+    assert set(study.benchmark.learners) == set(LOOKS)
+    assert len({(look.color, look.marker) for look in benchmark.values()}) == len(benchmark)
+    defaults = looks(study.experiments.learners)
+    assert defaults["ritter"] is LOOKS["ritter"] and defaults["ritter_200"].label == "Ritter"
+    assert len({look.color for look in defaults.values()}) == 3
+    unknown = looks(["improved", "mine", "another"])
+    assert unknown["mine"].label == "mine" and unknown["mine"].color != unknown["another"].color

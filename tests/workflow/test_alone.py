@@ -1,0 +1,91 @@
+import multiprocessing
+import os
+import shutil
+import signal
+
+import pytest
+
+from recalib.storage import whole
+from workflow.alone import MARK, NOTES, Busy, ReadOnly, Unknown, check_known, check_writable, hold
+
+
+def killed_while_writing(path):
+    with whole(path) as temporary:
+        temporary.write_text("half")
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+def held_elsewhere(folder, answers):
+    try:
+        answers.put(hold([folder]))
+    except Busy as error:
+        answers.put(str(error))
+
+
+@pytest.fixture(autouse=True)
+def notes(tmp_path, monkeypatch):
+    """The folder where Snakemake keeps its notes, in a project of the test's own."""
+    monkeypatch.chdir(tmp_path)
+    notes = (tmp_path / NOTES).parent
+    notes.mkdir()
+    return notes
+
+
+@pytest.fixture
+def results(tmp_path):
+    """A folder of results with what killed processes left there, and in another study's."""
+    folder = tmp_path / "results"
+    for path in (folder / "runs/a.parquet", folder / "studies/b/runs/a.parquet"):
+        process = multiprocessing.get_context("spawn").Process(
+            target=killed_while_writing, args=(path,)
+        )
+        process.start()
+        process.join()
+    (folder / "runs/b.parquet").write_text("whole")
+    return folder
+
+
+def test_what_a_killed_run_left_is_swept_up_and_nothing_else(results):
+    assert len(list(results.rglob(".*"))) == 2
+    hold([str(results)])
+    left = {str(path.relative_to(results)) for path in results.rglob("*") if path.is_file()}
+    (elsewhere,) = (results / "studies/b/runs").iterdir()
+    assert left == {"runs/b.parquet", MARK, str(elsewhere.relative_to(results))}
+
+
+def test_a_folder_is_held_until_the_process_ends(tmp_path):
+    context = multiprocessing.get_context("spawn")
+    answers = context.Queue()
+    mine, ours = str(tmp_path / "mine"), str(tmp_path / "ours")
+    hold([ours])
+    busy = f"another run is at work in {ours}: wait until it has ended"
+    for folder, expected in ((mine, None), (mine, None), (ours, busy)):
+        process = context.Process(target=held_elsewhere, args=(folder, answers))
+        process.start()
+        process.join()
+        assert answers.get(timeout=10) == expected
+
+
+def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_path, notes):
+    check_known(["results"])
+    hold(["results"])
+    check_known(["results"])
+    shutil.rmtree(notes)
+    with pytest.raises(Unknown, match="valid: remove results, or, if nothing was changed") as at:
+        check_known(["elsewhere", "results"])
+    assert at.value.folder == "results"
+    notes.mkdir()
+    hold(["other"])  # notes of other runs say as little
+    with pytest.raises(Unknown):
+        check_known(["other", "results"])
+    (tmp_path / "results" / MARK).unlink()
+    check_known(["other", "results"])
+
+
+def test_a_folder_that_is_read_only_is_told(tmp_path, monkeypatch):
+    new = str(tmp_path / "new")
+    check_writable(new)
+    check_writable(str(tmp_path))
+    monkeypatch.setattr(os, "access", lambda path, mode: False)  # root may write everywhere
+    with pytest.raises(ReadOnly, match=f"^nothing can be written in {tmp_path};"):
+        check_writable(new)

@@ -1,0 +1,81 @@
+"""A study of one's own: as docs/bend.md has it, by the commands that the page names."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.layout import Layout
+from recalib.study.studies import read_studies
+from recalib.study.trainings import Trainings
+from tests.conftest import ROOT
+
+PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
+STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
+
+
+def make(folder, *arguments) -> subprocess.CompletedProcess:
+    """What make would do."""
+    return subprocess.run(
+        ["make", "-n", "-o", "setup", *arguments], cwd=folder, capture_output=True, text=True
+    )
+
+
+@pytest.fixture
+def project(tmp_path):
+    """What the commands of the page see of the project."""
+    for part in ("Makefile", "config.yaml", "workflow/expected.csv", "workflow/shipped.json"):
+        (tmp_path / part).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / part, tmp_path / part)
+    shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
+    (tmp_path / "my_arm.yaml").write_text(STUDY, encoding="utf-8")
+    return tmp_path
+
+
+def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
+    assert len(STUDY.splitlines()) <= 10
+    main, found = read_studies(project, [project / "my_arm.yaml"], {})
+    mine = found[main]
+    assert (main, mine.robot, mine.scenario) == ("results/studies/my_arm", "ur5", "fall")
+    assert mine.expected is None, "bands belong to the study that has them"
+    assert Trainings(mine).scenarios() == ["fall"]
+
+
+def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
+    path = project / "my_arm.yaml"
+    path.write_text(STUDY.replace("forearm_link", "forearm"), encoding="utf-8")
+    with pytest.raises(InvalidConfiguration, match=r"my_arm.yaml:6:8: .* did you mean forearm_li"):
+        read_studies(project, [path], {})
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
+        ("study STUDY=my_arm", "--report results/studies/my_arm/report.html"),
+        ("quick", "snakemake --cores 2 --configfile workflow/studies/quick.yaml --quiet"),
+        ("view STUDY=my_arm", "watch view results/studies/my_arm/recordings/fall.rrd"),
+        ("web STUDY=my_arm", "watch web results/studies/my_arm --port 9090"),
+        ("view SCENARIO=noise", "watch view results/recordings/noise.rrd"),
+    ],
+)
+def test_a_command_speaks_of_its_study(project, command, said):
+    recording = project / Layout("results/studies/my_arm").recording("fall")
+    recording.parent.mkdir(parents=True)
+    recording.touch()
+    assert said in make(project, *command.split()).stdout
+
+
+def test_a_study_without_a_file_is_refused(project):
+    refused = make(project, "study", "STUDY=my_leg")
+    assert refused.returncode and "there is no my_leg.yaml" in refused.stderr
+
+
+def test_a_study_of_ones_own_is_nobody_elses_business():
+    asked = ["git", "check-ignore", "--no-index", "my_arm.yaml"]
+    ignored = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True)
+    if "not a git repository" in ignored.stderr:
+        pytest.skip("this copy is no git repository")
+    assert ignored.stdout == "my_arm.yaml\n"

@@ -1,0 +1,133 @@
+"""Every command of every page is executed by something, or says why it is only planned."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from tests.conftest import ROOT, copy_project
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+BLOCK = re.compile(r"^ *```sh\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
+SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
+EXECUTED = {  # by a test, or by the check of a change
+    "make": ".ci/run",
+    "make quick": ".ci/run",
+    "cat results/check.txt": ".ci/run",
+    "cp workflow/studies/bent.yaml my_arm.yaml": ".ci/run",
+    "make study STUDY=my_arm": ".ci/run",
+    "pip install .": "tests/test_library.py::test_the_wheel_works_where_nothing_of_the_studies_is",
+    "../.venv/bin/python damage_and_train.py": (
+        "tests/test_library.py::test_an_example_ends_with_small_errors"
+    ),
+    ".venv/bin/python examples/own_learner.py": (
+        "tests/test_library.py::test_an_example_ends_with_small_errors"
+    ),
+}
+EXECUTED |= {  # with a table and a URDF of the test's own
+    f"recalib {command}": f"tests/laboratory/test_command_line.py::{test}"
+    for command, test in (
+        ("calibrate ARM.urdf measurements.csv --tool tool0", "calibrated"),
+        (
+            "correct calibration/ desired.csv",
+            "test_commands_take_the_identified_arm_to_what_is_desired",
+        ),
+        ("next calibration/", "test_the_next_postures_are_within_limits_and_teach"),
+    )
+}
+PLANNED = {  # Snakemake or make says what would run, and the reason why it does not
+    "make setup": "whoever runs this has set it up",
+    "make cluster": "what it installs is not pinned",
+    "make view": "opens a window",
+    "make view STUDY=my_arm": "opens a window",
+    "make web": "serves until it is interrupted",
+    "make view SCENARIO=translation": "opens a window",
+    "make view STUDY=ur3": "opens a window",
+    "make web STUDY=my_arm": "serves until it is interrupted",
+    "make web STUDY=ur3": "serves until it is interrupted",
+    "make study STUDY=ur3": "a minute, and as make quick",
+    "make study STUDY=bent": "a minute, and as make quick",
+    "make study STUDY=coarse": "three minutes",
+    "snakemake --cores 2 figures/figure1.svg": "most of the replication, which make has made",
+    "snakemake --cores 2 --forcerun claims -- results/claims.json": "the same",
+}
+BY_HAND = {
+    "pip install '.[laboratory]'": "part of what make setup installs",
+    "snakemake --cores 1 results/real/fit.csv": "fetches a table from the network",
+    "recalib calibrate ur5_robot.urdf results/real/fit.csv --tool tool0"
+    " --description workflow/real/ur5.toml": "with the table that was fetched",
+    "git status --short": "of the reader's own checkout",
+    "snakemake --profile profiles/slurm universes": "an hour on a cluster; see make slurm",
+}
+
+
+def commands() -> list[str]:
+    """All commands of all pages, without their comments."""
+    lines = (
+        line.partition("#")[0].strip()
+        for page in PAGES
+        for block in BLOCK.findall(page.read_text(encoding="utf-8"))
+        for line in block.splitlines()
+    )
+    return sorted({*filter(None, lines)} - {*SETTING})
+
+
+@pytest.mark.parametrize("command", commands())
+def test_a_command_is_executed_or_says_why_not(command):
+    assert command in EXECUTED | PLANNED | BY_HAND, "what executes it?"
+
+
+def test_what_is_said_of_commands_is_said_of_those_on_pages():
+    assert sorted(EXECUTED | PLANNED | BY_HAND) == commands()
+
+
+@pytest.mark.parametrize("command", EXECUTED)
+def test_what_executes_a_command_is_there(command):
+    path, _, name = EXECUTED[command].partition("::")
+    text = (ROOT / path).read_text(encoding="utf-8")
+    assert re.search(rf"^def {name}\(" if name else rf"^{re.escape(command)}$", text, re.MULTILINE)
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory):
+    """A copy of the project: to plan leaves notes."""
+    folder = copy_project(tmp_path_factory.mktemp("checkout"))
+    shutil.copy(ROOT / "Makefile", folder)
+    shutil.copy(ROOT / "workflow" / "studies" / "bent.yaml", folder / "my_arm.yaml")
+    return folder
+
+
+@pytest.mark.parametrize("command", PLANNED)
+def test_a_command_can_be_planned(command, checkout):
+    program, *arguments = shlex.split(command)
+    plan = {
+        "make": ["make", "--dry-run", "--old-file=.venv/installed"],
+        "snakemake": [sys.executable, "-m", "snakemake", "--dry-run", "--quiet"],
+    }[program]
+    planned = subprocess.run(
+        [*plan, *arguments], cwd=checkout, text=True, capture_output=True, check=False
+    )
+    assert planned.returncode == 0, planned.stderr
+
+
+def test_make_help_names_every_target_and_pages_name_no_other():
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.search(r"^\.PHONY: (.*)", text, re.MULTILINE)[1].split())
+    told = subprocess.run(  # make, run by make, would name the folder that it enters
+        ["make", "--no-print-directory", "help"],
+        cwd=ROOT,
+        text=True,
+        capture_output=True,
+        check=True,
+    )
+    helped = {line.split()[0] for line in told.stdout.splitlines() if len(line.split()) > 2}
+    assert helped == targets
+    named = {
+        target
+        for page in PAGES
+        for target in re.findall(r"`make ([a-z]+)", page.read_text(encoding="utf-8"))
+    }
+    assert named <= targets

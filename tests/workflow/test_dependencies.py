@@ -1,0 +1,66 @@
+import ast
+
+import pytest
+
+from tests.conftest import ROOT
+from workflow import dependencies
+
+MODULES = [path for folder in ("recalib", "workflow") for path in (ROOT / folder).rglob("*.py")]
+
+
+def imported(path) -> set[str]:
+    """Files of the project that a module imports, as Python reads it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    files = set()
+    for name in names:
+        place = ROOT
+        for part in name.split("."):
+            place = place / part
+            files |= {place.with_suffix(".py"), place / "__init__.py"}
+    inside = ROOT / "recalib", ROOT / "workflow"
+    return {
+        file
+        for file in files
+        if file.is_file()
+        and file.is_relative_to(ROOT)
+        and any(file.is_relative_to(folder) for folder in inside)
+    }
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_imports_are_seen_as_python_sees_them(path):
+    found = dependencies.imported(path.relative_to(ROOT).as_posix())
+    assert {ROOT / module for module in found} == imported(path)
+
+
+def test_a_training_depends_on_its_rules_and_not_on_figures_or_other_learners():
+    needed = dependencies.modules("train.py")
+    assert {"recalib/learners/hierarchical.py", "recalib/nominal/controller.py"} <= {*needed}
+    assert "workflow/scripts/train.py" in needed
+    others = ("plots", "evidence", "recording", "identification", "learners/geo", "regression")
+    assert not [path for path in needed if any(other in path for other in others)]
+
+
+def test_an_edited_module_changes_the_digest(tmp_path, monkeypatch):
+    for name in ("recalib/__init__.py", "workflow/__init__.py", "workflow/scripts/__init__.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    (tmp_path / "workflow/scripts/a.py").write_text(
+        "from recalib.one import (\n    f,\n    g,\n)\n"
+    )
+    (tmp_path / "recalib/one.py").write_text("def f():\n    from recalib import two\n")
+    monkeypatch.setattr(dependencies, "ROOT", tmp_path)
+    seen = set()
+    for text in ("x = 1\n", "x = 2\n", "x = 1\n"):
+        (tmp_path / "recalib/two.py").write_text(text)
+        for function in vars(dependencies).values():
+            getattr(function, "cache_clear", int)()
+        seen.add(dependencies.code("a.py"))
+    assert len(seen) == 2
+    assert dependencies.modules("a.py")[-1] == "workflow/scripts/a.py"
+    assert {"recalib/one.py", "recalib/two.py"} <= {*dependencies.modules("a.py")}

@@ -1,0 +1,307 @@
+"""What a result depends on: every leaf of the configuration is changed, one at a time.
+
+The workflow is read once. For each change, the functions that give inputs and parameters of all
+its jobs are asked again: where they differ, the job runs again, and all that follows from it.
+"""
+
+import copy
+import json
+import re
+from fnmatch import fnmatch
+from functools import partial
+from unittest import mock
+
+import pandas as pd
+import pytest
+import yaml
+from snakemake.api import SnakemakeApi
+from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
+
+from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.configuration.reading import read_study
+from recalib.study.experiments.samples import write_sample
+from recalib.study.layout import SEARCHED
+from recalib.study.plan import Plan
+from recalib.study.studies import layers_of
+from recalib.study.trainings import Trainings
+from tests.conftest import ROOT, copy_project
+
+EVIDENCE = "claims figure page"  # what is said and drawn
+TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
+LONG = "train ensemble_chunk benchmark_run real_twin"  # Ritter's
+NOMINAL = "assignments scenario"  # a robot as its controller believes in it
+TABLES = "summary benchmark_table real_table"
+
+# What runs again by itself when a leaf changes: rules, for the first pattern that fits its path.
+# What follows from these runs again, too. `all` and `ur3` are lists of what a study consists of.
+DEPENDS = {
+    "name": "all claims figure page",  # the shipped study alone is judged over universes
+    "seed": f"{NOMINAL} {TRAINED} {TABLES} claims figure coverage study_mapping study_visits"
+    " real_run",
+    "robot": f"all {EVIDENCE} design scenario train ensemble_chunk summary search_sample",
+    "scenario": f"all ur3 {EVIDENCE} outcome coverage recording summary search_sample search"
+    " study_mapping study_replay",
+    "settings": f"{TRAINED} {EVIDENCE}",
+    "expected": "check",
+    "robots.ur10.*": f"{NOMINAL} design ensemble_chunk",
+    "robots.ur5.*": f"{NOMINAL} design real_run real_twin",
+    "robots.ur3.*": NOMINAL,
+    "robots.jaco.*": "design",
+    "robots.*": f"{NOMINAL} design",
+    "controller.*": f"{NOMINAL} design ensemble_chunk real_run real_twin",
+    "paper_damage.published.*": f"assignments design recording {EVIDENCE}",
+    "paper_damage.poses": f"{NOMINAL} design figure",
+    "paper_damage.*": "assignments design ensemble_chunk",
+    "scenarios.translation_rotation.*": "scenario design",
+    "scenarios.*": "scenario",
+    "learners.improved.iterations": f"all ur3 {TRAINED} {EVIDENCE} coverage summary",
+    "learners.improved.*": f"{TRAINED} {EVIDENCE} search_sample search",
+    "learners.ritter.iterations": f"all {LONG} claims figure summary",
+    "learners.ritter.*": f"{LONG} recording claims figure search_sample search",
+    "learners.ritter_double.iterations": "all train claims figure summary",
+    "learners.ritter_double.*": "train",
+    "experiments.scenarios": "all figure study_mapping summary",
+    "experiments.learners": f"all {EVIDENCE} coverage recording train summary",
+    "experiments.beside": "all claims figure summary",
+    "experiments.switches": "all figure summary",
+    "experiments.ladder.*": "all claims figure summary",
+    "experiments.evidence": "all claims",
+    "experiments.robots": "all figure summary",
+    "experiments.ensemble.improved.assignments.draws": "ensemble ensemble_chunk",  # one more chunk
+    "experiments.ensemble.*": "ensemble_chunk",
+    "experiments.draws_per_job": "ensemble_chunk",
+    "benchmark.learners": "benchmark_table",
+    "benchmark.scenarios": "benchmark_run benchmark_table",
+    "benchmark.moves": "benchmark_run page",
+    "benchmark.thresholds": "benchmark_table",
+    "benchmark.*": "benchmark_run",
+    "real.robot": "real_run real_twin figure page",
+    "real.data.*": "real_data",
+    "real.description": "real_run real_twin",
+    "real.published.*": "figure page",
+    "real.learners": "real_table",
+    "real.twin": "real_table",
+    "real.poses": "real_run real_twin page",
+    "real.subsets": "real_run real_twin",
+    "mapping.balls": "study_mapping figure",
+    "mapping.radius": "study_mapping figure",
+    "mapping.*": "study_mapping",
+    "training.seeds": "run train",
+    "training.seeds_per_job": "run train",
+    "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
+    "training.*": "train recording",
+    "universes.*": "design",
+    "search.short": "page",
+    "search.searches": f"{TRAINED} {EVIDENCE} run search_sample search",
+    "search.searches_long": f"{LONG} {EVIDENCE}",
+    "search.*": "search_sample search",
+}
+
+
+# The report's pages, a rule for each study, say these as well.
+REPORTED = """robot scenario settings paper_damage.published.* paper_damage.poses learners.*
+ experiments.scenarios experiments.learners experiments.beside experiments.switches
+ experiments.ladder.* experiments.robots mapping.poses mapping.balls
+ mapping.points training.tests training.measure_every search.searches*""".split()  # noqa: SIM905
+
+
+def leaves(tree, path=()):
+    """Paths of all leaves: a list of words is one, a list of numbers or quantities as many."""
+    if isinstance(tree, dict):
+        for key, value in tree.items():
+            yield from leaves(value, (*path, key))
+    elif isinstance(tree, list) and any(isinstance(each, dict) for each in tree):
+        for index, value in enumerate(tree):
+            yield from leaves(value, (*path, index))
+    else:
+        yield path
+
+
+def at(tree, path):
+    for key in path:
+        tree = tree[key]
+    return tree
+
+
+QUANTITY = re.compile(r"([-+]?[\d.]+) (mm|cm|m|deg|rad|rad/Nm)")
+OTHERS = {
+    "maps": {"single": "separate", "separate": "single"},
+    "theta": {"values": "increments", "increments": "values"},
+    "jacobian": {"values": "increments", "increments": "values"},
+    "schedule": {"exponential": "equal_visits", "equal_visits": "exponential"},
+    "assigned": {"links": "encoders", "encoders": "links"},
+    "settings": {"shipped": "own", "own": "shipped"},
+    "robot": {"ur10": "ur5", "ur5": "ur10"},
+    "scenario": {"links_encoders": "links"},
+}
+
+
+def changes(path, value):
+    """Other values for a leaf, until one of them makes a difference."""
+    if isinstance(value, bool):
+        yield not value
+    elif isinstance(value, int):
+        yield from (value + 1, 2 * value, max(value // 3, 1))
+    elif isinstance(value, float):
+        yield 1.01 * value
+    elif value is None:
+        yield "a_copy.csv"
+    elif isinstance(value, str):
+        if match := QUANTITY.fullmatch(value):
+            yield f"{1.5 * float(match[1]) + 0.5:g} {match[2]}"
+        elif path[-1] in OTHERS:
+            yield OTHERS[path[-1]][value]
+        elif path[-1] == "sha256":
+            yield value[::-1]
+        else:
+            yield f"{value}_changed"
+    elif isinstance(value, list) and value:
+        first = next(changes((*path, 0), value[0]))
+        yield (
+            value[1:]
+            if isinstance(value[0], str) and not QUANTITY.fullmatch(value[0])
+            else [
+                first,
+                *value[1:],
+            ]
+        )
+        yield value[:-1]
+
+
+class Workflow:
+    """The workflow with these targets, read once."""
+
+    def __init__(self, folder, targets):
+        with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+            resources = ResourceSettings(cores=1)
+            its = api.workflow(resources, snakefile=folder / "Snakefile", workdir=folder)
+            its.dag(DAGSettings(targets=set(targets)))
+            workflow = its._workflow
+            workflow._prepare_dag(forceall=True, ignore_incomplete=True, lock_warn_only=True)
+            workflow._build_dag()
+            self._jobs = [(job.rule, job.wildcards) for job in workflow.dag.jobs]
+        self._names = workflow.globals
+
+    def _become(self, studies):
+        self._names["STUDIES"].update(studies)
+        for root, study in studies.items():
+            self._names["PLANS"][root] = Plan(study)
+            self._names["TRAININGS"][root] = Trainings(study)
+        self._names["sample_at"].cache_clear()
+
+    def sample(self, studies, name):
+        """Where the searches for a training of the shipped study lie, were these the studies."""
+        self._become(studies)
+        return self._names["sample_at"]("results", name)
+
+    def asks(self, studies):
+        """Rule, inputs and parameters of every job, were these the studies, by folder."""
+        self._become(studies)
+        return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
+
+    def _job(self, rule, wildcards):
+        try:
+            answers = [each(wildcards) for each in (*rule.input, *rule.params) if callable(each)]
+        except Exception as error:  # a job that no longer makes sense is one that has changed
+            return repr(error)
+        return [sorted(map(str, each)) if isinstance(each, list) else each for each in answers]
+
+
+def studies_of(tree):
+    """The shipped study and one beside it, were this config.yaml."""
+    others = [ROOT / "workflow" / "studies" / f"{name}.yaml" for name in ("quick", "ur3")]
+    read = partial(read_study, tree, checks=())
+    return {"results": read(), "results/studies/ur3": read(*layers_of(others[-1], others))}
+
+
+def changed_leaves(tree):
+    """Each leaf of the configuration, and trees with other values of it."""
+    for path in leaves(tree):
+        others = []
+        for value in changes(path, at(tree, path)):
+            other = copy.deepcopy(tree)
+            at(other, path[:-1])[path[-1]] = value
+            others.append(other)
+        yield ".".join(map(str, path)), others
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory):
+    """A copy of the project with a shipped sample of the search for every training."""
+    folder = copy_project(tmp_path_factory.mktemp("provenance"))
+    study = read_study(folder / "config.yaml", checks=())
+    for name in Trainings(study).tuned():  # of which the workflow reads the head alone
+        path = folder / SEARCHED / f"{name}.csv"
+        path.parent.mkdir(exist_ok=True)
+        write_sample(path, Plan(study).sample(name), pd.DataFrame())
+    return folder
+
+
+@pytest.fixture(scope="module")
+def tree(project):
+    """The configuration; what an anchor shares is many leaves."""
+    tree = yaml.safe_load((project / "config.yaml").read_text(encoding="utf-8"))
+    return json.loads(json.dumps(tree))
+
+
+@pytest.fixture(scope="module")
+def workflow(project):
+    searched = [f"results/search/{name}_200.csv" for name in ("improved", "ritter")]
+    targets = ["all", "benchmark", "real", "ur3", *searched, "results/universes/design.csv"]
+    with mock.patch("workflow.dependencies.code", return_value=""):
+        return Workflow(project, targets)
+
+
+@pytest.fixture(scope="module")
+def depending(workflow, tree):
+    """By leaf, the rules whose jobs ask for something else when it changes."""
+    before = workflow.asks(studies_of(tree))
+    found = {}
+    for leaf, others in changed_leaves(tree):
+        for other in others:
+            try:
+                now = workflow.asks(studies_of(other))
+            except InvalidConfiguration:
+                continue
+            pairs = zip(before, now, strict=True)
+            found[leaf] = {was[0] for was, now_ in pairs if was != now_}
+            if found[leaf]:
+                break
+    return found
+
+
+@pytest.mark.parametrize(("searches", "anew"), [(12, False), (5, False), (13, True)])
+def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(
+    workflow, tree, searches, anew
+):
+    other = copy.deepcopy(tree)
+    other["search"]["searches"] = searches
+    shipped, own = f"{SEARCHED}/improved_200.csv", "results/search/improved_200.csv"
+    assert workflow.sample(studies_of(other), "improved_200") == (own if anew else shipped)
+
+
+def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
+    wrong = {}
+    for leaf, rules in depending.items():
+        texts = next(DEPENDS[pattern] for pattern in DEPENDS if fnmatch(leaf, pattern))
+        expected = {*texts.split()}
+        if expected and any(fnmatch(leaf, pattern) for pattern in REPORTED):
+            expected.add("report_pages")
+        found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules}
+        if found != expected:
+            wrong[leaf] = sorted(found ^ expected)
+    assert wrong == {}
+
+
+def test_every_leaf_makes_a_difference(depending):
+    without = [leaf for leaf, rules in depending.items() if not rules]
+    assert without == []
+    assert len(depending) > 200
+
+
+def test_a_script_sees_nothing_but_its_inputs_and_its_job():
+    for path in (ROOT / "workflow" / "scripts").glob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"snakemake\.(config|rule\b|workflow)", text) or path.name == "job.py"
+        assert set(re.findall(r"snakemake\.params\.(\w+)", text)) <= {"job"}, path
+        assert not re.search(r"config\.yaml|read_study|open\(", text), path

@@ -1,0 +1,111 @@
+"""Which studies a call has, and which of them may write what is committed."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from recalib.study import studies
+from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.studies import LOCK, NameTaken, NotShipped, read_studies, ship
+from tests.conftest import ROOT
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """The configuration of the project; its robots were asked before."""
+    for part in ("config.yaml", LOCK, "workflow/expected.csv"):
+        (tmp_path / part).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / part, tmp_path / part)
+    shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
+    monkeypatch.setattr(studies, "_check_robots_once", lambda project, study: [])
+    return tmp_path
+
+
+def test_the_shipped_study_is_that_of_the_lock_and_others_stand_beside_it(project):
+    main, found = read_studies(project, [], {})
+    assert main == "results"
+    assert [*found] == [
+        "results",
+        *(f"results/studies/{n}" for n in ("bent", "coarse", "panda", "quick", "ur3")),
+    ]
+
+
+def test_a_changed_study_is_refused_under_the_shipped_name_and_says_what_changed(project):
+    with pytest.raises(NotShipped, match="it differs in seed, robot, and the shipped one alone"):
+        read_studies(project, [], {"robot": "ur3", "seed": 5})
+    main, found = read_studies(project, [], {"robot": "ur3", "name": "mine"})
+    assert main == "results/studies/mine" and found[main].robot == "ur3"
+    assert found["results"].robot == "ur10", "the shipped one is still there"
+
+
+def test_where_copies_of_data_lie_is_no_change(project):
+    mine, others = str(project / "mine.csv"), str(project / "others.csv")
+    for path in (mine, others):
+        Path(path).touch()
+    places = {"real": {"data": {"fit": {"file": mine}, "test": {"file": others}}}}
+    main, found = read_studies(project, [], places)
+    assert main == "results" and found[main].real.data.fit.file == mine
+
+
+def test_another_study_can_be_shipped(project):
+    config = project / "config.yaml"
+    text = config.read_text(encoding="utf-8")
+    config.write_text(text.replace("\nseed: 1996", "\nseed: 5"), encoding="utf-8")
+    with pytest.raises(NotShipped):
+        read_studies(project, [], {})
+    before = json.loads((project / LOCK).read_text(encoding="utf-8"))
+    ship(project)
+    assert read_studies(project, [], {})[1]["results"].seed == 5
+    now = json.loads((project / LOCK).read_text(encoding="utf-8"))
+    assert [key for key in now if now[key] != before[key]] == ["seed"]
+
+
+def test_two_studies_of_one_name_are_refused(project):
+    with pytest.raises(NameTaken, match="two studies are called 'ur3'"):
+        read_studies(project, [], {"name": "ur3", "seed": 5})
+
+
+def mine(project, text: str, name: str = "mine.yaml"):
+    path = project / name
+    path.write_text(text, encoding="utf-8")
+    return read_studies(project, [path], {})
+
+
+def test_a_study_that_is_like_another_one_says_what_it_changes_and_has_a_name_of_its_own(project):
+    main, found = mine(project, "like: quick\nrobot: ur5\n", "my_arm.yaml")
+    quick = found["results/studies/quick"]
+    changes = {"name": "my_arm", "robot": "ur5", "expected": None}
+    assert main == "results/studies/my_arm" and found[main] == quick.model_copy(update=changes)
+    assert quick.expected == "workflow/studies/quick.csv"
+
+
+def test_a_study_may_be_like_one_that_is_like_another(project):
+    main, found = mine(project, "like: bent\nseed: 5\nname: other\n")
+    bent = found["results/studies/bent"]
+    assert main == "results/studies/other"
+    assert found[main] == bent.model_copy(update={"name": "other", "seed": 5})
+
+
+@pytest.mark.parametrize("like", ["bend", "[bent]", "null", "mine"])
+def test_a_study_that_is_like_none_there_is_is_refused_by_its_place(project, like):
+    with pytest.raises(InvalidConfiguration, match=r"mine.yaml:2:1: like is .*; valid: bent, co"):
+        mine(project, f"robot: ur5\nlike: {like}\n")
+
+
+def test_studies_that_are_like_each_other_are_refused(project):
+    others = project / "workflow" / "studies"
+    (others / "one.yaml").write_text("like: two\n", encoding="utf-8")
+    (others / "two.yaml").write_text("like: one\n", encoding="utf-8")
+    with pytest.raises(InvalidConfiguration, match=r"two.yaml:1:1: like is 'one'; valid: "):
+        read_studies(project, [], {})
+
+
+def test_the_command_line_has_numbers_and_null_inside_of_brackets(project):
+    changes = {"name": "mine", "training": {"tests": "10"}, "expected": "null"}
+    _, found = read_studies(project, [], changes)
+    mine = found["results/studies/mine"]
+    assert mine.training.tests == 10 and mine.expected is None
+    with pytest.raises(InvalidConfiguration, match="training.tests is 'many'"):
+        read_studies(project, [], {"name": "mine", "training": {"tests": "many"}})

@@ -1,0 +1,120 @@
+"""The site, seen in a real browser and judged by axe."""
+
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.wait import WebDriverWait
+
+from tests.browser import chromium, needs_chromium, requests, severe
+from tests.conftest import ROOT
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PATIENCE = 60  # seconds
+AXE = """const done = arguments[0];
+const rules = {"link-in-text-block": {enabled: true}};
+axe.run({runOnly: ["wcag2a", "wcag2aa"], rules}).then(found => done(found.violations.map(
+  each => each.id + ": " + each.nodes.map(node => node.html.slice(0, 200)).join("; "))));"""
+BROKEN = "return [...document.images].filter(image => !image.naturalWidth).map(image => image.src)"
+LINKS = "return [...document.links].map(link => link.href)"
+SCHEME = "return document.body.dataset.mdColorScheme"
+SCHEMES = {"light": "default", "dark": "slate"}
+BY_NIGHT = "index.html", "docs/reference.html", "docs/library.html"  # text, signatures, commands
+
+pytestmark = pytest.mark.xdist_group(name="site")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    """The site, built as `make docs` builds it: a broken link would stop it."""
+    folder = tmp_path_factory.mktemp("site")
+    built = subprocess.run(
+        [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", folder],
+        cwd=ROOT,
+        env={"PATH": "", "NO_MKDOCS_2_WARNING": "1"},
+        text=True,
+        capture_output=True,
+        check=False,
+    )
+    assert built.returncode == 0, built.stderr
+    return folder
+
+
+@dataclass
+class Visit:
+    """What a visitor met who opened every page, by day and by night."""
+
+    violations: dict[str, list[str]] = field(default_factory=dict)
+    broken: list[str] = field(default_factory=list)  # pictures
+    links: set[str] = field(default_factory=set)
+    console: list[str] = field(default_factory=list)
+    requests: set[str] = field(default_factory=set)
+    found: str = ""  # by a search
+
+
+@pytest.fixture(scope="module")
+def visit(site, tmp_path_factory) -> Visit:
+    seen, axe = Visit(), (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
+    with chromium(tmp_path_factory.mktemp("browser")) as browser:
+        browser.set_script_timeout(PATIENCE)
+        pages = sorted({*site.rglob("*.html")} - {site / "404.html"})  # that is for servers
+        for scheme, shown in {"light": pages, "dark": [site / page for page in BY_NIGHT]}.items():
+            if scheme == "dark":
+                browser.find_element(By.CSS_SELECTOR, "label[title='Dark']").click()
+            for page in shown:
+                browser.get(page.as_uri())
+                assert browser.execute_script(SCHEME) == SCHEMES[scheme]
+                name = f"{page.relative_to(site)}, {scheme}"
+                seen.broken += browser.execute_script(BROKEN)
+                seen.links |= set(browser.execute_script(LINKS))
+                browser.execute_script(axe)
+                seen.violations[name] = browser.execute_async_script(AXE)
+        seen.found = search(browser, "multiverse")
+        seen.console, seen.requests = severe(browser), requests(browser)
+    return seen
+
+
+def search(browser, word: str) -> str:
+    """What the site finds on the page that is open."""
+    browser.execute_script("document.querySelector('.md-search__input').focus()")
+    browser.find_element(By.CSS_SELECTOR, ".md-search__input").send_keys(word)
+    first = ".md-search-result__item"
+    WebDriverWait(browser, PATIENCE).until(
+        lambda _: browser.find_elements(By.CSS_SELECTOR, first), f"nothing found for {word}"
+    )
+    return browser.find_element(By.CSS_SELECTOR, first).get_attribute("textContent")
+
+
+def test_every_page_of_the_repository_is_on_the_site(site):
+    names = {path.relative_to(site).with_suffix("").as_posix() for path in site.rglob("*.html")}
+    pages = {path.relative_to(ROOT).with_suffix("").as_posix() for path in PAGES}
+    assert (pages - {"README"}) | {"index", "docs/reference"} <= names
+
+
+@needs_chromium
+def test_every_page_can_be_read_by_everybody(visit):
+    assert {page: found for page, found in visit.violations.items() if found} == {}
+
+
+@needs_chromium
+def test_no_picture_is_broken_and_no_link_leads_nowhere(visit):
+    assert visit.broken == []
+    inside = {urlsplit(link) for link in visit.links if link.startswith("file:")}
+    assert inside
+    assert [url.path for url in inside if not Path(unquote(url.path)).exists()] == []
+
+
+@needs_chromium
+def test_nothing_is_asked_of_the_network_and_the_console_is_silent(visit):
+    assert visit.console == []
+    assert {urlsplit(url).scheme for url in visit.requests} <= {"file", "data", "about"}
+
+
+@needs_chromium
+def test_the_search_works_without_a_server(visit):
+    assert "multiverse" in visit.found.lower()

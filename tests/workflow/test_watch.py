@@ -1,0 +1,89 @@
+"""Recordings and report in a window, or in a real browser that asks nothing of other machines."""
+
+import re
+import socket
+import threading
+from contextlib import contextmanager
+from urllib.parse import urlsplit
+
+import pytest
+from PIL import Image
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.wait import WebDriverWait
+
+from tests.browser import chromium, needs_chromium, requests
+from tests.workflow.conftest import TINY
+from workflow import watch
+
+PATIENCE = 120  # seconds: the viewer draws in software
+SOFTWARE = "--use-angle=swiftshader", "--enable-unsafe-swiftshader"  # WebGL without a graphics card
+SHADED = 2000  # colours of the right half where an arm is drawn: text and grids have some hundred
+
+
+@contextmanager
+def served(folder):
+    """The address of a folder of results in the background."""
+    with watch.site(folder) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield "http://{}:{}/".format(*server.server_address)
+        server.shutdown()
+        thread.join()
+
+
+def colours(browser, picture) -> int:
+    """How many colours the right half of the page has."""
+    browser.save_screenshot(picture)
+    with Image.open(picture) as image:
+        half = image.convert("RGB").crop((image.width // 2, 0, *image.size))
+        return len(half.getcolors(half.width * half.height))
+
+
+@needs_chromium
+@pytest.mark.xdist_group(name="workflow")
+def test_a_browser_draws_the_arm_and_asks_nothing_of_other_machines(continued, tmp_path):
+    picture = str(tmp_path / "page.png")
+    with served(continued / TINY) as address, chromium(tmp_path / "profile", *SOFTWARE) as browser:
+        browser.set_page_load_timeout(PATIENCE)
+        browser.get(address)
+        assert browser.find_element(By.TAG_NAME, "h1").text == "tiny"
+        empty = colours(browser, picture)
+        browser.find_element(By.LINK_TEXT, "links encoders").click()
+        WebDriverWait(browser, PATIENCE, 1).until(
+            lambda _: colours(browser, picture) > SHADED, "no arm is drawn"
+        )
+        assert empty < SHADED
+        hosts = {urlsplit(url).netloc for url in requests(browser)}
+        assert hosts <= {urlsplit(address).netloc, ""}
+
+
+def test_without_a_display_the_other_way_is_named(monkeypatch, tmp_path):
+    for variable in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setattr(watch.sys, "platform", "linux")
+    with pytest.raises(SystemExit, match=r"^no display for a window here; `make web` shows"):
+        watch.main(["view", str(tmp_path / "arm.rrd")])
+
+
+def test_where_nothing_was_recorded_it_says_what_makes_a_recording(tmp_path):
+    with pytest.raises(SystemExit, match=r"no recording in .*; `make quick` makes some"):
+        watch.main(["web", str(tmp_path)])
+
+
+def test_it_listens_here_alone_and_says_how_to_get_there(tmp_path, monkeypatch, capsys):
+    (tmp_path / "recordings").mkdir()
+    (tmp_path / "recordings" / "fall.rrd").touch()
+    monkeypatch.setattr(watch, "_copy_viewer", lambda folder: folder.mkdir())
+    monkeypatch.setattr(watch.ThreadingHTTPServer, "serve_forever", lambda server: None)
+    with socket.socket() as taken:
+        taken.bind((watch.HERE, 0))
+        port = taken.getsockname()[1]
+        taken.listen()
+        with pytest.raises(SystemExit, match=f"port {port} is taken; valid: another one"):
+            watch.main(["web", str(tmp_path), "--port", str(port)])
+    watch.main(["web", str(tmp_path), "--port", str(port)])
+    said = capsys.readouterr().out
+    assert f"http://127.0.0.1:{port}/" in said
+    assert re.search(rf"ssh -L {port}:127\.0\.0\.1:{port} \S+@\S+", said)
+    with watch.site(tmp_path) as server:
+        assert server.server_address[0] == "127.0.0.1"
