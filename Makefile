@@ -1,19 +1,32 @@
 # make: set up and replicate everything. make test: linters and tests. make help: what else there is.
 PYTHON ?= python3
 CORES ?= 2
-SCENARIO ?= links_encoders
+COUNT ?= 100
+PORT ?= 9090
 STUDY ?= replication
 RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
-SNAKEMAKE = .venv/bin/snakemake --cores $(CORES)
+STUDY_FILE = $(firstword $(wildcard $(STUDY).yaml workflow/studies/$(STUDY).yaml))
+SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STUDY_FILE))
+RECORDINGS = $(RESULTS)/recordings
+RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
+  $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help setup cluster test slurm check bench report pictures view tune design universes ship lock clean
+.PHONY: all help quick study setup size cluster test slurm faults verify mutants laboratory check bench report docs pictures view web notebook tune design universes ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
+
+quick: STUDY = quick
+quick: study ## the replication in small, in a minute: results/studies/quick
+
+study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
+	$(if $(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
+	$(SNAKEMAKE) --quiet rules reason host
+	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
 setup: .venv/installed ## the environment, from the lock file
 
@@ -22,6 +35,9 @@ setup: .venv/installed ## the environment, from the lock file
 	$(PIP) --require-hashes -r requirements.lock
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .
 	touch $@
+
+size: setup ## how large the environment is, and what for
+	.venv/bin/python -m workflow.size
 
 cluster: setup ## what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
 	$(PIP) --no-build-isolation --editable .[cluster]
@@ -34,6 +50,19 @@ test: setup ## the linters and all tests
 slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
+faults: setup ## what befalls a run: killed, two at once, damaged files, disk full; prints a table
+	.venv/bin/python -m tests.faults --cores $(CORES)
+
+verify: setup ## whether all results are as they were written; what is not is removed
+	.venv/bin/python -m workflow.digests results
+
+mutants: setup ## plant small errors that nobody chose, and say what no test notices: docs/mutants.md
+	$(PIP) --no-build-isolation --editable .[mutants]
+	.venv/bin/python -m tests.mutants --count $(COUNT)
+
+laboratory: setup ## what the identification of any arm has to show, in half an hour; RECORDED=FOLDER: on a real UR5, too
+	.venv/bin/python -m tests.identification.bars $(addprefix --recording ,$(RECORDED))
+
 check: setup ## the final errors against their bands, by themselves
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
@@ -41,14 +70,25 @@ bench: setup ## moves a second, and the ratio to a bare loop
 	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
 
 report: all ## everything in one file to look at, results/report.html
-	$(SNAKEMAKE) --report results/report.html -- all $(wildcard results/figures/arm_*.png)
+	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)
 
-pictures: setup ## the arm before and after; needs a Vulkan driver, such as mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun before_and_after -- pictures
+docs: setup ## these pages and a reference as a site, results/site/index.html
+	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
+
+pictures: setup ## the arm before and after, and a film; needs a Vulkan driver, such as mesa-vulkan-drivers
+	$(SNAKEMAKE) --forcerun before_and_after film -- pictures
 
 view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
-	$(SNAKEMAKE) $(RESULTS)/recordings/$(SCENARIO).rrd
-	.venv/bin/rerun --bind 127.0.0.1 $(RESULTS)/recordings/$(SCENARIO).rrd
+	$(SNAKEMAKE) --quiet all -- $(RECORDING)
+	.venv/bin/python -m workflow.watch view $(RECORDING)
+
+web: setup ## recordings and report in a browser, from a server as well; SCENARIO and STUDY as above
+	$(SNAKEMAKE) --quiet all -- $(RECORDING)
+	.venv/bin/python -m workflow.watch web $(RESULTS) --port $(PORT)
+
+notebook: setup ## damage an arm with sliders, in a browser; installs marimo, not pinned
+	$(PIP) --no-build-isolation --editable .[notebook]
+	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
 tune: setup ## repeat all searches for widths and rates, and ship what is found
 	$(SNAKEMAKE) tune
@@ -67,7 +107,7 @@ ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship
 
 lock: ## pin the dependencies of pyproject.toml anew (needs uv)
-	uv pip compile pyproject.toml --extra study --extra dev --universal --generate-hashes \
+	uv pip compile pyproject.toml --extra study --extra dev --extra docs --universal --generate-hashes \
 	  --no-emit-index-url --python-version 3.11 --custom-compile-command "make lock" \
 	  --output-file requirements.lock
 
