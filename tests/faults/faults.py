@@ -1,6 +1,7 @@
 """Every fault that is tried: what is done, and what then holds.
 
-Each takes a yard, returns how the project survived, and raises Broken where it did not.
+Each takes a yard, returns how the project survived, and raises Broken where it did not, or
+NotTried where this machine cannot show it.
 """
 
 import itertools
@@ -16,7 +17,7 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
 
-from tests.faults.yard import RESULTS, Project, Yard, expect, kill
+from tests.faults.yard import RESULTS, NotTried, Project, Yard, expect, kill
 
 Fault = Callable[[Yard], str]
 FAULTS: dict[str, Fault] = {}
@@ -49,8 +50,7 @@ def tried(name: str, short: bool = False) -> Callable[[Fault], Fault]:
 def killed(yard: Yard) -> str:
     project, luck = yard.bare(), random.Random(1996)
     for _ in range(CHAIN):
-        process = project.start()
-        project.until(process, project.scripts)
+        process = project.at_work()
         time.sleep(luck.uniform(0, 3))
         kill(process)
     project.run().well()
@@ -61,8 +61,7 @@ def killed(yard: Yard) -> str:
 @tried("kill -9 of one job")
 def job_killed(yard: Yard) -> str:
     project = yard.bare()
-    process = project.start()
-    project.until(process, project.scripts)
+    process = project.at_work()
     for script in project.scripts()[:1]:
         script.kill()
     project.ended(process).badly()
@@ -74,8 +73,7 @@ def job_killed(yard: Yard) -> str:
 @tried("interrupted (Ctrl-C)")
 def interrupted(yard: Yard) -> str:
     project = yard.bare()
-    process = project.start()
-    project.until(process, project.scripts)
+    process = project.at_work()
     os.killpg(process.pid, signal.SIGINT)
     ran = project.ended(process)
     # a job that still imports its modules cannot say it in our words
@@ -89,8 +87,7 @@ def interrupted(yard: Yard) -> str:
 @tried("two runs at once, the same study")
 def twice(yard: Yard) -> str:
     project = yard.bare()
-    first = project.start()
-    project.until(first, project.scripts)
+    first = project.at_work()
     waiting = project.run().told(f"another run is at work in {RESULTS}: wait until it has ended")
     expect(waiting.said.count("at work in") == 1, "one sentence")
     project.ended(first).well()
@@ -102,8 +99,7 @@ def twice(yard: Yard) -> str:
 def side_by_side(yard: Yard) -> str:
     project = yard.bare()
     other = "--config", "name=other", "seed=7"
-    second = project.start(*other)
-    project.until(second, project.scripts)
+    second = project.at_work(*other)
     first = project.start()
     time.sleep(1)
     kill(second)
@@ -205,10 +201,10 @@ def read_only(folder: Path):
         yield
         _permit(folder, writing=True)
         return
-    # permissions do not stop root
     for how in (["--bind", folder, folder], ["-o", "remount,ro,bind", folder]):
         mounted = subprocess.run(["mount", *how], capture_output=True, check=False)
-        expect(mounted.returncode == 0, "root may mount something read-only, to try it")
+        if mounted.returncode:
+            raise NotTried("nothing may be mounted here, and permissions do not stop root")
     try:
         yield
     finally:
@@ -274,7 +270,8 @@ def odd_path(yard: Yard) -> str:
 
 @tried("the clock goes back by a day in the middle, then right again")
 def clock(yard: Yard) -> str:
-    expect(shutil.which("faketime"), "faketime is installed")
+    if not shutil.which("faketime"):
+        raise NotTried("faketime is not installed")
     project = yard.bare()
     project.run("--until", "train").well()
     project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")

@@ -36,6 +36,10 @@ class Broken(Exception):
         super().__init__(what)
 
 
+class NotTried(Exception):
+    """This machine lacks what the fault needs."""
+
+
 def expect(holds: object, what: str, said: str = "") -> None:
     """Raise Broken, with what was expected, unless it holds."""
     if not holds:
@@ -94,6 +98,15 @@ class Project:
             },
         )
 
+    def at_work(self, *arguments: str) -> subprocess.Popen:
+        """Begin a run, and wait until its first jobs are at work."""
+        process = self.start(*arguments)
+        deadline = time.monotonic() + PATIENCE
+        while process.poll() is None and not self.scripts():
+            expect(time.monotonic() < deadline, f"goes on within {PATIENCE} s")
+            time.sleep(0.05)
+        return process
+
     def run(self, *arguments: str, environment: Mapping[str, str | None] = (), **options) -> Ran:
         """Run to the end; None takes a variable out of the environment."""
         changed = os.environ | dict(environment)
@@ -105,13 +118,6 @@ class Project:
         """How a run ends that was begun."""
         said, _ = process.communicate(timeout=PATIENCE)
         return Ran(process.returncode, said)
-
-    def until(self, process: subprocess.Popen, holds) -> None:
-        """Wait until something holds, or the run has ended."""
-        deadline = time.monotonic() + PATIENCE
-        while process.poll() is None and not holds():
-            expect(time.monotonic() < deadline, f"goes on within {PATIENCE} s")
-            time.sleep(0.05)
 
     def scripts(self) -> list[psutil.Process]:
         """The jobs at work here."""
