@@ -12,13 +12,12 @@ from scipy.spatial import KDTree
 
 from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
-from recalib.identification.linearised import displacements
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
+from recalib.nominal.newton import solve_groups
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
-LONGEST_STEP = 0.3  # rad, m: keeps Newton's method on the branch that it starts on
 STARTS = 6  # learned postures to start from, where no posture is given
 LEVER = 0.5  # m: what a turn of one rad counts as, to tell which posture is near
 MARGIN = 0.05  # beyond the range learned from, as a part of it
@@ -133,21 +132,14 @@ def _solve(
 def _newton(
     calibration: Calibration, goals: np.ndarray, start: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Steps of least norm: what the goals leave free stays near the start."""
-    joints, best, left = start.copy(), start.copy(), np.full(len(goals), np.inf)
-    for _ in range(STEPS):
-        poses, jacobians = calibration.forward_and_jacobian(joints)
-        misses = displacements(poses, goals)
-        remaining = np.abs(misses).max(axis=1)
-        better = remaining < left
-        best[better], left[better] = joints[better], remaining[better]
-        if (left <= TOLERANCE).all():
-            break
-        inverse = np.linalg.pinv(jacobians[:, : misses.shape[1]], rcond=1e-6)
-        steps = (inverse @ misses[..., None])[..., 0]
-        longest = np.abs(steps).max(axis=1, keepdims=True)
-        joints = joints + steps * (LONGEST_STEP / np.maximum(longest, LONGEST_STEP))
-    return best, left
+    """Steps of least norm, for each goal by itself: what it leaves free stays near the start."""
+
+    def look(_, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        poses, jacobians = calibration.forward_and_jacobian(joints[:, 0])
+        return poses[:, None], jacobians[:, None]
+
+    found, left = solve_groups(look, goals[:, None], start[:, None], TOLERANCE, STEPS)
+    return found[:, 0], left[:, 0]
 
 
 def _refuse(

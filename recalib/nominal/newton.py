@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from recalib.nominal.chain import LONGEST_STEP, SINGULAR
 
@@ -15,21 +16,22 @@ Look = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def solve_groups(
-    look: Look, poses: np.ndarray, start: np.ndarray, tolerance: float, steps: int
+    look: Look, goals: np.ndarray, start: np.ndarray, tolerance: float, steps: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Joint angles (group, n, joint) [rad] that take tools to poses, and what is left (group, n).
+    """Joint angles (group, n, joint) [rad] that take tools to goals, and what is left (group, n).
 
-    With more than six joints, each step is the shortest; with fewer, the one that leaves least. A
-    group is solved when all of its poses are; where one is not, its best angles are kept.
+    With more joints than a goal has numbers, each step is the shortest; with fewer, the one that
+    leaves least. A group is solved when all of its goals are; where one is not, its best angles are
+    kept.
 
     Args:
-        poses: (group, n, 4, 4) m.
+        goals: poses (group, n, 4, 4) or positions (group, n, 3) m.
         start: (group, n, joint) rad nearby.
         tolerance: of the residuals, in m and rad.
         steps: at most so many.
     """
     found, left = start.copy(), np.full(start.shape[:2], np.inf)
-    unsolved, goals, angles, best, least = np.arange(len(poses)), poses, start, found, left
+    unsolved, angles, best, least = np.arange(len(goals)), start, found, left
     for _ in range(steps):
         reached, jacobians = look(unsolved, angles)
         missing = _missing(reached, goals)
@@ -48,7 +50,7 @@ def solve_groups(
             unsolved, goals, angles, best, least, jacobians, missing = (
                 each[goes_on] for each in (unsolved, goals, angles, best, least, jacobians, missing)
             )
-        turns = _solve_each(jacobians, missing)
+        turns = _solve_each(jacobians[..., : missing.shape[-1], :], missing)
         longest = np.abs(turns).max(axis=-1, keepdims=True)
         turns *= LONGEST_STEP / np.maximum(LONGEST_STEP, longest)
         angles = angles + turns
@@ -57,15 +59,21 @@ def solve_groups(
 
 
 def _missing(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """What takes the poses `start` (..., 3 or 4, 4) to `end`, (..., 6), along the base's axes.
+    """What takes the poses `start` (..., 3 or 4, 4) to `end`, along the base's axes.
 
-    The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
-    angle itself where Newton's method ends.
+    The translation (..., 3) [m] and, unless `end` are positions (..., 3), the turn (..., 6) [rad]
+    as its axis times the sine of its angle, which is the angle itself where Newton's method ends.
+    Beyond a right angle it is the angle, lest half a turn be taken for none.
     """
+    if end.ndim < start.ndim:
+        return end - start[..., :3, 3]
     between = end[..., :3, :3] @ start[..., :3, :3].swapaxes(-2, -1)
     missing = np.empty((*between.shape[:-2], 6))
     missing[..., :3] = end[..., :3, 3] - start[..., :3, 3]
     missing[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
+    far = np.trace(between, axis1=-2, axis2=-1) < 1
+    if far.any():
+        missing[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
     return missing
 
 

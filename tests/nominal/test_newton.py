@@ -18,11 +18,11 @@ def by_chain(arm, poses, start):
     return Chain.of(arm).solve(poses, start)
 
 
-def in_groups(arm, poses, start):
+def in_groups(arm, goals, start, steps=15):
     def look(_, angles):
         return [each[None] for each in arm.forward_and_jacobian(angles[0])]
 
-    found, left = solve_groups(look, poses[None], start[None], TOLERANCE, steps=15)
+    found, left = solve_groups(look, goals[None], start[None], TOLERANCE, steps)
     return found[0], left[0]
 
 
@@ -71,3 +71,26 @@ def test_of_a_pose_that_nothing_reaches_the_best_angles_are_kept(robot):
     assert TOLERANCE < residuals[0] <= 3.0
     missed = pose[0, :3, 3] - robot.arm.forward(angles)[0, :3, 3]
     assert np.abs(missed).max() <= residuals[0] + 1e-12
+
+
+def test_positions_alone_are_reached_by_the_shortest_steps():
+    tool, posture = ARMS["ur10_robot.urdf"]
+    arm, start = load_arm("ur10_robot.urdf", tool), np.array([posture])
+    pose, jacobian = arm.forward_and_jacobian(start)
+    goal = pose[:, :3, 3] + 1e-5
+    angles, left = in_groups(arm, goal, start)
+    assert left <= TOLERANCE
+    assert np.abs(arm.forward(angles)[:, :3, 3] - goal).max() <= TOLERANCE
+    shortest = np.linalg.pinv(jacobian[0, :3]) @ np.full(3, 1e-5)
+    np.testing.assert_allclose((angles - start)[0], shortest, rtol=1e-3, atol=1e-9)
+
+
+def test_half_a_turn_is_not_taken_for_none():
+    tool, posture = ARMS["ur10_robot.urdf"]
+    arm, start = load_arm("ur10_robot.urdf", tool), np.array([posture])
+    goal = arm.forward(start + np.pi * np.eye(6)[[5]])  # with the hand turned over
+    angles, left = in_groups(arm, goal, start, steps=1)
+    assert left[0] > 2
+    angles, left = in_groups(arm, goal, start)
+    assert left <= TOLERANCE
+    np.testing.assert_allclose(arm.forward(angles), goal, rtol=0, atol=1e-10)
