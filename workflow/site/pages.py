@@ -38,5 +38,5 @@ def on_files(files: Files, config) -> Files:
 
 def reference() -> str:
     """The page of the public names, each documented where it is at home."""
-    homes = (f"{recalib._HOMES[name]}.{name}" for name in recalib.__all__)
+    homes = (f"{getattr(recalib, name).__module__}.{name}" for name in recalib.__all__)
     return REFERENCE + "\n".join(f"::: {home}\n" for home in homes)
