@@ -45,14 +45,18 @@ def test_hyperparameters_are_sought_when_the_points_have_doubled_up_to_where_the
 
 
 def test_the_unit_and_the_origin_of_outputs_and_the_origin_of_inputs_do_not_matter():
-    process = Process(INPUTS, SMOOTH)
-    shift = np.array([3, -1, 2])
-    other = Process(INPUTS + shift, 1e-3 * SMOOTH - 5)
-    np.testing.assert_allclose(other.hyperparameters, process.hyperparameters, atol=1e-2)
-    assert other.gain == pytest.approx(process.gain, abs=1e-2)
-    asked = INPUTS[:5] + 0.1
-    expected = 1e-3 * process.predict(asked) - 5
-    np.testing.assert_allclose(other.predict(asked + shift), expected, rtol=0, atol=1e-6)
+    shift, asked = np.array([3, -1, 2]), INPUTS[:5] + 0.1
+
+    def differences(hyperparameters):
+        process = Process(INPUTS, SMOOTH, hyperparameters)
+        other = Process(INPUTS + shift, 1e-3 * SMOOTH - 5, hyperparameters)
+        predicted = (other.predict(asked + shift) + 5) / 1e-3
+        return other.gain - process.gain, np.abs(predicted - process.predict(asked)).max()
+
+    assert np.allclose(differences(np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])), 0, atol=1e-9)
+    # a search ends where the likelihood is flat: rounding moves its place, hardly what it is worth
+    gain, predicted = differences(None)
+    assert abs(gain) < 1e-2 and predicted < 1e-4
 
 
 def test_known_hyperparameters_are_used_as_they_are():
