@@ -1,4 +1,6 @@
-"""Which pose to measure next: the one that would teach the most (D-optimal design)."""
+"""Which postures to measure next: those that would teach the most (D-optimal design)."""
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -13,11 +15,45 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
 
     Args:
         calibration: what is known.
-        joints: (n, joints) rad, m, each for one pose.
+        joints: (n, joints) rad, m, each for one measurement of the first target.
     """
+    return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
+
+
+def most_telling(
+    calibration: Calibration, joints: np.ndarray, count: int
+) -> Iterator[tuple[int, np.ndarray]]:
+    """The postures of the largest gains, each given those before it.
+
+    Args:
+        calibration, joints: as above.
+        count: how many, if there are so many; none twice.
+
+    Yields each one's number, and the covariance (P, P) of the parameters once it is measured.
+    """
+    rows, covariance = _rows(calibration, joints), calibration.estimate.covariance
+    left = np.ones(len(rows), dtype=bool)
+    for _ in range(min(count, len(rows))):
+        spreads = _spreads(rows, covariance)
+        best = int(np.where(left, _gains(spreads), -np.inf).argmax())
+        left[best] = False
+        told = rows[best] @ covariance
+        covariance = covariance - told.T @ np.linalg.solve(spreads[best], told)  # Woodbury
+        yield best, covariance
+
+
+def _rows(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
+    """Jacobians (n, 3 or 6, P) of what is measured, over its noise."""
     model, estimate = calibration.model, calibration.estimate
-    kinds = len(estimate.noise)
+    noise = np.repeat(estimate.noise, 3)
     _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
-    scaled = jacobians[:, : 3 * kinds] / np.repeat(estimate.noise, 3)[:, None]
-    spread = scaled @ estimate.covariance @ scaled.swapaxes(1, 2)
-    return np.linalg.slogdet(np.eye(3 * kinds) + spread).logabsdet / 2
+    return jacobians[:, : len(noise)] / noise[:, None]
+
+
+def _spreads(rows: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+    """Covariances (n, 3 or 6, 3 or 6) of what would be measured, over those of its noise."""
+    return np.eye(rows.shape[1]) + rows @ covariance @ rows.swapaxes(1, 2)
+
+
+def _gains(spreads: np.ndarray) -> np.ndarray:
+    return np.linalg.slogdet(spreads).logabsdet / 2

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration
+from recalib.identification.design import most_telling
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
@@ -49,35 +49,20 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
     """
     postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
     calibration = correction.calibration
-    noise = calibration.estimate.noise
-    seen = 3 * len(noise)
-    rows = _jacobians(calibration, postures)[:, :seen] / np.repeat(noise, 3)[:, None]
-    probes = _jacobians(calibration, _drawn(correction)[:PROBES])[:, :3]
-    covariance = calibration.estimate.covariance.copy()
-    chosen, uncertainty = [], [_uncertainty(probes, covariance)]
-    for _ in range(min(count, len(postures))):
-        spread = np.eye(seen) + rows @ covariance @ rows.swapaxes(1, 2)
-        gains = np.linalg.slogdet(spread).logabsdet
-        gains[chosen] = -np.inf
-        best = int(gains.argmax())
+    model, estimate = calibration.model, calibration.estimate
+    probes = _drawn(correction)[:PROBES]
+    _, jacobians = model.linearise(estimate.parameters, probes, model.terms(probes))
+    chosen, uncertainty = [], [_uncertainty(jacobians, estimate.covariance)]
+    for best, covariance in most_telling(calibration, postures, count):
         chosen.append(best)
-        # what a measurement there leaves of the uncertainty (Woodbury)
-        told = rows[best] @ covariance
-        covariance -= told.T @ np.linalg.solve(spread[best], told)
-        uncertainty.append(_uncertainty(probes, covariance))
+        uncertainty.append(_uncertainty(jacobians, covariance))
     return Proposal(postures[chosen], np.array(uncertainty))
 
 
-def _jacobians(calibration: Calibration, postures: np.ndarray) -> np.ndarray:
-    """(n, 6, P) of the first target by the parameters."""
-    model = calibration.model
-    _, jacobians = model.linearise(calibration.estimate.parameters, postures, model.terms(postures))
-    return jacobians
-
-
-def _uncertainty(probes: np.ndarray, covariance: np.ndarray) -> float:
-    variances = np.einsum("nip,pq,niq->n", probes, covariance, probes)
-    return float(np.sqrt(variances).mean())
+def _uncertainty(jacobians: np.ndarray, covariance: np.ndarray) -> float:
+    """The mean deviation [m] of positions whose Jacobians (n, 6, P) by the parameters are given."""
+    rows = jacobians[:, :3]
+    return float(np.sqrt(np.sum((rows @ covariance) * rows, axis=(1, 2))).mean())
 
 
 def _drawn(correction: Correction) -> np.ndarray:

@@ -1,19 +1,43 @@
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.design import information_gains
+from recalib.identification.design import information_gains, most_telling
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
 
 
-def test_a_pose_that_was_measured_teaches_less_than_a_new_one(robot, controller, damaged):
+@pytest.fixture
+def angles(robot, controller):
     workspace = robot.workspace
-    angles = controller.inverse(workspace.to_poses(workspace.sample(np.random.default_rng(1), 9)))
+    poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 9))
+    return controller.inverse(poses)
+
+
+@pytest.fixture
+def calibration(robot, damaged, angles):
     model = ErrorModel(robot.arm, OFFSETS)
-    calibration = Calibration(
-        model, identify(model, Observations(angles[:3], damaged.forward(angles[:3])))
-    )
+    seen = Observations(angles[:3], damaged.forward(angles[:3]))
+    return Calibration(model, identify(model, seen))
+
+
+def test_a_pose_that_was_measured_teaches_less_than_a_new_one(calibration, angles):
     gains = information_gains(calibration, angles)
     assert gains[:3].max() < gains[3:].min()
     assert np.all(gains > 0)
+
+
+def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):
+    left, known = {*range(len(angles))}, calibration
+    for number, covariance in most_telling(calibration, angles, 20):
+        gains = information_gains(known, angles)
+        assert number == max(left, key=gains.__getitem__)
+        left.remove(number)
+        before = np.linalg.slogdet(known.estimate.covariance).logabsdet
+        shrunk = (before - np.linalg.slogdet(covariance).logabsdet) / 2
+        assert shrunk == pytest.approx(gains[number], rel=1e-6)
+        known = replace(calibration, estimate=replace(known.estimate, covariance=covariance))
+    assert not left
