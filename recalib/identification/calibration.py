@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
-from recalib.identification.estimation import LEAST_NOISE, Estimate, identify
+from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
 from recalib.identification.frames import Frames
 from recalib.identification.linearised import displacements
 from recalib.identification.observations import Observations
@@ -24,7 +24,6 @@ FEWEST = 16  # measurements to see a pattern in what a model leaves
 MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
 # A gain in log evidence, over the root of the number of further parameters, that is no chance.
 CONVINCING = 2.5
-DOUBTFUL = 0.3  # the weight of a measurement below which no pattern is learned from it
 
 
 @dataclass(frozen=True)

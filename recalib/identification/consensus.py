@@ -9,17 +9,16 @@ noise in most of the rows is right, if these are more than a model could fit by 
 import numpy as np
 
 from recalib.identification.error_model import ErrorModel
-from recalib.identification.estimation import Estimate, identify
-from recalib.identification.linearised import Linearised
+from recalib.identification.estimation import DOUBTFUL, Estimate, identify
+from recalib.identification.linearised import LEVER, Linearised
 from recalib.identification.observations import Observations
 from recalib.randomness import generator
 
 SUSPICIOUS = 1e-3  # m along an axis: few instruments are so bad
 SETS, BEST = 100, 3  # small sets of rows, and how many of them are gone on from
 FEW = {1: 10, 2: 6}  # rows of a small set, of positions and of poses
-LEVER = 0.5  # m: what a turn of one rad counts as
 GROSS = 3.0  # times the median of what is missed: such a row is left out at the start
-COUNTED, MOST = 0.3, 0.6  # the weight of a row that counts, and the part of rows that has to
+MOST = 0.6  # the part of rows that must not be doubted
 AMPLE = 1.5  # times the numbers that can be fitted by chance
 CLEARLY = 0.3  # of the noise that was found before
 
@@ -43,7 +42,7 @@ def identify_by_consensus(model: ErrorModel, seen: Observations) -> Estimate:
         starts.append((np.median(missed), number, start, missed))
     for median, _, start, missed in sorted(starts, key=lambda one: one[:2])[:BEST]:
         other = identify(model, seen, start, (missed < GROSS * median).astype(float))
-        counted = np.sum(other.weights > COUNTED)
+        counted = np.sum(other.weights > DOUBTFUL)
         enough = counted > MOST * len(seen) and 3 * seen.kinds * counted > _by_chance(model)
         if enough and other.noise[0] < CLEARLY * found.noise[0]:
             found = other

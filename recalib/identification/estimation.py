@@ -1,8 +1,7 @@
 """Identification of an arm from where it went: the most probable parameters of an error model.
 
-With r_i the
-residual of measurement i over its noise, and p_j a parameter over its prior deviation, Gauss-Newton
-minimises
+With r_i the residual of measurement i over its noise, and p_j a parameter over its prior deviation,
+Gauss-Newton minimises
 
     sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j)
 
@@ -27,7 +26,8 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.linearised import Linearised
 from recalib.identification.observations import Observations
 
-DOUBTED = 0.99  # the limit of rho: what lies farther out than this part of good measurements
+GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
+DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority
 # Degrees of freedom of the belief in the prior deviations: the fewer, the more the data decide.
 SPARSITY = 0.05
 # The common scale of all parameters is held by this many more, as large as the model expects.
@@ -36,9 +36,7 @@ COMMON = 20.0
 SHARED = 10.0
 MEDIAN = chi2.ppf(0.5, 3)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
-LEAST_NOISE = (
-    1e-6  # m, rad: finer than any instrument; without it, exact data make singular equations
-)
+LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; exact data would make singular equations
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
 STEPS = 60
 # A new linearisation is due where one parameter alone moves the tool so far that its square exceeds
@@ -90,9 +88,9 @@ def identify(
     parameters, variances = _initial(model, start)
     noise = np.full(kinds, FIRST_NOISE)
     weights = np.ones(len(seen)) if weights is None else weights
-    limit = chi2.ppf(DOUBTED, 3 * kinds)
+    limit = chi2.ppf(GOOD, 3 * kinds)
     terms = model.terms(seen.joints)
-    near = None
+    sparse, near = ~model.free, None
     for step in range(STEPS):
         if near is None or not near.is_good_at(parameters, NEGLIGIBLE * noise.min()):
             near = None  # of two there is no room for
@@ -115,7 +113,6 @@ def identify(
             noise,
             _noise(near.residuals, weights, taken, robust=step < ROBUST_STEPS),
         )
-        sparse = ~model.free
         common = (COMMON + sparse.sum()) / (COMMON + np.sum(1 / variances[sparse]))
         variances = _variances(model, parameters, np.diag(covariance), common)
         settled = np.sqrt(change @ precision @ change) < CONVERGED and np.allclose(

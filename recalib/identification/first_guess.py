@@ -23,8 +23,8 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.frames import HELD, UNKNOWN, Frames
-from recalib.identification.linearised import Linearised, displacements
+from recalib.identification.frames import HELD, UNKNOWN, Frames, nearest_rotation
+from recalib.identification.linearised import LEVER, Linearised, displacements
 from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
 from recalib.randomness import generator
@@ -34,7 +34,6 @@ MOST = 200  # rows to guess from: more tell little more
 REFINED = 6  # so many of the best guesses are refined
 OPEN = 1e-2  # a singular value so small, over the largest, leaves a direction open
 ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
-LEVER = 0.5  # m: what a turn of one rad counts as
 FARTHEST = 0.15  # m: an arm that misses by more, in the median, is not the one that is described
 THIN = 5e-3  # m: the standard deviation across a line of points that are on it
 # The second singular value over the first: where the tool turns about one axis alone they are equal
@@ -142,7 +141,7 @@ def _turns_by_poses(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
     if values[1] >= UNDECIDED * values[0]:
         return []
     turn = left[:, 0].reshape(3, 3)
-    return [_nearest_rotation(turn * np.sign(np.linalg.det(turn)))]
+    return [nearest_rotation(turn * np.sign(np.linalg.det(turn)))]
 
 
 def _turns_by_positions(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
@@ -155,18 +154,12 @@ def _turns_by_positions(tool: np.ndarray, seen: Observations) -> list[np.ndarray
     unit = np.tile(np.eye(3), (count, 1, 1))
     system = np.concatenate([matrix, unit, _by_number(-turns, seen.targets)], axis=-1)
     back = _least_squares(system, points)[:9].reshape(3, 3)
-    return [_nearest_rotation(aligned), _nearest_rotation(back).T]
+    return [nearest_rotation(aligned), nearest_rotation(back).T]
 
 
 def _positions(seen: Observations) -> np.ndarray:
     """What was measured (n, 3) [m], without orientations."""
     return seen.measured if seen.kinds == 1 else seen.measured[:, :3, 3]
-
-
-def _nearest_rotation(matrix: np.ndarray) -> np.ndarray:
-    """The rotation R (3, 3) of the largest trace of R' M; by a matrix's scale nothing changes."""
-    left, _, right = np.linalg.svd(matrix)
-    return left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right
 
 
 def _targets_turned(turn: np.ndarray, tool: np.ndarray, seen: Observations) -> np.ndarray:

@@ -36,3 +36,9 @@ class Frames:
     base_deviations: tuple[float, float] = BASE
     target_deviations: tuple[float, float] = LINK
     unknown: bool = False
+
+
+def nearest_rotation(matrix: np.ndarray) -> np.ndarray:
+    """The rotation R (3, 3) of the largest trace of R' M; by a matrix's scale nothing changes."""
+    left, _, right = np.linalg.svd(matrix)
+    return left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right

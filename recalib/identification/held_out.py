@@ -11,12 +11,12 @@ import numpy as np
 from sklearn.cluster import KMeans
 
 from recalib.identification.calibration import Calibration
+from recalib.identification.linearised import LEVER
 from recalib.identification.observations import Observations
 from recalib.randomness import generator
 
 FOLDS = 5
 COVERED = 0.95  # of what is measured should lie within the intervals
-LEVER = 0.5  # m: what a turn of one rad counts as, where losses are compared
 
 # From observations and how much each counts (n,) in the first step to a calibration.
 Fit = Callable[[Observations, np.ndarray], Calibration]

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.observations import Observations
 
+LEVER = 0.5  # m: what a turn of one rad counts as, where both are one number
 BLOCK = 1000  # rows at once: more would take memory, and no less time
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.identification.calibration import Calibration
+from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Distance, Observations
@@ -19,8 +20,6 @@ from recalib.laboratory.measurements import Measurements, read_measurements
 from recalib.laboratory.sanity import Fit, check_nominal
 from recalib.nominal.arms import find_urdf, load_arm
 from recalib.nominal.kinematics import Arm
-
-DOUBTED = 0.3  # the weight of a row below which it is doubted
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ class Calibrated:
     @property
     def doubted(self) -> np.ndarray:
         """Numbers (from 1) of the rows that did not fit to the others and hardly counted."""
-        unlikely = self.geometry.estimate.weights < DOUBTED
+        unlikely = self.geometry.estimate.weights < DOUBTFUL
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
     def missed(self, kind: str) -> np.ndarray:

@@ -12,6 +12,7 @@ from scipy.spatial import KDTree
 
 from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
+from recalib.identification.linearised import LEVER
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
 from recalib.nominal.newton import solve_groups
@@ -19,7 +20,6 @@ from recalib.nominal.newton import solve_groups
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
 STARTS = 6  # learned postures to start from, where no posture is given
-LEVER = 0.5  # m: what a turn of one rad counts as, to tell which posture is near
 MARGIN = 0.05  # beyond the range learned from, as a part of it
 
 

@@ -14,6 +14,7 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
+from recalib.identification.frames import nearest_rotation
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
@@ -196,8 +197,7 @@ def _relaxed(poses: np.ndarray, nominal: np.ndarray) -> tuple[np.ndarray, float]
     system = np.concatenate([matrix, -poses[:, :3, :3], unit], axis=2).reshape(3 * count, 15)
     goal = poses[:, :3, 3].ravel()
     found, *_ = np.linalg.lstsq(system, goal)
-    left, _, right = np.linalg.svd(found[:9].reshape(3, 3).T)
-    turn = left @ np.diag([1.0, 1.0, np.linalg.det(left @ right)]) @ right
+    turn = nearest_rotation(found[:9].reshape(3, 3).T)
     return turn, float(np.sqrt(np.mean((system @ found - goal) ** 2)))
 
 

@@ -18,6 +18,7 @@ from recalib.errors import RecalibError
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.first_guess import guess_frames
+from recalib.identification.frames import nearest_rotation
 from recalib.identification.linearised import Linearised
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.validation import BLOCKWISE, RANDOM, validate
@@ -109,9 +110,8 @@ def sockets(draws: int) -> str:
 def aligned(points: np.ndarray, goals: np.ndarray) -> float:
     """The mean distance between points and goals (n, 3) after the best rigid motion."""
     points, goals = points - points.mean(axis=0), goals - goals.mean(axis=0)
-    left, _, right = np.linalg.svd(goals.T @ points)
-    turn = left @ np.diag([1, 1, np.linalg.det(left @ right)]) @ right
-    return float(np.linalg.norm(goals - points @ turn.T, axis=1).mean())
+    turned = points @ nearest_rotation(goals.T @ points).T
+    return float(np.linalg.norm(goals - turned, axis=1).mean())
 
 
 def recorded(folder: Path, count: int, subsets: int) -> str:
