@@ -79,15 +79,16 @@ def depends(claim: Mapping) -> str:
     texts = []
     for system, share in zip(claim["systems"] or [""], shares, strict=True):
         its = share["depends_on"]
-        low, high = its["interval"]
-        text = (
-            f"{its['factor'].replace('_', ' ')}, {its['times']:.2g} times ({low:.2g} to {high:.2g})"
-            f" as large for {its['to']} as for {its['from']}"
-        )
         if its["times"] == 1:
             text = "none, it is the same in all"
         elif its["times"] <= its["chance"]:
-            text = f"no choice more than chance would show (first: {text})"
+            text = "no choice, by more than chance would show"
+        else:
+            low, high = its["interval"]
+            text = (
+                f"{its['factor'].replace('_', ' ')}, {its['times']:.3g} times"
+                f" ({low:.3g} to {high:.3g}) as large for {its['to']} as for {its['from']}"
+            )
         texts.append(f"{system}: {text}" if system else text)
     return "; ".join(texts)
 
