@@ -8,10 +8,12 @@ from snakemake.exceptions import WorkflowError
 from snakemake.persistence import PersistenceBase
 
 ROOT = Path(workflow.basedir)
-# The project's own modules, also where another copy of it is installed; and one core for each job:
-# without this, the linear algebra of every job starts a thread for each core of the machine.
+# The project's own modules, also where another copy of it is installed, and how a job starts; and
+# one core for each: without this, the linear algebra of every job starts a thread for each core of
+# the machine.
 sys.path.insert(0, str(ROOT))
-os.environ.update(PYTHONPATH=str(ROOT), OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(ROOT / "workflow" / "start")])
+os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
 
 # Snakemake asks of every parameter whether it is a table, and brings pandas for that, which takes
 # longer than all else here. Ours are text.
