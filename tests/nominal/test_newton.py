@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.chain import TOLERANCE, Chain, _eliminate
 from recalib.nominal.newton import solve_groups
 
 # Tools, and postures away from where these arms are singular.
@@ -94,3 +94,21 @@ def test_half_a_turn_is_not_taken_for_none():
     angles, left = in_groups(arm, goal, start)
     assert left <= TOLERANCE
     np.testing.assert_allclose(arm.forward(angles), goal, rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("turned", range(6))
+def test_equations_are_solved_in_whatever_order_they_come(turned):
+    """No equation may be divided by a zero that it begins with."""
+    order, wanted = np.roll(np.arange(6), turned), np.arange(1.0, 7)
+    vector = wanted[order]
+    assert _eliminate(np.eye(6)[order], vector)
+    assert np.array_equal(vector, wanted)
+
+
+def test_what_is_eliminated_is_what_numpy_solves():
+    matrices = np.random.default_rng(1).normal(size=(20, 6, 6))
+    for matrix, wanted in zip(matrices, np.linalg.inv(matrices).sum(axis=2), strict=True):
+        vector = np.ones(6)
+        assert _eliminate(matrix.copy(), vector)
+        np.testing.assert_allclose(vector, wanted, rtol=1e-9)
+    assert not _eliminate(np.ones((6, 6)), np.arange(6.0)), "no numbers solve these"
