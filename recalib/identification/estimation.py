@@ -90,7 +90,7 @@ def identify(
     weights = np.ones(len(seen)) if weights is None else weights
     limit = chi2.ppf(GOOD, 3 * kinds)
     terms = model.terms(seen.joints)
-    sparse, near = ~model.free, None
+    sparse, diagonal, near = ~model.free, np.diag_indices(len(scale)), None
     for step in range(STEPS):
         if near is None or not near.is_good_at(parameters, NEGLIGIBLE * noise.min()):
             near = None  # of two there is no room for
@@ -100,8 +100,9 @@ def identify(
         # The most probable parameters, given noise, weights and variances ...
         information, pull = near.normal_equations(weights)
         known, stretch = _distances(model, parameters, seen)
-        precision = np.diag(1 / variances) + np.einsum("k,kpq->pq", noise**-2, information) + known
-        factor = scipy.linalg.cho_factor(precision)
+        precision = np.einsum("k,kpq->pq", noise**-2, information) + known
+        precision[diagonal] += 1 / variances
+        factor = scipy.linalg.cholesky(precision), False
         pull = noise**-2 @ pull + stretch
         change = scipy.linalg.cho_solve(factor, pull - parameters / variances)
         covariance = _inverse(factor)
@@ -175,9 +176,11 @@ def _distances(
 
 
 def _inverse(factor: tuple[np.ndarray, bool]) -> np.ndarray:
-    """The inverse (P, P) of a matrix of which `cho_factor` returned the factor."""
-    inverse, _ = scipy.linalg.lapack.dpotri(*factor)
-    return np.triu(inverse) + np.triu(inverse, 1).T
+    """The inverse (P, P) of a matrix of which `cholesky` returned the upper factor."""
+    upper, _ = scipy.linalg.lapack.dpotri(*factor)
+    inverse = upper + upper.T
+    np.fill_diagonal(inverse, np.diag(upper))
+    return inverse
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:

@@ -5,6 +5,7 @@ along the instrument's axes, or the translation alone where no orientation was m
 socket was measured to be at the socket's centre, which is a parameter itself.
 """
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -81,25 +82,25 @@ class Linearised:
 
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
-        doubted = np.flatnonzero(weights < 1)  # few: what they have too much is taken off
-        information = self._information - self._sum(doubted, 1 - weights[doubted])
+        information, doubted = self._information.copy(), np.flatnonzero(weights < 1)
+        for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
+            information[kind] -= rows.T @ rows  # doubted rows are few: what they have too much
         weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), -1)
         rows = self.jacobians.reshape(*weighted.shape, -1)
         return information, np.einsum("kr,krp->kp", weighted, rows, optimize=True)
 
     @cached_property
     def _information(self) -> np.ndarray:
-        count = self.residuals.shape[1]
-        return self._sum(np.arange(count), np.ones(count))
-
-    def _sum(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """J' W J (kind, P, P) of some rows."""
-        kinds, *_, count = self.jacobians.shape
-        information = np.zeros((kinds, count, count))
-        for first in range(0, len(rows), BLOCK):
-            block = rows[first : first + BLOCK]
-            roots = np.sqrt(weights[first : first + BLOCK])[:, None, None]
-            for kind, jacobians in enumerate(self.jacobians):
-                those = (jacobians[block] * roots).reshape(-1, count)
-                information[kind] += those.T @ those
+        """J' J (kind, P, P)."""
+        kinds, count, _, size = self.jacobians.shape
+        information = np.zeros((kinds, size, size))
+        for kind, rows in self._scaled(np.arange(count), np.ones(count)):
+            information[kind] += rows.T @ rows
         return information
+
+    def _scaled(self, rows: np.ndarray, factors: np.ndarray) -> Iterator[tuple[int, np.ndarray]]:
+        """Kinds, each with Jacobians (row, P) of some rows times their factors, in blocks."""
+        for first in range(0, len(rows), BLOCK):
+            block, by = rows[first : first + BLOCK], factors[first : first + BLOCK, None, None]
+            for kind, jacobians in enumerate(self.jacobians):
+                yield kind, (jacobians[block] * by).reshape(-1, jacobians.shape[-1])
