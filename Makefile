@@ -1,4 +1,4 @@
-# make: set up and replicate everything. make test: linters and tests. make help: what else there is.
+# make: set up and replicate everything. make test: linters and most tests. make help: what else there is.
 PYTHON ?= python3
 CORES ?= 2
 COUNT ?= 100
@@ -12,13 +12,13 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help quick study setup size cluster test slurm faults verify mutants laboratory check bench report docs pictures view web notebook tune design universes ship lock clean
+.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory check bench report docs pictures view web notebook tune design universes ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
 
 help: ## this list
-	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
+	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
 
 quick: STUDY = quick
 quick: study ## the replication in small, in a minute: results/studies/quick
@@ -42,10 +42,15 @@ size: setup ## how large the environment is, and what for
 cluster: setup ## what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
 	$(PIP) --no-build-isolation --editable .[cluster]
 
-test: setup ## the linters and all tests
+test: lint ## the linters and all tests but whole workflows, examples, sites and environments
+	.venv/bin/python -m pytest -m "not slow"
+
+test-all: lint ## the linters and all tests
+	.venv/bin/python -m pytest
+
+lint: setup ## the linters
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
-	.venv/bin/python -m pytest
 
 slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
 	.venv/bin/python -m pytest -n0 -rs tests/slurm

@@ -46,6 +46,7 @@ def test_the_packages_come_with_the_names_that_need_them():
     assert not {"numpy", "scipy", "pinocchio", "sklearn"} & set(loaded.stdout.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
     path = ROOT / "examples" / f"{name}.py"
@@ -109,6 +110,7 @@ def empty(tmp_path_factory) -> Path:
     return python
 
 
+@pytest.mark.slow
 def test_the_wheel_works_where_nothing_of_the_studies_is(empty, tmp_path):
     code = f"""
 import importlib.util

@@ -9,6 +9,7 @@ import pytest
 from tests.conftest import ROOT
 
 pytest.importorskip("marimo", reason="needs marimo: make notebook, or pip install .[notebook]")
+pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")

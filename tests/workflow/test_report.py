@@ -27,10 +27,7 @@ BROKEN = """return [...document.images].filter(image => !image.naturalWidth).len
  + [...document.querySelectorAll("svg:not(#rulegraph svg)")]
    .filter(drawing => !drawing.getBoundingClientRect().width).length"""
 
-pytestmark = [
-    pytest.mark.xdist_group(name="workflow"),
-    needs_chromium,
-]
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="workflow"), needs_chromium]
 
 
 @dataclass

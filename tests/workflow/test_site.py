@@ -26,7 +26,7 @@ SCHEME = "return document.body.dataset.mdColorScheme"
 SCHEMES = {"light": "default", "dark": "slate"}
 BY_NIGHT = "index.html", "docs/reference.html", "docs/library.html"  # text, signatures, commands
 
-pytestmark = pytest.mark.xdist_group(name="site")
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="site")]
 
 
 @pytest.fixture(scope="module")

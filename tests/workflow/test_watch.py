@@ -39,6 +39,7 @@ def colours(browser, picture) -> int:
         return len(half.getcolors(half.width * half.height))
 
 
+@pytest.mark.slow
 @needs_chromium
 @pytest.mark.xdist_group(name="workflow")
 def test_a_browser_draws_the_arm_and_asks_nothing_of_other_machines(continued, tmp_path):

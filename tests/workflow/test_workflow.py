@@ -16,6 +16,7 @@ from tests.conftest import ROOT, copy_project
 from tests.workflow.conftest import TINY, snakemake
 from workflow import alone
 
+pytestmark = pytest.mark.slow
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
 
 
