@@ -188,15 +188,51 @@ def calibrate(
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
+    best = _most_probable(arm, candidates, seen, frames, last and last.estimate, weights)
+    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(seen))
+    if not (search or last.residual):
+        return best
+    return _with_residual(best, seen, None if search else last.residual.hyperparameters)
+
+
+def calibrate_again(
+    whole: Calibration,
+    candidates: Sequence[JointTerms],
+    seen: Observations,
+    weights: np.ndarray | None = None,
+) -> Calibration:
+    """A calibration as another, from other observations; both choices are made anew.
+
+    They are those of `calibrate`, but for the hyperparameters of the process, which are kept: they
+    take long to find. Where the other has none, neither has this one.
+
+    Raises BadMeasurement, as `calibrate`.
+    """
+    model = whole.model
+    found = _most_probable(model.nominal, candidates, seen, model.frames, None, weights)
+    if whole.residual is None:
+        return found
+    return _with_residual(found, seen, whole.residual.hyperparameters)
+
+
+def _most_probable(
+    arm: Arm,
+    candidates: Sequence[JointTerms],
+    seen: Observations,
+    frames: Frames | None,
+    start: Estimate | None,
+    weights: np.ndarray | None,
+) -> Calibration:
+    """The calibration of the error model that is chosen; see `calibrate`."""
     best = None
     for terms in candidates:
         model = ErrorModel(arm, terms, frames)
-        estimate = identify(model, seen, last and last.estimate, weights)
+        estimate = identify(model, seen, start, weights)
         if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(
             best.model, model
         ):
             best = Calibration(model, estimate)
-    return replace(best, residual=_residual(best, seen, last))
+    return best
 
 
 def _chance(poorer: ErrorModel, richer: ErrorModel) -> float:
@@ -207,34 +243,15 @@ def _chance(poorer: ErrorModel, richer: ErrorModel) -> float:
     return CONVINCING * np.sqrt(richer.size - poorer.size)
 
 
-def identify_again(
-    whole: Calibration, seen: Observations, weights: np.ndarray | None = None
+def _with_residual(
+    calibration: Calibration, seen: Observations, hyperparameters: np.ndarray | None
 ) -> Calibration:
-    """A calibration of the same kind from other observations: nothing is chosen anew.
-
-    It has the same error model, and a Gaussian process with the same hyperparameters.
-
-    Raises BadMeasurement, as `calibrate`.
-    """
-    found = Calibration(whole.model, identify(whole.model, seen, weights=weights))
-    if whole.residual is None:
-        return found
-    return replace(found, residual=_process(found, seen, whole.residual.hyperparameters))
-
-
-def _residual(
-    calibration: Calibration, seen: Observations, last: Calibration | None
-) -> Process | None:
+    """With a process of what it leaves, if there is enough of it and it is no noise."""
     estimate = calibration.estimate
-    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(seen))
-    if (
-        np.sum(estimate.weights > DOUBTFUL) < FEWEST
-        or np.all(estimate.noise <= LEAST_NOISE)
-        or not (search or last.residual)
-    ):
-        return None
-    process = _process(calibration, seen, None if search else last.residual.hyperparameters)
-    return process if process.gain > 0 else None
+    if np.sum(estimate.weights > DOUBTFUL) < FEWEST or np.all(estimate.noise <= LEAST_NOISE):
+        return calibration
+    process = _process(calibration, seen, hyperparameters)
+    return replace(calibration, residual=process) if process.gain > 0 else calibration
 
 
 def _process(

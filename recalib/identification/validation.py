@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, calibrate, identify_again
+from recalib.identification.calibration import Calibration, calibrate, calibrate_again
 from recalib.identification.consensus import identify_by_consensus
 from recalib.identification.error_model import (
     JOINT_ERRORS,
@@ -28,6 +28,12 @@ from recalib.nominal.kinematics import Arm
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
 RANDOM, BLOCKWISE = WAYS = "at random", "in blocks"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
+# The joint terms that each may have, the fewest first.
+CANDIDATES = {
+    NOTHING: (NO_ERRORS,),
+    GEOMETRIC: (OFFSETS,),
+    HYBRID: (OFFSETS, JOINT_ERRORS, JOINT_WAVES),
+}
 SURE = 2.0  # standard errors by which something richer has to be better, to be used
 
 
@@ -41,12 +47,14 @@ class Validation:
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
         chosen: what is best done: nothing, geometric or hybrid.
         full: the calibrations from all rows.
+        unsettled: whether there was more than geometry, but its identification did not converge.
     """
 
     held_out: Mapping[str, Mapping[str, HeldOut]]
     counted: np.ndarray
     chosen: str
     full: Mapping[str, Calibration]
+    unsettled: bool
 
     @property
     def calibration(self) -> Calibration:
@@ -87,8 +95,8 @@ def validate(
     """Calibrate an arm in several ways, and say what each is worth.
 
     The hybrid is geometry with joint errors and a Gaussian process of what is left, as far as all
-    rows show any; which joint errors, and how smooth the process is, is not chosen anew where rows
-    are held out, the parameters are.
+    rows show any. Where rows are held out, all is identified and chosen anew but how smooth the
+    process is.
 
     Args:
         frames: at both ends; see `guess_frames` for those that are unknown.
@@ -104,27 +112,28 @@ def validate(
     counted = estimate.weights >= OUTLYING
     weights = counted.astype(float)
     say("what is no geometry")
-    candidates = OFFSETS, JOINT_ERRORS, JOINT_WAVES
-    hybrid = calibrate(arm, candidates, seen, frames, weights=weights)
+    hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, candidates, seen, frames, hybrid, weights)
+        hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, hybrid, weights)
+    richer = hybrid.residual is not None or hybrid.model.names != geometry.names
+    unsettled = richer and not hybrid.estimate.converged
     full = {
         NOTHING: _identified(ErrorModel(arm, NO_ERRORS, frames), seen, weights),
         GEOMETRIC: _identified(geometry, seen, weights),
     }
-    if hybrid.estimate.converged and (hybrid.residual or hybrid.model.names != geometry.names):
+    if richer and not unsettled:
         full[HYBRID] = hybrid
     held_out = {}
     for way, folds in zip(WAYS, (random_folds(seen), blocks(seen)), strict=True):
         say(f"what is missed {way}")
         held_out[way] = {
-            kind: hold_out(partial(identify_again, whole), seen, weights, folds)
+            kind: hold_out(partial(calibrate_again, whole, CANDIDATES[kind]), seen, weights, folds)
             for kind, whole in full.items()
         }
     chosen = _choice(held_out, counted)
     for kinds in (full, *held_out.values()):
         kinds.setdefault(HYBRID, kinds[GEOMETRIC])  # there was nothing but geometry
-    return Validation(held_out, counted, chosen, full)
+    return Validation(held_out, counted, chosen, full, unsettled)
 
 
 def _identified(model: ErrorModel, seen: Observations, weights: np.ndarray) -> Calibration:

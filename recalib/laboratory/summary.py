@@ -93,6 +93,10 @@ def _notes(result: Calibrated) -> Iterator[str]:
     yield f"noise of a measurement along an axis, as estimated: {', '.join(noise)}"
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
+    if result.validation.full[HYBRID].residual is not None:
+        yield "how smooth the pattern in what is left is, was chosen once, by all rows"
+    if result.validation.unsettled:
+        yield "more than geometry was found, and left out: its identification did not converge"
     if len(result.doubted):
         more = ", ..." if len(result.doubted) > MOST else ""
         listed = ", ".join(map(str, result.doubted[:MOST]))

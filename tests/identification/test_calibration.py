@@ -3,7 +3,7 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.identification.calibration import angles_for, calibrate
+from recalib.identification.calibration import angles_for, calibrate, calibrate_again
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
 
@@ -44,3 +44,17 @@ def test_an_arm_that_cannot_reach_its_pose_keeps_no_other_from_it(controller, ca
 
 def test_no_poses_need_no_angles(calibrations):
     assert angles_for(calibrations, np.empty((2, 0, 4, 4)), np.empty((2, 0, 6))).shape == (2, 0, 6)
+
+
+def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibrations):
+    """Neither joint errors nor a pattern, of an arm that has none."""
+    robot, random = controller.robot, np.random.default_rng(4)
+    workspace = robot.workspace
+    angles = controller.inverse(workspace.to_poses(workspace.sample(random, 40)))
+    measured = robot.arm.forward(angles)
+    measured[:, :3, 3] += random.normal(scale=1e-4, size=(40, 3))
+    seen = Observations(angles, measured[:, :3, 3])
+    patterned, eccentric = calibrations
+    assert calibrate_again(patterned, (OFFSETS,), seen).residual is None
+    again = calibrate_again(eccentric, (OFFSETS, JOINT_ERRORS), seen)
+    assert again.model.names == tuple(OFFSETS) != eccentric.model.names

@@ -1,6 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from recalib.identification import validation as module
+from recalib.identification.calibration import calibrate
 from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import FOLDS, blocks, random_folds
@@ -68,6 +72,23 @@ def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
     for way in WAYS:
         kinds = validation.held_out[way]
         assert kinds[HYBRID] is kinds[GEOMETRIC]
+
+
+def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
+    real = Real(arm, 7)
+    joints = real.postures(ROWS)
+    seen = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
+    frames = guess_frames(arm, seen)
+    found = validate(arm, seen, frames)
+    assert found.chosen == HYBRID and not found.unsettled
+
+    def stopped(*arguments, **options):
+        calibration = calibrate(*arguments, **options)
+        return replace(calibration, estimate=replace(calibration.estimate, converged=False))
+
+    monkeypatch.setattr(module, "calibrate", stopped)
+    found = validate(arm, seen, frames)
+    assert found.chosen == GEOMETRIC and found.unsettled
 
 
 def test_each_target_and_each_socket_is_in_all_parts():
