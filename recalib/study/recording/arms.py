@@ -62,8 +62,9 @@ def _log_marks(rec: rr.RecordingStream, learner: str, wrong: Sequence[Mark], uni
     """Words at every link and joint with which something is wrong, and the axes of the joints."""
     for number, mark in enumerate(wrong):
         entity, frame = f"{learner}/wrong/{number}", rr.CoordinateFrame(f"{learner}/{mark.link}")
-        words = rr.Points3D([mark.at], radii=0, colors=WRONG, labels=[mark.words])
-        rec.log(entity, words, frame, static=True)
+        if mark.words:
+            words = rr.Points3D([mark.at], radii=0, colors=WRONG, labels=[mark.words])
+            rec.log(entity, words, frame, static=True)
         if mark.axis is not None:
             axis = rr.LineStrips3D([mark.axis], radii=BONE * unit / 2, colors=WRONG)
             rec.log(f"{entity}/axis", axis, frame, static=True)

@@ -1,7 +1,7 @@
 """What is wrong with an arm, marked where it is: which link is short, which joint is off."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -10,7 +10,9 @@ from recalib.damaged.damage import BaseShift, Damage, LinkShortening, apply
 from recalib.nominal.robots import Robot, link_end
 from recalib.study.configuration.damages import describe
 
-HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
+# in units of `scene.unit_of`
+HALF_AXIS = 0.5  # of the axis that is drawn through a joint
+NEAR = 0.6  # places whose words would lie upon one another
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,7 @@ class Mark:
 
     Attributes:
         link: that has it.
-        words: of it.
+        words: of it; empty where they stand at another one.
         at: (3,) m, where they stand.
         axis: (2, 3) m, of the joint that is off; None where it is the link itself.
     """
@@ -48,10 +50,11 @@ def marks(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Mark]:
             case _:
                 link = moved[1 + robot.joints.index(damage.joint)]
                 of_joints.setdefault(link, []).append(words(damage))
-    return [
+    found = [
         *(_of_link(robot, link, "\n".join(each)) for link, each in of_links.items()),
         *(_of_joint(robot, link, "\n".join(each), unit) for link, each in of_joints.items()),
     ]
+    return _gathered(robot, found, NEAR * unit)
 
 
 def words(damage: Damage) -> str:
@@ -72,6 +75,32 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     angles = np.linspace(0, 2 * np.pi, 49)
     flat = radius * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
     return flat @ placement.rotation.T + placement.translation
+
+
+def _gathered(robot: Robot, found: list[Mark], near: float) -> list[Mark]:
+    """The marks, with the words of those so near [m] to one another at the last of them."""
+    data = robot.arm.model.createData()
+    pin.forwardKinematics(robot.arm.model, data, robot.home)
+    places = [data.oMi[robot.links[mark.link]].act(mark.at) for mark in found]
+    groups: list[list[int]] = []
+    for number, place in enumerate(places):
+        close = (its for its in groups if np.linalg.norm(place - places[its[-1]]) < near)
+        its = next(close, None)
+        if its is None:
+            groups.append([number])
+        else:
+            its.append(number)
+    gathered = list(found)
+    for *others, last in (group for group in groups if len(group) > 1):
+        lines = (
+            f"{found[each].link.removesuffix('_link').replace('_', ' ')}: {line}"
+            for each in (*others, last)
+            for line in found[each].words.splitlines()
+        )
+        gathered[last] = replace(found[last], words="\n".join(lines))
+        for each in others:
+            gathered[each] = replace(found[each], words="")
+    return gathered
 
 
 def _of_link(robot: Robot, link: str, text: str) -> Mark:

@@ -248,7 +248,8 @@ def test_a_shifted_base_is_drawn_shifted_beside_where_it_is_believed(columns):
 
 
 def test_what_is_wrong_is_marked_at_its_link_and_joint(robot, columns):
-    found = marks.marks(robot, DAMAGES[:-1], unit=1)
+    unit = scene.unit_of(robot.workspace)
+    found = marks.marks(robot, DAMAGES[:-1], unit)
     assert [(mark.link, mark.words) for mark in found] == [
         ("forearm_link", "4 cm short"),
         ("forearm_link", "encoder -4 deg"),
@@ -258,11 +259,28 @@ def test_what_is_wrong_is_marked_at_its_link_and_joint(robot, columns):
     assert short.axis is None and np.linalg.norm(short.at) == pytest.approx(0.5723 / 2, abs=1e-3)
     # the shoulder lifts and the elbow bends about the y axis of their links
     for mark in (elbow, shoulder):
-        assert np.allclose(np.diff(mark.axis, axis=0), [0, 2 * marks.HALF_AXIS, 0])
+        assert np.allclose(np.diff(mark.axis, axis=0), [0, 2 * marks.HALF_AXIS * unit, 0])
     for number, mark in enumerate(found):
         entity = f"/improved/wrong/{number}"
         assert columns(entity, "Points3D:labels")[1] == [[mark.words]]
         assert columns(entity, "CoordinateFrame:frame")[1] == [[f"improved/{mark.link}"]]
+
+
+def test_words_that_would_lie_upon_one_another_stand_together(robot):
+    damages = (
+        LinkShortening("forearm_link", 0.01),
+        LinkShortening("wrist_1_link", 0.01),
+        LinkShortening("wrist_2_link", 0.04),
+        EncoderShift("shoulder_pan_joint", np.radians(4)),
+        EncoderShift("wrist_3_joint", np.radians(3)),
+    )
+    found = marks.marks(robot, damages, scene.unit_of(robot.workspace))
+    assert {mark.link: mark.words for mark in found if mark.words} == {
+        "forearm_link": "1 cm short",
+        "shoulder_link": "encoder 4 deg",
+        "wrist_3_link": "wrist 1: 1 cm short\nwrist 2: 4 cm short\nwrist 3: encoder 3 deg",
+    }
+    assert len(found) == len(damages), "each has its colour and its axis"
 
 
 def test_only_a_short_link_has_another_colour(columns):
