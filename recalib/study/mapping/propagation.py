@@ -45,14 +45,14 @@ def propagation_errors(
 
 
 def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
-    """The paper's damage made smaller or drastic: links are shortened by what it says at most."""
+    """The paper's damage made smaller or larger: links are shortened by what it says at most."""
     links = [each.scaled(min(scale, 1)) for each in damages if isinstance(each, LinkShortening)]
     encoders = [each.scaled(scale) for each in damages if isinstance(each, EncoderShift)]
     return [*links, *encoders]
 
 
 def propagation(job: jobs.TrueMapping, scenario: str | Path) -> pd.DataFrame:
-    """Both integrals in balls about random centres, from slight to drastic damage.
+    """Both integrals in balls about random centres, from slight to large damage.
 
     Args:
         job: how many balls, how large, and the scales of the damage.

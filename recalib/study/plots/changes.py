@@ -42,6 +42,7 @@ def _draw(
             va="bottom" if above else "top",
             fontsize=9,
             color=look.color,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},  # on a line, too
         )
 
 

@@ -43,7 +43,7 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
                 np.arange(1, len(values) + 1) / len(values),
                 color=look.color,
                 linestyle=linestyle,
-                label=f"{look.label.capitalize()}, {unit}",
+                label=f"{look.label}, {unit}",
             )
     axes.set(xscale=LOG, xlabel="final error [cm, degrees]", ylabel="share of the assignments")
     plain(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)

@@ -41,13 +41,14 @@ def figure9(evidence: Evidence) -> Figure:
     searches = sorted({len(each) for ladder in ladders.values() for each in ladder.values()})
     title(figure, "Figure 9: how many times as many iterations does Ritter's map need?")
     means = f"means over {' or, for short trainings, '.join(map(str, searches))} searches"
-    legend_below(figure, panels[0], len(ladders), f"{means} and their seeds; {INTERVALS}")
+    spread = f"{means} and their seeds; {INTERVALS}; up to the border: no bound"
+    legend_below(figure, panels[0], len(ladders), spread)
     return figure
 
 
 def _named(name: str, look: Look) -> str:
     reading = claim.READINGS.get(name)
-    return f"Ritter's, {reading}" if reading else look.label.capitalize()
+    return f"Ritter's, {reading}" if reading else look.label
 
 
 def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:

@@ -70,9 +70,9 @@ def figure1(evidence: Evidence) -> Figure:
     history = evidence.history(evidence.fact("improved"))
     for axes in panels:
         draw_learning(axes, history)
-    ylabel = f"mean error on {evidence.fact('tests')} test poses [cm, degrees]"
-    panels[0].set(ylabel=ylabel, ylim=(0, None))
+    panels[0].set(ylabel="mean error [cm, degrees]", ylim=(0, None))
     panels[1].set(yscale=LOG)
+    panels[1].set_ylim(bottom=0.75 * panels[1].get_ylim()[0])  # room for the number under a line
     plain(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
     for error, style, unit in zip(ERRORS, (POSITION, ORIENTATION), UNITS, strict=True):
@@ -101,7 +101,8 @@ def figure1(evidence: Evidence) -> Figure:
         text += f"\n({evidence.study}: {resolved['robot'].upper()}, {damage})"
     title(figure, text)
     seeds = history.groupby("search")["seed"].nunique().iloc[0]
-    spread = f"bold: the median of {history['search'].nunique()} searches for widths and rates"
+    spread = f"means over {evidence.fact('tests')} test poses;"
+    spread += f" bold: the median of {history['search'].nunique()} searches for widths and rates"
     spread += f", mean of its {seeds} seeds;"
     spread += f" band: {BAND[0]}-{BAND[1]} % of all {history['seed'].nunique()} runs"
     legend_below(figure, panels[0], 2, spread)

@@ -38,10 +38,10 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> None:
             )
         )
         share = np.arange(1, len(ratio) + 1) / len(ratio)
-        axes.step(ratio, share, label=look.label.capitalize(), **look.line())
+        axes.step(ratio, share, label=look.label, **look.line())
     factor = rough_search.CLAIM.limits["factor"]
     axes.axvline(factor, **BORDER)
-    at_line(axes, f"within {factor:g} times", x=factor)
+    at_line(axes, f"{factor:g} times the best", x=factor)
     axes.set(
         xscale=LOG,
         xlabel="error of a random trial over that of its search's best",
@@ -64,7 +64,7 @@ def figure6(evidence: Evidence) -> Figure:
         ratio = trials[f"{name}/g_k"] / trials[f"{name}/g_kl"]
         axes.scatter(ratio, trials["score"], s=5, alpha=0.5, color=style["color"], linewidths=0)
         axes.axvline(equal, **BORDER)
-        at_line(axes, "as wide", x=equal)
+        at_line(axes, "equally wide", x=equal)
         axes.set(xscale=LOG, yscale=LOG, xlabel="final width of $g_k$ over that of $g_{kl}$")
         plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
         plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
@@ -73,8 +73,8 @@ def figure6(evidence: Evidence) -> Figure:
     title(
         figure,
         "Figure 6: what the searches see",
-        f"{budget.searches} searches for the improved map, {len(trials) // budget.searches} trials"
-        f" each, {budget.budget.seeds} seeds a trial; in the dots, those of all searches at"
-        f" {evidence.fact('iterations')} iterations",
+        f"dots: all trials for the improved map at {evidence.fact('iterations')} iterations,"
+        f" {len(trials) // budget.searches} in each of {budget.searches} searches,"
+        f" {budget.budget.seeds} seeds a trial",
     )
     return figure

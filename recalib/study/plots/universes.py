@@ -1,5 +1,6 @@
 """The figures of the multiverse: does a claim hold in every reading, and what moves it?"""
 
+import textwrap
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -17,6 +18,7 @@ from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, FAILS, HOLDS, NEUTRAL, plain, title
 
 COLUMNS = 3
+WIDEST = 42  # characters above a panel
 SHOWN = 5  # factors of each claim
 TICKS = {  # by an axis's end
     1.12: (1, 1.05, 1.1),
@@ -30,22 +32,24 @@ class Panel(NamedTuple):
     """A claim, or its part about one system."""
 
     claim: str
+    short: str
     system: str
     across: Across
     limit: float
 
     @property
     def heading(self) -> str:
-        """What it is about."""
-        name = self.claim.replace("-", " ")
-        return f"{name}, {self.system}" if self.system else name
+        """The claim in a line or two, and below it the system, if it is about one."""
+        return f"{textwrap.fill(self.short, WIDEST)}\n{self.system.removeprefix('the ')}"
 
 
 def panels() -> Iterator[Panel]:
     """All claims that universes vary, in the paper's order."""
     for claim in CLAIMS:
+        short = claim.short.split(":")[0]
         for system, across in claim.across.items():
-            yield Panel(claim.id, system, across, float(claim.limits[across.limit]))
+            limit = float(claim.limits[across.limit])
+            yield Panel(claim.id, short, system, across, limit)
 
 
 def _grid(height: float) -> tuple[Figure, list[Axes], list[Panel]]:
@@ -65,7 +69,7 @@ def _within(values: pd.Series) -> pd.Series:
 
 def figure14(evidence: Evidence) -> Figure:
     """Specification curves: what was measured for each claim in every universe, in order."""
-    figure, all_axes, shown = _grid(2.2)
+    figure, all_axes, shown = _grid(2.4)
     outcomes = evidence.outcomes()
     for axes, panel in zip(all_axes, shown, strict=True):
         holds = panel.across.holds(outcomes, panel.limit)
@@ -87,7 +91,8 @@ def figure14(evidence: Evidence) -> Figure:
         plain(axes.yaxis, *_ticks(low, high, panel.limit))
         side = "below" if panel.across.below else "above"
         axes.set_title(
-            f"{panel.heading}\nholds {side} {panel.limit:g}: in {holds.sum()} of {len(holds)}",
+            f"{panel.heading}{': ' * bool(panel.system)}"
+            f"{side} {panel.limit:g} in {holds.sum()} of {len(holds)}",
             fontsize=9,
         )
     title(
@@ -111,11 +116,11 @@ def _ticks(low: float, high: float, limit: float) -> list[float]:
 
 def figure15(evidence: Evidence) -> Figure:
     """What each claim depends on: the factors that move its number most."""
-    figure, all_axes, shown = _grid(1.9)
+    figure, all_axes, shown = _grid(2.1)
     outcomes, design = evidence.outcomes(), evidence.design()
     for axes, panel in zip(all_axes, shown, strict=True):
         values = outcomes[panel.across.column]
-        axes.set_title(panel.heading, fontsize=9, loc="right")
+        axes.set_title(panel.heading.strip(), fontsize=9, loc="right")
         if values.nunique() == 1:
             axes.set(xticks=[], yticks=[])
             middle = {"xy": (0.5, 0.5), "xycoords": "axes fraction", "ha": "center", "fontsize": 8}

@@ -1,7 +1,10 @@
 """Figures: drawn from what they declare, for any study, and the same on every machine."""
 
+import re
+
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 
 from recalib.study.evidence.findings import figures as figures_of_findings
 from recalib.study.evidence.results import Evidence, Undeclared
@@ -194,6 +197,27 @@ def test_a_colour_means_one_thing_throughout():
     assert len({*others}) == len(others)
     assert not {*others} & of_learners
     assert len(of_learners) == len(LOOKS)
+
+
+def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
+    """Whether a colour (3,) is this one, or a paler one towards white."""
+    gone, most = 1 - colour, 1 - full
+    return np.allclose(gone, most * gone.max() / most.max(), atol=0.02)
+
+
+@pytest.mark.parametrize("figure", [name for name in FIGURES if name != "figure8"])
+def test_every_colour_of_a_figure_has_its_meaning(figure, study, made_up, tmp_path, monkeypatch):
+    """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
+    monkeypatch.chdir(ROOT)  # where what was measured in the universes is committed
+    made = figure in EVERYWHERE
+    needs = needs_of(figure, made_up.request) if made else needs_of_a_full_run(figure, study)
+    text = bytes_of(figure, needs, tmp_path)[0].decode()
+    known = [look.color for look in LOOKS.values()] + [color for color, _ in OTHER.values()]
+    known += [color for color, _ in UNKNOWN] + [style["color"] for style in (POSITION, ORIENTATION)]
+    known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]
+    used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", text)}]
+    strange = [color for color in used if not any(is_a_shade_of(color, its) for its in known)]
+    assert used and not strange
 
 
 def test_every_figure_has_a_drawing_and_a_text_in_the_report():

@@ -7,12 +7,12 @@ from matplotlib.figure import Figure
 from scipy.optimize import root
 
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.explained.sketch import ACCENT, INK, SECOND, blank, planar_arm
-from recalib.study.plots.style import title
+from recalib.study.plots.explained.sketch import INK, LEARNED, blank, planar_arm
+from recalib.study.plots.style import FAILS, NEUTRAL, title
 
 NOMINAL, DAMAGED = (1.0, 0.9), (1.0, 0.72)  # lengths of links, shortened as bad ones are
 SLIPPED = np.radians([0, 14])  # encoders
-BASE = np.array([0.25, 0.3])
+BASE = np.array([0.25, 0.12])
 DESIRED = np.array([1.45, 0.55])  # from the base
 
 
@@ -29,17 +29,17 @@ def really(pose: np.ndarray) -> np.ndarray:
 
 def fake_pose(evidence: Evidence) -> Figure:
     """Where an arm goes that is sent to the desired pose, and to the fake one."""
-    figure, panels = plt.subplots(1, 3, figsize=(10.5, 3))
+    figure, panels = plt.subplots(1, 3, figsize=(10.5, 2.8))
     fake = np.round(root(lambda pose: really(pose)[-1] - DESIRED, DESIRED).x, 9)
     for axes in panels:
-        blank(axes, 2.35, 1.35)
+        blank(axes, 2.35, 1.15)
         axes.axhline(BASE[1] - 0.06, color=INK, linewidth=0.8)
     _arm(panels[0], planar_arm(believed(DESIRED), NOMINAL), INK)
     _arm(panels[1], planar_arm(believed(DESIRED), NOMINAL), "0.8")
     _arm(panels[1], really(DESIRED), INK)
     _arm(panels[2], planar_arm(believed(fake), NOMINAL), "0.8")
     _arm(panels[2], really(fake), INK)
-    _point(panels[2], fake, "fake pose", ACCENT, "D", (-26, -20))
+    _point(panels[2], fake, "fake pose", LEARNED, "D", (-26, -20))
     _miss(panels[1], really(DESIRED)[-1])
     texts = (
         "healthy: it goes where it is sent",
@@ -47,7 +47,7 @@ def fake_pose(evidence: Evidence) -> Figure:
         "damaged, sent to a fake pose: it hits",
     )
     for axes, text in zip(panels, texts, strict=True):
-        _point(axes, DESIRED, "desired pose", SECOND, "*", (7, 6))
+        _point(axes, DESIRED, "desired pose", NEUTRAL, "*", (7, 6))
         axes.set_title(text, fontsize=11, fontweight="normal", loc="center")
     title(
         figure,
@@ -69,4 +69,4 @@ def _point(axes: Axes, at: np.ndarray, name: str, color: str, marker: str, offse
 
 
 def _miss(axes: Axes, tip: np.ndarray) -> None:
-    axes.plot(*np.stack([tip + BASE, DESIRED + BASE]).T, color=SECOND, linestyle=":", linewidth=2)
+    axes.plot(*np.stack([tip + BASE, DESIRED + BASE]).T, color=FAILS, linestyle=":", linewidth=2)

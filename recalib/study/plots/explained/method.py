@@ -8,15 +8,12 @@ from matplotlib.figure import Figure
 
 from recalib.learners.nets import Nets
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.explained.sketch import ACCENT, INK, SECOND, arrow, blank, box
-from recalib.study.plots.style import title
+from recalib.study.plots.explained.sketch import INK, LEARNED, arrow, blank, box
+from recalib.study.plots.style import FAILS, ORIENTATION, POSITION, title
 
 NETS = Nets((3, 3, 1), (3, 3, 1))  # one layer of each net
-NARROW, WIDE = 0.5, 1.4  # widths, in workspace coordinates
-MAPS = {
-    "position": (ACCENT, NARROW, WIDE),
-    "orientation": (SECOND, WIDE, NARROW),
-}
+WIDTH = 0.9  # of all neighbourhoods, in workspace coordinates: which is wider is searched for
+MAPS = {"position": POSITION["color"], "orientation": ORIENTATION["color"]}
 
 
 def method(evidence: Evidence) -> Figure:
@@ -27,8 +24,9 @@ def method(evidence: Evidence) -> Figure:
     title(
         figure,
         "The arm learns which fake pose to send, from where it went",
-        "the darker a cell, the more of the change it learns; a second, corrected move teaches each"
-        " cell how commands must change with poses",
+        "the darker a cell, the more of the change it learns;"
+        " each of the four neighbourhoods has its own width.\n"
+        "A second, corrected move teaches each cell how commands must change with poses",
     )
     return figure
 
@@ -36,25 +34,25 @@ def method(evidence: Evidence) -> Figure:
 def _cycle(axes: Axes) -> None:
     blank(axes, 10, 9)
     box(axes, 1.7, 8, "desired\npose $u$")
-    box(axes, 5.6, 8, "the nearest cell\nof each map", ACCENT, "#E3F0F8")
-    box(axes, 8.9, 5.6, "fake pose $\\theta'$", ACCENT, "#E3F0F8")
+    box(axes, 5.6, 8, "the nearest cell\nof each map", LEARNED)
+    box(axes, 8.9, 5.6, "fake pose $\\theta'$", LEARNED)
     box(axes, 8.6, 3.2, "controller,\nas it always was")
     box(axes, 6, 1, "damaged arm")
     box(axes, 1.9, 1, "where it\nwent: $u'$")
-    box(axes, 1.9, 4.4, "miss\n$u - u'$", SECOND, "#FBE9DE")
+    box(axes, 1.9, 4.4, "miss\n$u - u'$", FAILS)
     arrow(axes, (2.55, 8), (3.95, 8))
     arrow(axes, (7.2, 7.8), (8.9, 6.05), bend=-0.25)
     arrow(axes, (8.85, 5.2), (8.75, 3.8))
-    arrow(axes, (8.5, 2.6), (7.2, 1.1), bend=-0.2)
-    arrow(axes, (4.8, 1), (2.75, 1))
+    arrow(axes, (8.5, 2.6), (7.35, 1.1), bend=-0.2)
+    arrow(axes, (4.65, 1), (2.75, 1))
     arrow(axes, (1.9, 1.6), (1.9, 3.8))
     arrow(axes, (1.75, 7.4), (1.85, 5.0))
-    arrow(axes, (2.65, 4.4), (5.3, 7.4), SECOND, bend=0.2, width=2.5)
+    arrow(axes, (2.65, 4.4), (5.3, 7.4), FAILS, bend=0.2, width=2.5)
     axes.text(
         4.55,
         4.55,
         "corrects the cell,\nand its neighbours\nby the same change",
-        color=SECOND,
+        color=FAILS,
         va="center",
         fontsize=10,
     )
@@ -65,16 +63,15 @@ def _nets(axes: Axes) -> None:
     axes.text(2.6, 9.2, "supernet:\npositions", ha="center", va="center")
     axes.text(7.6, 9.2, "a subnet in each cell:\norientations", ha="center", va="center")
     winner = np.array([4]), np.array([4])
-    for y, (name, (color, *widths)) in zip((6.6, 2.4), MAPS.items(), strict=True):
-        learns = NETS.neighbourhood(*winner, *np.array(widths)[:, None])
+    learns = NETS.neighbourhood(*winner, *np.full((2, 1), WIDTH))
+    for y, (name, color) in zip((6.6, 2.4), MAPS.items(), strict=True):
         shades = LinearSegmentedColormap.from_list(name, ["white", color])
         axes.text(-0.5, y, f"{name}\nmap", color=color, fontweight="bold", ha="center", va="center")
         arrow(axes, (2.95, y), (5.85, y), bend=-0.25)
-        for x, cells, (g,), width in zip(
-            (2.6, 7.6), (NETS.w_k, NETS.w_kl), learns, widths, strict=True
+        for x, cells, (g,), sign in zip(
+            (2.6, 7.6), (NETS.w_k, NETS.w_kl), learns, ("$g_k$", "$g_{kl}$"), strict=True
         ):
             points = np.array([x, y]) + 1.7 * cells[:, :2]
             look = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
             axes.scatter(*points.T, s=200, zorder=3, **look)
-            words = "narrow" if width == NARROW else "wide"
-            axes.text(x, y - 1.75, f"{words} neighbourhood", ha="center", va="top", fontsize=10)
+            axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=10)

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.evidence.claims import figure_1
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.explained.sketch import ACCENT, INK, SECOND
-from recalib.study.plots.style import title
+from recalib.study.plots.explained.sketch import INK
+from recalib.study.plots.style import FAILS, HOLDS, title
 
 SHOWN = {  # of all factors, and what they are about
     "robot": "which robot?",
@@ -33,23 +33,21 @@ def multiverse(evidence: Evidence) -> Figure:
     paths = np.concatenate([paths + nudge, ends[:, None]], axis=1)
     steps = np.arange(paths.shape[1])
     for path, its in zip(paths, holds, strict=True):
-        color = ACCENT if its else SECOND
+        color = HOLDS if its else FAILS
         axes.plot(steps, path, color=color, linewidth=0.5, alpha=0.45)
     for step, (factor, question) in enumerate(SHOWN.items()):
         _column(axes, step, question, levels[factor])
-    for share, color, words in (
-        (holds, ACCENT, "it holds"),
-        (~holds, SECOND, "it does not"),
-    ):
+    for share, words in ((holds, "it holds"), (~holds, "it does not")):
         text = f"{words}\nin {share.sum()}"
-        axes.annotate(text, (steps[-1] + 0.06, ends[share].mean()), color=color, va="center")
+        axes.annotate(text, (steps[-1] + 0.06, ends[share].mean()), va="center")
     axes.set(xlim=(-0.4, steps[-1] + 0.7), ylim=(-0.02, 1.25))
     axes.axis("off")
     title(
         figure,
         f"A multiverse: {len(design)} ways to replicate one paper",
         f"each line is a universe, a small study of its own; {len(SHOWN)} of its"
-        f" {design.shape[1]} choices are shown. Its end: are a tenth of both errors left, or less?",
+        f" {design.shape[1]} choices are shown.\n"
+        "It holds where a tenth of both errors is left, or less",
     )
     return figure
 

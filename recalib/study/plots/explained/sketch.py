@@ -2,8 +2,12 @@
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 
-INK, PALE, ACCENT, SECOND = "0.25", "0.93", "#0072B2", "#D55E00"
+from recalib.study.plots.looks import LOOKS
+
+INK = "0.25"
+LEARNED = LOOKS["improved"].color  # what the improved map makes
 
 
 def blank(axes: Axes, width: float, height: float) -> None:
@@ -12,8 +16,9 @@ def blank(axes: Axes, width: float, height: float) -> None:
     axes.axis("off")
 
 
-def box(axes: Axes, x: float, y: float, text: str, color: str = INK, fill: str = PALE) -> None:
-    """Words in a box around (x, y)."""
+def box(axes: Axes, x: float, y: float, text: str, color: str = INK) -> None:
+    """Words in a box around (x, y), with an edge of this colour."""
+    fill = tuple(1 - 0.1 * (1 - part) for part in to_rgb(color))
     axes.text(
         x,
         y,
