@@ -32,6 +32,15 @@ PORT = 9090
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
 VIEWER = ("index.html", "re_viewer.js", "re_viewer_bg.wasm", "favicon.ico")
 ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # fonts of the viewer's page
+# It tells its makers of its use and asks for news, which it has no setting for in a browser: what
+# is elsewhere answers at once, with nothing.
+QUIET = """<head><script>
+const fetched = window.fetch;
+window.fetch = (asked, how) =>
+  new URL(asked.url ?? asked, location).origin === location.origin
+    ? fetched(asked, how)
+    : Promise.resolve(new Response(null, {status: 204}));
+</script>"""
 # The viewer is WebAssembly, which counts as eval.
 POLICY = "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'"
 PATIENCE = 30.0  # seconds for the viewer's own server to start
@@ -128,7 +137,8 @@ def _copy_viewer(folder: Path) -> None:
         for name in VIEWER:
             (folder / name).write_bytes(_fetched(f"http://{HERE}:{port}/{name}", viewer))
     page = folder / "index.html"
-    page.write_text(ELSEWHERE.sub("", page.read_text(encoding="utf-8")), encoding="utf-8")
+    text = ELSEWHERE.sub("", page.read_text(encoding="utf-8"))
+    page.write_text(text.replace("<head>", QUIET, 1), encoding="utf-8")
 
 
 def _fetched(address: str, viewer: subprocess.Popen) -> bytes:

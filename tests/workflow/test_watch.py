@@ -11,7 +11,7 @@ from PIL import Image
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
-from tests.browser import chromium, needs_chromium, requests
+from tests.browser import chromium, needs_chromium, requests, severe
 from tests.workflow.conftest import TINY
 from workflow import watch
 
@@ -56,6 +56,7 @@ def test_a_browser_draws_the_arm_and_asks_nothing_of_other_machines(continued, t
         assert empty < SHADED
         hosts = {urlsplit(url).netloc for url in requests(browser)}
         assert hosts <= {urlsplit(address).netloc, ""}
+        assert severe(browser) == [], "the viewer asked other machines, and was refused"
 
 
 def test_without_a_display_the_other_way_is_named(monkeypatch, tmp_path):
