@@ -115,7 +115,7 @@ class MadeUp:
         """Keep a table of measurements, with their noise."""
         rng = np.random.default_rng(len(path))
         table = table.reset_index(drop=True)
-        for column in table.select_dtypes("float"):
+        for column in table.select_dtypes("float") if self._noise else ():
             if column not in ("scale", "width", "distance") or "assignments" in path:
                 signs = rng.choice([-1.0, 1.0], len(table))
                 table[column] = table[column] * (1 + self._noise * signs)
@@ -141,14 +141,20 @@ class MadeUp:
         luck = OF_SEARCHES * rng.normal(size=(searches, 1, 2))
         luck = luck + OF_SEEDS * rng.normal(size=(searches, seeds, 2))
         last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
-        runs = {"search": np.repeat(np.arange(searches) + 1, seeds), "seed": range(len(last))}
-        tables = []
-        for part in (0, 0.1, 0.4, 1):
-            measured = initial * (1 - part) + last * part
-            table = pd.DataFrame(measured, columns=list(ERRORS))
-            done = round(which.iterations * part)
-            tables.append(table.assign(**runs, iteration=done, moves=2 * done, refused=0))
-        return pd.concat(tables)
+        parts = np.array([0, 0.1, 0.4, 1])
+        each = parts[:, None, None]
+        measured = (initial * (1 - each) + last * each).reshape(-1, 2)
+        done = np.repeat(np.rint(which.iterations * parts).astype(int), len(last))
+        return pd.DataFrame(
+            {
+                **dict(zip(ERRORS, measured.T, strict=True)),
+                "search": np.tile(np.repeat(np.arange(searches) + 1, seeds), len(parts)),
+                "seed": np.tile(np.arange(len(last)), len(parts)),
+                "iteration": done,
+                "moves": 2 * done,
+                "refused": 0,
+            }
+        )
 
     def coverage(self) -> pd.DataFrame:
         return pd.DataFrame({"change": ["maps"], "effect": ["with it"], "inside": [0.95]})

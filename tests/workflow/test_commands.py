@@ -100,7 +100,10 @@ def checkout(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("command", PLANNED)
+@pytest.mark.parametrize(
+    "command",
+    [pytest.param(it, marks=[pytest.mark.slow] * it.startswith("snakemake")) for it in PLANNED],
+)
 def test_a_command_can_be_planned(command, checkout):
     program, *arguments = shlex.split(command)
     plan = {

@@ -270,6 +270,12 @@ def depending(workflow, tree):
     return found
 
 
+def of_all_jobs(test):
+    """To ask every job takes long: it is done once."""
+    return pytest.mark.slow(pytest.mark.xdist_group(name="jobs")(test))
+
+
+@of_all_jobs
 @pytest.mark.parametrize(("searches", "anew"), [(12, False), (5, False), (13, True)])
 def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(
     workflow, tree, searches, anew
@@ -280,6 +286,7 @@ def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(
     assert workflow.sample(studies_of(other), "improved_200") == (own if anew else shipped)
 
 
+@of_all_jobs
 def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
     wrong = {}
     for leaf, rules in depending.items():
@@ -293,6 +300,7 @@ def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
     assert wrong == {}
 
 
+@of_all_jobs
 def test_every_leaf_makes_a_difference(depending):
     without = [leaf for leaf, rules in depending.items() if not rules]
     assert without == []

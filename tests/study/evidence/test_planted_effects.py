@@ -1,5 +1,6 @@
 """An effect planted in results with luck as in experiments is found; where there is none, none."""
 
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -26,11 +27,8 @@ def judged(study, tmp_path, monkeypatch):
     monkeypatch.setattr(effects, "RESAMPLES", 20)
     monkeypatch.chdir(tmp_path)  # where no universe was measured
 
-    def measure_universes(more: float, repetition: int) -> None:
-        design = pd.read_csv(ROOT / DESIGN)
-        Path(DESIGN).parent.mkdir(parents=True, exist_ok=True)
-        design.to_csv(DESIGN)
-        luck = OF_UNIVERSES * np.random.default_rng(repetition).normal(size=(len(design), 2))
+    def measure_universes(more: float, repetition: int, count: int) -> None:
+        luck = OF_UNIVERSES * np.random.default_rng(repetition).normal(size=(count, 2))
         names = ["theta_improved", "theta_ritter"]
         pd.DataFrame(more * np.exp(luck), columns=names).to_csv(OUTCOMES)
 
@@ -42,11 +40,14 @@ def judged(study, tmp_path, monkeypatch):
             "ritter_theta_increments": SHORT * more,
         }
         made_up, verdicts = MadeUp(tmp_path, study, planted), []
+        if universes:
+            Path(DESIGN).parent.mkdir(parents=True)
+            count = len(pd.read_csv(shutil.copy(ROOT / DESIGN, DESIGN)))
         for repetition in range(repetitions):
             for learner in planted:
                 made_up.train(learner, repetition)
             if universes:
-                measure_universes(more, repetition)
+                measure_universes(more, repetition, count)
             claim = made_up.judged("theta-increments")
             by_system = [system["verdict"] for system in claim["systems"].values()]
             verdicts.append([claim["verdict"], *by_system])

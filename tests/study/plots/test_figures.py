@@ -63,6 +63,7 @@ def needs_of_a_full_run(figure, study):
     return ask.needs if there and not ask.lacking else None
 
 
+@pytest.mark.slow
 @few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
 def test_noise_in_the_last_digits_changes_no_byte(figure, request, study, tmp_path, monkeypatch):

@@ -582,6 +582,7 @@ def test_missing_meshes_leave_no_recording(write, tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(
     not DRIVERS, reason="needs a Vulkan driver, for instance Debian's mesa-vulkan-drivers"
 )
