@@ -49,9 +49,15 @@ def test_sagging_lowers_the_arm(robot, angles):
         assert np.all(after < before)
 
 
-def test_backlash_is_half_the_gap_with_gravity(robot, angles):
-    moved = deflection(robot, Backlash("shoulder_lift_joint", 0.004), angles)[:, 1]
-    assert np.allclose(moved, -0.002 * np.sign(robot.arm.gravity_torque(angles)[:, 1]))
+@pytest.mark.parametrize(
+    ("joint", "heavy"), [("shoulder_lift_joint", True), ("wrist_1_joint", False)]
+)
+def test_backlash_is_half_the_gap_with_gravity_however_little_that_is(robot, angles, joint, heavy):
+    index = robot.joints.index(joint)
+    moved = deflection(robot, Backlash(joint, 0.004), angles)[:, index]
+    torques = robot.arm.gravity_torque(angles)[:, index]
+    assert (np.abs(torques) > 1).all() == heavy, "N m"
+    assert np.allclose(moved, -0.002 * np.sign(torques))
 
 
 def test_deflections_start_from_where_the_encoders_leave_the_joints(robot, angles):

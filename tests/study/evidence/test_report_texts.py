@@ -39,6 +39,7 @@ def test_tables_hold_what_the_results_say(known, figures, made_up):
     errors = report.page("errors", known, figures)
     assert errors.count("<tr>") == 1 + len(made_up.trainings.runs)
     settings = report.page("settings", known, figures)
+    assert "1 rounds of 100 trials" in settings
     assert settings.count("<tr>") == 1 + len({learner for _, learner in made_up.trainings.runs})
     damages = report.page("damages", known, figures)
     assert "5 cm, -5 cm, 4.3 cm" in damages
