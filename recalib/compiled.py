@@ -2,6 +2,9 @@
 
 A function that calls another compiled one belongs into the same file: of what is kept, Numba
 notices changes of that file alone.
+
+Numbers are written one by one: whatever assigns to a slice, Numba compiles two seconds longer, for
+the words of an error that no call here can raise.
 """
 
 from collections.abc import Callable

@@ -92,7 +92,9 @@ def _forward(chain, angles):
 def _stand(chain, arm, angles, pose, origins, directions):
     """Write the tool's pose (3 or 4, 4), and where the joints lie and point, both (n, 3)."""
     joints = len(angles)
-    pose[:3] = chain.placements[arm, 0]
+    for row in range(3):
+        for column in range(4):
+            pose[row, column] = chain.placements[arm, 0, row, column]
     for joint in range(joints):
         axis, slides = chain.axes[arm, joint], chain.slides[arm, joint]
         for row in range(3):
@@ -162,15 +164,16 @@ def _solve(chain, poses, start):
             _stand(chain, 0, angles, reached, origins, directions)
             residual = _missing(reached, goal, missing)
             if residual < left[index]:
-                found[index], left[index] = angles, residual
+                _copy(angles, found[index])
+                left[index] = residual
             if left[index] <= TOLERANCE:
                 break
             _move(chain, reached, origins, directions, jacobian)
             if joints == 6:
-                step[:] = missing
+                _copy(missing, step)
             if joints != 6 or not _eliminate(jacobian, step):
                 _move(chain, reached, origins, directions, jacobian)
-                step[:] = _shortest_step(jacobian, missing)
+                _copy(_shortest_step(jacobian, missing), step)
             shorter = LONGEST_STEP / max(LONGEST_STEP, _longest(step))
             for joint in range(joints):
                 angles[joint] += shorter * step[joint]
@@ -178,15 +181,26 @@ def _solve(chain, poses, start):
 
 
 @compiled
+def _copy(vector, to):
+    for index in range(len(vector)):
+        to[index] = vector[index]
+
+
+@compiled
 def _shortest_step(jacobian, missing):
     """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
     if jacobian.shape[1] > 6:
-        square, vector = np.empty((6, 6)), missing.copy()
+        square, vector = np.zeros((6, 6)), missing.copy()
         for row in range(6):
             for column in range(6):
-                square[row, column] = (jacobian[row] * jacobian[column]).sum()
+                for joint in range(jacobian.shape[1]):
+                    square[row, column] += jacobian[row, joint] * jacobian[column, joint]
         if _eliminate(square, vector):
-            return (jacobian.T * vector).sum(axis=1)
+            step = np.zeros(jacobian.shape[1])
+            for joint in range(len(step)):
+                for row in range(6):
+                    step[joint] += jacobian[row, joint] * vector[row]
+            return step
     return np.linalg.pinv(jacobian, 1 / SINGULAR) @ missing
 
 

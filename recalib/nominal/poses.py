@@ -80,7 +80,8 @@ def _poses(coordinates, centre, half_ranges, vectors):
         else:
             _write_turn_by_angles(numbers[3:], relative)
         _write_product(centre, relative, pose)
-        pose[:3, 3] = centre[:3, 3] + numbers[:3]
+        for row in range(3):
+            pose[row, 3] = centre[row, 3] + numbers[row]
         pose[3, 3] = 1
     return poses
 
@@ -90,7 +91,8 @@ def _coordinates(poses, centre, half_ranges, vectors):
     coordinates, relative = np.empty((len(poses), 6)), np.empty((3, 3))
     for index in range(len(poses)):
         pose, numbers = poses[index], coordinates[index]
-        numbers[:3] = pose[:3, 3] - centre[:3, 3]
+        for row in range(3):
+            numbers[row] = pose[row, 3] - centre[row, 3]
         _write_product(centre.T, pose, relative)
         if vectors:
             _write_vector(relative, numbers[3:])
@@ -115,23 +117,28 @@ def _write_product(one, other, product):
 
 
 @compiled
+def _write_row(row, x, y, z):
+    row[0], row[1], row[2] = x, y, z
+
+
+@compiled
 def _write_turn_by_angles(angles, turn):
     """Rz(yaw) Ry(pitch) Rx(roll)."""
     (a, b, c), (d, e, f) = np.cos(angles), np.sin(angles)
-    turn[0] = c * b, c * e * d - f * a, c * e * a + f * d
-    turn[1] = f * b, f * e * d + c * a, f * e * a - c * d
-    turn[2] = -e, b * d, b * a
+    _write_row(turn[0], c * b, c * e * d - f * a, c * e * a + f * d)
+    _write_row(turn[1], f * b, f * e * d + c * a, f * e * a - c * d)
+    _write_row(turn[2], -e, b * d, b * a)
 
 
 @compiled
 def _write_turn_by_vector(vector, turn):
     """exp([r]), by Rodrigues' formula."""
-    angle = np.sqrt((vector**2).sum())
     x, y, z = vector
+    angle = np.sqrt(x * x + y * y + z * z)
     part = np.sin(angle) / angle if angle > 0 else 1.0
-    turn[0] = 0.0, -part * z, part * y
-    turn[1] = part * z, 0.0, -part * x
-    turn[2] = -part * y, part * x, 0.0
+    _write_row(turn[0], 0.0, -part * z, part * y)
+    _write_row(turn[1], part * z, 0.0, -part * x)
+    _write_row(turn[2], -part * y, part * x, 0.0)
     half = np.sin(angle / 2) / (angle / 2) if angle > 0 else 1.0
     for row in range(3):
         turn[row, row] += np.cos(angle)
@@ -155,7 +162,7 @@ def _write_vector(turn, vector):
         vector[first] = 1 - trace + 2 * turn[first, first]
         vector[one] = turn[one, first] + turn[first, one]
         vector[other] = turn[other, first] + turn[first, other]
-    length = np.sqrt((vector**2).sum())
+    length = np.sqrt(vector[0] ** 2 + vector[1] ** 2 + vector[2] ** 2)
     angle = 2 * np.arctan2(length, abs(real))
     vector *= np.copysign(angle / length if length > 0 else 1.0, real)
 
