@@ -110,7 +110,7 @@ def _ticks(low: float, high: float, limit: float) -> list[float]:
     found = {float(f"{limit:.2g}")}
     for end in (low, high):
         if abs(np.log(end / limit)) > 0.25 * np.log(max(high, limit) / min(low, limit)):
-            found.add(float(f"{end:.1g}"))
+            found.add(float(f"{end:.2g}"))
     return sorted(found)
 
 
