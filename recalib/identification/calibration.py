@@ -44,7 +44,7 @@ class Calibration:
     def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
-        Where the frames were unknown, the arm's own base and tool are nominal.
+        Where a frame was unknown, the arm's own base or tool is nominal.
 
         Args:
             joints: (n, joints) rad, m in which the controller believes.

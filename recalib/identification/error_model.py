@@ -85,8 +85,9 @@ class ErrorModel:
             [twists, np.full(sockets.size, UNKNOWN[0]), self._coefficient_deviations().ravel()]
         )
         self.free = np.zeros(len(self.deviations), dtype=bool)
-        if self.frames.unknown:
-            self.free[:6] = self.free[6 * self._joints : self._geometry] = True
+        self.free[:6] = self.frames.base_unknown
+        self.free[6 * self._joints : self._twists] = self.frames.targets_unknown
+        self.free[self.socket_columns] = True
         if not terms:
             self.deviations[~self.free] = HELD
         self._base = pin.SE3(self.frames.base)
@@ -166,21 +167,15 @@ class ErrorModel:
 
     def found(self, parameters: np.ndarray) -> Frames:
         """The frames at both ends as the parameters have them."""
-        if not self.frames.unknown:
-            return self.frames
         base, *_ = twists = [pin.exp6(pin.Motion(twist)) for twist in self.twists(parameters)]
-        targets = [
-            self._tool.inverse() * twist * placement
-            for twist, placement in zip(
-                twists[self._joints :], self._placements[self._joints :], strict=True
-            )
-        ]
-        return replace(
-            self.frames,
-            base=(base * self._base).homogeneous,
-            targets=np.array([target.homogeneous for target in targets]),
-            sockets=self.sockets(parameters),
-        )
+        found = replace(self.frames, sockets=self.sockets(parameters))
+        if found.base_unknown:
+            found = replace(found, base=(base * self._base).homogeneous)
+        if found.targets_unknown:
+            ends = zip(twists[self._joints :], self._placements[self._joints :], strict=True)
+            targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
+            found = replace(found, targets=np.array([each.homogeneous for each in targets]))
+        return found
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
         """The joint terms (n, term, joints) at joint coordinates (n, joints) [rad, m]."""

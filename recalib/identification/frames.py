@@ -16,9 +16,9 @@ HELD = 1e-9  # of what no observation can tell: it stays as it is
 class Frames:
     """The frames at both ends of the arm, as they are before anything is identified.
 
-    Where they are known, what the base and the last link are found to be beside them is an error of
-    the arm. Where they are not, it is a better guess of the frames, and the arm's own base and last
-    link stay nominal: nobody could tell.
+    Where one is known, what the arm's base or its last link is found to be beside it is an error of
+    the arm. Where it is not, that is a better guess of it, and the arm's own base or last link
+    stays nominal: nobody could tell.
 
     Attributes:
         base: (4, 4) m, the pose of the arm's base in the frame of the instrument.
@@ -27,7 +27,7 @@ class Frames:
             the arm's base there.
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
-        unknown: whether they are guesses.
+        base_unknown, targets_unknown: whether they are guesses.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -35,7 +35,8 @@ class Frames:
     sockets: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
     base_deviations: tuple[float, float] = BASE
     target_deviations: tuple[float, float] = LINK
-    unknown: bool = False
+    base_unknown: bool = False
+    targets_unknown: bool = False
 
 
 def nearest_rotation(matrix: np.ndarray) -> np.ndarray:

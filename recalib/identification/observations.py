@@ -56,6 +56,11 @@ class Observations:
         return replace(self, **parts)
 
     @property
+    def positions(self) -> np.ndarray:
+        """What was measured (n, 3) [m], without orientations."""
+        return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
+
+    @property
     def kinds(self) -> int:
         """Of what is seen in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1

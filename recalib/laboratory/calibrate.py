@@ -121,11 +121,11 @@ def calibrate_arm(
         point = None if said.target is None else said.target[:3, 3]
         beside = check_nominal(arm, rows.coordinates, rows.nominal, known, point)
     seen, targets, sockets = _observations(rows, said, Path(table))
-    if known is None:
-        say("where instrument and target are: a first guess")
-        frames = guess_frames(arm, seen)
-    else:
+    if known is not None and said.target is not None:
         frames = Frames(known, np.tile(said.target, (len(targets), 1, 1)))
+    else:
+        say("where instrument and target are: a first guess")
+        frames = guess_frames(arm, seen, known, said.target)
     validation = validate(arm, seen, frames, say)
     return Calibrated(
         find_urdf(urdf), Path(table), seen, targets, sockets, beside, frames, validation
@@ -144,6 +144,8 @@ def _observations(
     seen = Observations(rows.coordinates, measured, numbers)
     if rows.sockets is None:
         return seen, targets, ()
+    if said.instrument is not None:
+        raise InvalidFile(table, "its description has an instrument; a ball in sockets needs none")
     sockets, where = _numbered(rows.sockets, len(rows))
     for pair in said.distances:
         for socket in pair:

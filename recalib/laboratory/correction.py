@@ -17,7 +17,7 @@ from recalib.identification.calibration import Calibration
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 
-FORMAT = "recalib correction", 1
+FORMAT = "recalib correction", 2
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@
 joint_1 = "shoulder_pan_joint [deg]"
 step = "ignored"
 
-[instrument]                 # where it stands in the arm's base frame, where that is known
+[instrument]                 # where it stands in the arm's base frame, if that is known
 position = ["0.8 m", "0 m", "120 mm"]
 roll_pitch_yaw = ["0 deg", "0 deg", "180 deg"]
 
@@ -63,9 +63,6 @@ def read_description(path: str | PathLike) -> Description:
             if part not in PARTS:
                 raise InvalidSetting("part", part, ", ".join(PARTS))
         instrument, target = (_pose(part, parts) for part in ("instrument", "target"))
-        if (instrument is None) != (target is None):
-            alone = "target" if instrument is None else "instrument"
-            raise InvalidSetting(alone, "alone", "both instrument and target, or neither")
         return Description(
             _columns(parts.get("columns", {})),
             instrument,

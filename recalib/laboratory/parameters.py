@@ -69,7 +69,7 @@ def _names(calibration: Calibration) -> Iterator[tuple[str, str, float]]:
     links = ["base", *(f"link behind {joint}" for joint in arm.joints[:-1])]
     ends = [f"target {number + 1}" for number in range(len(frames.targets))]
     if len(ends) == 1:
-        ends = ["target" if frames.unknown else "tool"]
+        ends = ["target" if frames.targets_unknown else "tool"]
     for link in [*links, *ends]:
         for motion in MOTIONS:
             unit, scale = _unit(slides=motion.startswith("shift"))

@@ -108,13 +108,15 @@ def check_nominal(
     if gaps.max() <= ALIKE:
         return None
     rows = np.unique(np.linspace(0, len(nominal) - 1, ENOUGH).astype(int))
-    fit = _fit(arm.forward(coordinates[rows]), nominal[rows])
+    poses, positions = arm.forward(coordinates[rows]), nominal[rows]
+    fit = _fit(poses, positions, base, target)
     if fit.gaps.max() <= ALIKE:
-        if base is None and target is None:
-            return fit
+        return fit
+    fit = _fit(poses, positions)
+    if fit.gaps.max() <= ALIKE:
         beside = Fit(fit.base @ np.linalg.inv(known), fit.target - point, fit.gaps)
         raise WrongNominal(gaps.max(), f"{beside}, which nobody said")
-    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], nominal[rows], fit))
+    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], positions, fit))
 
 
 def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: Fit) -> str | None:
@@ -167,19 +169,35 @@ def _gaps(
     return np.linalg.norm(reached[:, :3] - nominal, axis=1)
 
 
-def _fit(poses: np.ndarray, nominal: np.ndarray) -> Fit:
-    """By nonlinear least squares from where the relaxed problem has its solution."""
+def _fit(
+    poses: np.ndarray,
+    nominal: np.ndarray,
+    known: np.ndarray | None = None,
+    point: np.ndarray | None = None,
+) -> Fit:
+    """By nonlinear least squares from where the relaxed problem has its solution.
+
+    Args:
+        known, point: base and target, each where it is known and so not fitted.
+    """
     turns, places = poses[:, :3, :3], poses[:, :3, 3]
-    first = Rotation.from_matrix(_relaxed(poses, nominal)[0])
+    first = Rotation.from_matrix(_relaxed(poses, nominal)[0] if known is None else known[:3, :3])
 
     def reached(numbers: np.ndarray) -> np.ndarray:
         points = places + turns @ numbers[6:]
         return (Rotation.from_rotvec(numbers[:3]) * first).apply(points) + numbers[3:6]
 
-    start = np.array([*np.zeros(3), *(nominal - first.apply(places)).mean(axis=0), *np.zeros(3)])
-    found = least_squares(
-        lambda numbers: (reached(numbers) - nominal).ravel(), start, x_scale="jac", max_nfev=STEPS
-    ).x
+    shift = (nominal - first.apply(places)).mean(axis=0) if known is None else known[:3, 3]
+    found = np.array([*np.zeros(3), *shift, *(np.zeros(3) if point is None else point)])
+    fitted = np.repeat([known is None, point is None], [6, 3])
+
+    def missed(numbers: np.ndarray) -> np.ndarray:
+        found[fitted] = numbers
+        return (reached(found) - nominal).ravel()
+
+    if fitted.any():
+        best = least_squares(missed, found[fitted], x_scale="jac", max_nfev=STEPS)
+        found[fitted] = best.x
     base = np.eye(4)
     base[:3, :3] = (Rotation.from_rotvec(found[:3]) * first).as_matrix()
     base[:3, 3] = found[3:6]

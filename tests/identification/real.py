@@ -27,8 +27,8 @@ class Real:
         parameters *= self.random.standard_normal(len(parameters))
         self._arm, self._offsets = model.arm(parameters), parameters[-count:]
         self._limits = nominal.model.lowerPositionLimit, nominal.model.upperPositionLimit
-        self._base = anywhere(self.random, 2.0)
-        self._targets = np.array([anywhere(self.random, 0.2) for _ in range(targets)])
+        self.base = anywhere(self.random, 2.0)
+        self.targets = np.array([anywhere(self.random, 0.2) for _ in range(targets)])
 
     def postures(self, count):
         low, high = (np.clip(limit, -np.pi, np.pi) for limit in self._limits)
@@ -60,7 +60,7 @@ class Real:
         return tool[:, :3, 3] + tool[:, :3, :3] @ ball
 
     def poses(self, joints, targets=0, noise=NOISE):
-        seen = self._base @ self._arm.forward(joints + self._offsets) @ self._targets[targets]
+        seen = self.base @ self._arm.forward(joints + self._offsets) @ self.targets[targets]
         turns = noise[1] * self.random.standard_normal((len(joints), 3))
         seen[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ seen[:, :3, :3]
         seen[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))

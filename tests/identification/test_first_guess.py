@@ -58,6 +58,35 @@ def test_several_targets_sit_anywhere_on_one_tool(panda):
     assert misses(real, panda, seen).mean() < 5e-4
 
 
+@pytest.mark.parametrize("what", ["poses", "positions"])
+@pytest.mark.parametrize("known", ["base", "target"])
+def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):
+    """What is found of the other one is right, far beyond what an arm's own errors may be."""
+    real = Real(arm, 8)
+    joints = real.postures(30)
+    measured = real.poses(joints)
+    measured[:3] = measured[3:6]  # outliers
+    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    frame = real.base if known == "base" else real.targets[0]
+    frames = guess_frames(arm, seen, **{known: frame})
+    if known == "base":
+        assert np.array_equal(frames.base, frame) and not frames.base_unknown
+        assert np.abs(frames.targets[0, :3, 3] - real.targets[0, :3, 3]).max() < 0.05
+    else:
+        assert np.array_equal(frames.targets[0], frame) and not frames.targets_unknown
+        assert np.abs(frames.base - real.base).max() < 0.05
+    model = ErrorModel(arm, OFFSETS, frames)
+    estimate = identify(model, seen)
+    fresh = real.postures(50)
+    gaps = model.predict(estimate.parameters, fresh) - real.poses(fresh, noise=(0, 0))
+    assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < 5e-4
+    found = model.found(estimate.parameters)
+    assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
+    standing = model.standing(estimate.parameters, joints, model.terms(joints))
+    ends = found.base @ model.own_arm(estimate.parameters).forward(standing) @ found.targets[0]
+    np.testing.assert_allclose(ends, model.predict(estimate.parameters, joints), atol=1e-12)
+
+
 def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(tmp_path):
     path = tmp_path / "scara.urdf"
     path.write_text(SCARA)

@@ -59,11 +59,42 @@ def test_frames_that_are_known_leave_base_and_tool_to_the_arm(arm, joints, folde
     columns = in_degrees(arm, joints) | measured(arm, joints, np.full((ROWS, 3), [0, 0, 0.05]))
     write(folder / "known.csv", columns)
     result = calibrate_arm(folder / "arm.urdf", folder / "known.csv", folder / "known.toml")
-    assert not result.frames.unknown and result.worthwhile
+    assert not result.frames.base_unknown and not result.frames.targets_unknown
+    assert result.worthwhile
     tests = MIDDLE + 0.8 * SEEN * np.random.default_rng(14).uniform(-1, 1, (20, 3))
     target = np.array([0, 0, 0.05, 1])
     gap = (result.calibration.forward(tests) - arm.forward(tests + OFFSETS)) @ target
     assert np.linalg.norm(gap, axis=1).mean() < 3 * NOISE
+
+
+@pytest.mark.parametrize("part", ["instrument", "target"])
+def test_one_frame_alone_may_be_known(part, arm, joints, folder):
+    both = INSTRUMENT[: INSTRUMENT.index("[target]")], INSTRUMENT[INSTRUMENT.index("[target]") :]
+    (folder / "one.toml").write_text(both[part == "target"])
+    point = np.array([0, 0, 0.05])
+    columns = in_degrees(arm, joints) | measured(arm, joints, np.full((ROWS, 3), point))
+    nominal = arm.forward(joints) @ [*point, 1] - [1, 0, 0, 0]
+    columns |= {f"{axis}_nominal [m]": nominal[:, index] for index, axis in enumerate("xyz")}
+    write(folder / "one.csv", columns)
+    result = calibrate_arm(folder / "arm.urdf", folder / "one.csv", folder / "one.toml")
+    assert result.worthwhile
+    assert (result.frames.base_unknown, result.frames.targets_unknown) == (
+        (False, True) if part == "instrument" else (True, False)
+    )
+    told = str(result.beside)
+    assert "a tool point at (0, 0, 50) mm" in told and "the base moved by (-1000, 0, 0) mm" in told
+    frames = result.calibration.frames
+    assert np.allclose(frames.base[:3, 3], [-1, 0, 0], atol=0.02)
+    assert np.allclose(frames.targets[0, :3, 3], point, atol=0.02)
+
+
+def test_a_ball_whose_place_is_known_needs_no_instrument_either(in_sockets, folder):
+    (folder / "ball.toml").write_text('[target]\nposition = ["0 mm", "0 mm", "0 mm"]\n')
+    result = calibrate_arm("panda.urdf", in_sockets, folder / "ball.toml", tool="panda_hand_tcp")
+    assert np.array_equal(result.calibration.frames.targets[0], np.eye(4))
+    (folder / "ball.toml").write_text(INSTRUMENT)
+    with pytest.raises(InvalidFile, match="has an instrument; a ball in sockets needs none"):
+        calibrate_arm("panda.urdf", in_sockets, folder / "ball.toml", tool="panda_hand_tcp")
 
 
 def test_targets_have_places_of_their_own(arm, joints, folder):

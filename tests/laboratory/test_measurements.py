@@ -260,10 +260,6 @@ WRONG = {
         '[target]\nposition = ["1", "0 m", "0 m"]\n',
         "target.position is '1'; valid: a length in mm, cm, m",
     ),
-    "one frame alone": (
-        "[instrument]\nposition = ['1 m', '0 m', '0 m']\n",
-        "instrument is 'alone'; valid: both instrument and target, or neither",
-    ),
     "one socket": (
         '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
         "distance.sockets is ['a', 'a']; valid: the names of two sockets",

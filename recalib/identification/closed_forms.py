@@ -1,0 +1,158 @@
+"""Where the instrument stands and where the targets sit, in closed form.
+
+With T_i = (R_i, t_i) the pose of the tool that the nominal arm gives, the unknown X (the arm's base
+in the frame of the instrument) and Z_k (target k on the tool, at z_k) fulfil, but for the arm's own
+errors,
+
+- poses Y_i = X T_i Z_k: the rotations by the leading singular vectors of a sum of Kronecker
+  products (Shah 2013, Solving the robot-world/hand-eye calibration problem using the Kronecker
+  product), then the translations by linear least squares;
+- positions y_i = X (t_i + R_i z_k): linear in the inverse of X and in z_k if its rotation may be
+  any matrix, of which the nearest rotation is taken; or, with z_k = 0, by aligning points;
+- a ball in socket s, c_s = t_i + R_i z_k: linear.
+
+Where one of X and Z_k is known, the other follows by aligning points and axes, or linearly.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.identification.frames import BASE, HELD, LINK, UNKNOWN, Frames, nearest_rotation
+from recalib.identification.linearised import LEVER
+from recalib.identification.observations import Observations
+
+OPEN = 1e-2  # a singular value so small, over the largest, leaves a direction open
+# The second singular value over the first: where the tool turns about one axis alone they are equal
+UNDECIDED = 0.9999
+GUESSED = UNKNOWN[0], HELD  # of a point: it has no turn
+
+
+def solutions(
+    tool: np.ndarray,
+    seen: Observations,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> Iterator[Frames]:
+    """Frames that fit rows; none where they are open.
+
+    Args:
+        tool: (n, 4, 4) m, nominal poses.
+        seen: what was seen there.
+        base: (4, 4) m in the frame of the instrument, where it is known.
+        target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
+    """
+    if seen.measured is None:
+        yield _by_sockets(tool, seen, target)
+    elif target is not None:
+        yield _aligned(tool @ target, seen, target)
+    elif base is not None:
+        yield _placed(base[:3, :3], tool, seen, base)
+    else:
+        by_poses = turns_by_poses(tool, seen) if seen.kinds == 2 else []
+        for turn in by_poses or _turns_by_positions(tool, seen):
+            yield _placed(turn, tool, seen, None)
+
+
+def turns_by_poses(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
+    """The rotation (3, 3) of X, from the target that was seen most often; none if it is open."""
+    rows = seen.targets == np.bincount(seen.targets).argmax()
+    # of X R_i = Y_i Z' in the least squares sense, with the rows of each matrix in one vector
+    products = np.einsum("nij,nkl->ikjl", seen.measured[rows, :3, :3], tool[rows, :3, :3])
+    left, values, _ = np.linalg.svd(products.reshape(9, 9))
+    if values[1] >= UNDECIDED * values[0]:
+        return []
+    turn = left[:, 0].reshape(3, 3)
+    return [nearest_rotation(turn * np.sign(np.linalg.det(turn)))]
+
+
+def _turns_by_positions(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
+    """Rotations (3, 3) of X from positions: as if z_k were zero, and as if it were any matrix."""
+    turns, points, count = tool[:, :3, :3], tool[:, :3, 3], len(seen)
+    measured = seen.positions
+    # X' y - R_i z_k + b = t_i
+    matrix = np.kron(np.eye(3), measured[:, None]).reshape(count, 3, 9)
+    unit = np.tile(np.eye(3), (count, 1, 1))
+    system = np.concatenate([matrix, unit, _by_number(-turns, seen.targets)], axis=-1)
+    back = _least_squares(system, points)[:9].reshape(3, 3)
+    return [nearest_rotation(_across(measured, points)), nearest_rotation(back).T]
+
+
+def _aligned(target_poses: np.ndarray, seen: Observations, target: np.ndarray) -> Frames:
+    """By the nominal poses (n, 4, 4) of a target whose place on the tool is known."""
+    points = target_poses[:, :3, 3]
+    across = _across(seen.positions, points)
+    if seen.kinds == 2:
+        turned = seen.measured[:, :3, :3] @ target_poses[:, :3, :3].swapaxes(1, 2)
+        across = across + LEVER**2 * turned.sum(axis=0)
+    base = np.eye(4)
+    base[:3, :3] = nearest_rotation(across)
+    base[:3, 3] = (seen.positions - points @ base[:3, :3].T).mean(axis=0)
+    targets = np.tile(target, (seen.targets.max() + 1, 1, 1))
+    return Frames(base, targets, base_deviations=UNKNOWN, base_unknown=True)
+
+
+def _placed(
+    turn: np.ndarray, tool: np.ndarray, seen: Observations, known: np.ndarray | None
+) -> Frames:
+    """By the rotation (3, 3) of X, or all of it: y_i - X t_i = x + X R_i z_k."""
+    turned = turn @ tool[:, :3, :3]
+    goal = seen.positions - tool[:, :3, 3] @ turn.T
+    system = _by_number(turned, seen.targets)
+    if known is None:
+        unit = np.tile(np.eye(3), (len(seen), 1, 1))
+        found = _least_squares(np.concatenate([unit, system], axis=-1), goal).reshape(-1, 3)
+        base, points = np.eye(4), found[1:]
+        base[:3, :3], base[:3, 3] = turn, found[0]
+    else:
+        base, points = known, _least_squares(system, goal - known[:3, 3]).reshape(-1, 3)
+    targets = np.tile(np.eye(4), (len(points), 1, 1))
+    targets[:, :3, 3] = points
+    if seen.kinds == 2:
+        between = turned.swapaxes(1, 2) @ seen.measured[:, :3, :3]
+        for number, own in enumerate(targets):
+            turns = Rotation.from_matrix(between[seen.targets == number])
+            own[:3, :3] = turns.mean().as_matrix()
+    return Frames(
+        base,
+        targets,
+        base_deviations=UNKNOWN if known is None else BASE,
+        target_deviations=UNKNOWN if seen.kinds == 2 else GUESSED,
+        base_unknown=known is None,
+        targets_unknown=True,
+    )
+
+
+def _by_sockets(tool: np.ndarray, seen: Observations, target: np.ndarray | None) -> Frames:
+    """The frames of balls, and the centres of sockets in the arm's base: c_s - R_i z_k = t_i."""
+    unit = np.tile(np.eye(3), (len(seen), 1, 1))
+    targets = np.tile(np.eye(4) if target is None else target, (seen.targets.max() + 1, 1, 1))
+    centres = _by_number(unit, seen.sockets)
+    if target is not None:
+        sockets = _least_squares(centres, (tool @ target)[:, :3, 3]).reshape(-1, 3)
+        return Frames(np.eye(4), targets, sockets, (HELD, HELD), LINK, base_unknown=True)
+    system = np.concatenate([_by_number(-tool[:, :3, :3], seen.targets), centres], axis=-1)
+    found = _least_squares(system, tool[:, :3, 3]).reshape(-1, 3)
+    targets[:, :3, 3], sockets = found[: len(targets)], found[len(targets) :]
+    return Frames(np.eye(4), targets, sockets, (HELD, HELD), GUESSED, True, True)
+
+
+def _across(measured: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Of points (n, 3) and where they were measured, the sum (3, 3) of products about the means."""
+    return (measured - measured.mean(axis=0)).T @ (points - points.mean(axis=0))
+
+
+def _by_number(blocks: np.ndarray, numbers: np.ndarray) -> np.ndarray:
+    """Blocks (n, 3, 3) in rows (n, 3, 3 * numbers) of a matrix, each in the columns it belongs to.
+
+    What is not there has zeros.
+    """
+    placed = np.zeros((len(blocks), 3, np.max(numbers) + 1, 3))
+    placed[np.arange(len(blocks)), :, numbers] = blocks
+    return placed.reshape(len(blocks), 3, -1)
+
+
+def _least_squares(system: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    """The smallest solution (m,) of a system (n, 3, m) for a goal (n, 3)."""
+    return np.linalg.lstsq(system.reshape(goal.size, -1), goal.ravel(), rcond=OPEN)[0]
