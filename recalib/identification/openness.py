@@ -94,7 +94,7 @@ def _dependent(information: np.ndarray, least: np.ndarray):
         makes_up = np.zeros(0)
         if accepted:
             among = information[np.ix_(accepted, accepted)]
-            makes_up = scipy.linalg.solve(among, across, assume_a="pos")
+            makes_up = scipy.linalg.cho_solve(scipy.linalg.cho_factor(among), across)
         if information[number, number] - across @ makes_up >= least[number]:
             accepted.append(number)
             continue

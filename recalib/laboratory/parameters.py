@@ -10,8 +10,7 @@ from recalib.identification.observations import Observations
 from recalib.identification.openness import open_parameters
 
 DATA = 0.5  # of a prior's variance: what measurements have left less of, they decided
-MOTIONS = "shift along x", "shift along y", "shift along z", "turn about x", "turn about y"
-MOTIONS += ("turn about z",)
+MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 
 
 @dataclass(frozen=True)
@@ -49,31 +48,29 @@ def described(calibration: Calibration) -> list[Parameter]:
 
 
 def open_directions(calibration: Calibration, seen: Observations) -> list[tuple[str, bool]]:
-    """What was seen leaves open, in words, and whether any other postures could tell it."""
+    """What was seen leaves open, in words, and whether any other postures could tell it.
+
+    Each is a parameter and those that would explain the same.
+    """
     names = [name for name, *_ in _names(calibration)]
     told = []
     for one in open_parameters(calibration, seen):
-        partners = " and ".join(_one(names[partner]) for partner in one.partners)
-        its = _one(names[one.parameter])
-        told.append((f"{its} from {partners}" if partners else its, not one.lasting))
+        *others, last = (names[number] for number in (one.parameter, *one.partners))
+        told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
     return told
-
-
-def _one(name: str) -> str:
-    return f"an {name}" if name.startswith("offset") else f"a {name}"
 
 
 def _names(calibration: Calibration) -> Iterator[tuple[str, str, float]]:
     """Name, unit, and its number in an SI unit, of each parameter of geometry."""
     arm, frames = calibration.model.nominal, calibration.model.frames
-    links = ["base", *(f"link behind {joint}" for joint in arm.joints[:-1])]
-    ends = [f"target {number + 1}" for number in range(len(frames.targets))]
+    links = ["of base", *(f"behind {joint}" for joint in arm.joints[:-1])]
+    ends = [f"of target {number + 1}" for number in range(len(frames.targets))]
     if len(ends) == 1:
-        ends = ["target" if frames.targets_unknown else "tool"]
-    for link in [*links, *ends]:
+        ends = ["of target" if frames.targets_unknown else "of tool"]
+    for where in [*links, *ends]:
         for motion in MOTIONS:
             unit, scale = _unit(slides=motion.startswith("shift"))
-            yield f"{motion} of the {link}", unit, scale
+            yield f"{motion} {where}", unit, scale
     for socket in range(len(frames.sockets)):
         for axis in "xyz":
             yield f"{axis} of socket {socket + 1}, beside its first guess", "mm", 1e3

@@ -1,7 +1,8 @@
 """Which postures to measure next: those that teach most, and when it is enough.
 
 Candidates come from the user, or are drawn where the arm has already been and a little beyond:
-there the instrument saw the target and nothing was hit. Joint ranges keep off their ends.
+there the instrument saw the target and nothing was hit, which no joint limit promises. All keep off
+the ends of joint ranges.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ from recalib.randomness import generator
 
 DRAWN = 400  # candidates
 BEYOND = 0.1  # of the range that was looked at, on either side
-OUTERMOST = 0.05  # of a joint's range at either end, in which arms behave otherwise
+OUTERMOST = 0.05  # of a joint's range at either end, a tenth in all: there arms behave otherwise
 PROBES = 200  # postures whose predictions are judged
 ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth measuring
 
@@ -69,9 +70,8 @@ def _drawn(correction: Correction) -> np.ndarray:
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = BEYOND * (high - low)
     lower, upper = _limits(correction)
-    low, high = np.maximum(low - margin, lower), np.minimum(high + margin, upper)
-    random = generator(0, "postures to measure next")
-    return random.uniform(low, np.maximum(low, high), (DRAWN, len(low)))
+    low, high = (np.clip(end, lower, upper) for end in (low - margin, high + margin))
+    return generator(0, "postures to measure next").uniform(low, high, (DRAWN, len(low)))
 
 
 def _limits(correction: Correction) -> tuple[np.ndarray, np.ndarray]:

@@ -94,7 +94,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
     if result.validation.full[HYBRID].residual is not None:
-        yield "how smooth the pattern in what is left is, was chosen once, by all rows"
+        yield "chosen once, by all rows: how smooth the pattern in what is left is"
     if result.validation.unsettled:
         yield "more than geometry was found, and left out: its identification did not converge"
     if len(result.doubted):
@@ -107,10 +107,10 @@ def _notes(result: Calibrated) -> Iterator[str]:
     directions = open_directions(result.calibration, result.seen)
     lasting = [words for words, other_postures_tell in directions if not other_postures_tell]
     for words in [words for words, other_postures_tell in directions if other_postures_tell][:MOST]:
-        yield f"not told apart, but other postures would: {words}"
+        yield f"other postures would tell: {words}"
     for words in lasting:
-        if words.startswith("an offset"):
-            yield f"not told apart by any such measurements: {words}"
+        if words.startswith("offset"):
+            yield f"no postures would tell: {words}"
     yield f"parameters that no such measurements tell apart, kept small: {len(lasting)}"
     for joint, slides, column in zip(arm.joints, arm.slides, result.seen.joints.T, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]

@@ -49,6 +49,10 @@ def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = N
     for joint, axis in zip(arm.joints, arm.axes, strict=True):
         if not axis.any():
             raise UnsuitableRobot(f"the axis of {joint} has no length in {urdf}")
+    limits = model.lowerPositionLimit, model.upperPositionLimit
+    for joint, lower, upper in zip(arm.joints, *limits, strict=True):
+        if not lower <= upper:
+            raise UnsuitableRobot(f"the limits of {joint} are {lower} to {upper} in {urdf}")
     return arm
 
 

@@ -132,6 +132,12 @@ MIMIC = '<mimic joint="slide"/>'
             "tool link .* 'one'; valid: base",
         ),
         (urdf(("a", "revolute", "0 0 0", "0 0 0")), [], UnsuitableRobot, "axis of a has no length"),
+        (
+            SCARA.replace('lower="-2"', 'lower="3"', 1),
+            [],
+            UnsuitableRobot,
+            "the limits of shoulder are 3.0 to 2.0 in",
+        ),
         (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "no URDF"),
         (
             '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="x"><xacro:arm/></robot>',
