@@ -1,6 +1,7 @@
 """`python -m tests.faults` tries every fault and prints a table; `make faults` does."""
 
 import argparse
+import signal
 import sys
 import tempfile
 import time
@@ -21,6 +22,8 @@ def main() -> int:
     chosen = parser.parse_args()
     list_ = SHORT if chosen.short else FAULTS
     names = [name for name in list_ if any(word in name for word in chosen.only)]
+    # what is begun in the background ignores Ctrl-C, and so would all runs
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     broken, missing = [], 0
     print("| tried | survived | how | s |\n| --- | --- | --- | --- |", flush=True)
     with tempfile.TemporaryDirectory(prefix="faults") as folder:
