@@ -80,8 +80,9 @@ report: all ## everything in one file to look at, results/report.html
 docs: setup ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
 
-pictures: setup ## the arm before and after, and a film; needs a Vulkan driver, such as mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun before_and_after film -- pictures
+pictures: setup ## the arm before and after, and a film; SCENARIO: of another one; needs mesa-vulkan-drivers or another Vulkan driver
+	$(SNAKEMAKE) --forcerun before_and_after film -- \
+	  $(if $(SCENARIO),$(addprefix $(RESULTS)/figures/$(SCENARIO),_before.png .webp),pictures)
 
 view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)

@@ -45,6 +45,7 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make view STUDY=my_arm": "opens a window",
     "make web": "serves until it is interrupted",
     "make view SCENARIO=translation": "opens a window",
+    "make pictures SCENARIO=translation": "needs a Vulkan driver, and minutes where it is software",
     "make view STUDY=ur3": "opens a window",
     "make web STUDY=my_arm": "serves until it is interrupted",
     "make web STUDY=ur3": "serves until it is interrupted",

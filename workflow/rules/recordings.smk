@@ -32,25 +32,30 @@ def recordings_of(root):
     return [Layout(root).recording(name) for name in names]
 
 
+def pictured(wildcards):
+    """The recording that pictures are taken of; called `arm`, those of the study's own scenario."""
+    its = wildcards.recording
+    return layout(wildcards).recording(study(wildcards).scenario if its == "arm" else its)
+
+
 rule before_and_after:
     input:
-        recording=lambda w: layout(w).recording(study(w).scenario),
+        recording=pictured,
     output:
         before=report(
-            LAYOUT.figure("arm_before", ".png"),
+            LAYOUT.figure("{recording}_before", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
             labels={"picture": "1: before recalibration"},
         ),
         after=report(
-            LAYOUT.figure("arm_after", ".png"),
+            LAYOUT.figure("{recording}_after", ".png"),
             caption="../report/pictures.rst",
             category="Pictures",
             labels={"picture": "2: after recalibration"},
         ),
     params:
         code=code("pictures.py"),
-        scenario=lambda w: study(w).scenario,
     localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
@@ -60,12 +65,11 @@ rule before_and_after:
 
 rule film:
     input:
-        recording=lambda w: layout(w).recording(study(w).scenario),
+        recording=pictured,
     output:
-        LAYOUT.figure("arm", ".webp"),
+        LAYOUT.figure("{recording}", ".webp"),
     params:
         code=code("film.py"),
-        scenario=lambda w: study(w).scenario,
     localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
