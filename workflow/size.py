@@ -33,19 +33,21 @@ def parts(project: dict, found: dict[str, Distribution]) -> dict[str, list[str]]
 
 
 def _needed(requirements: Iterable[str], found: dict[str, Distribution]) -> set[str]:
-    needed: set[str] = set()
-    waiting = list(requirements)
+    needed: set[tuple[str, str]] = set()  # each with the extra of it that is needed
+    waiting = [Requirement(each) for each in requirements]
     while waiting:
-        its = Requirement(waiting.pop())
+        its = waiting.pop()
         name = canonicalize_name(its.name)
-        if name in found and name not in needed and not _for_an_extra(its):
-            needed.add(name)
-            waiting += found[name].requires or []
-    return needed
+        asked = {(name, extra) for extra in ("", *its.extras)} if name in found else set()
+        for _, extra in asked - needed:
+            others = map(Requirement, found[name].requires or [])
+            waiting += [each for each in others if _applies(each, extra)]
+        needed |= asked
+    return {name for name, _ in needed}
 
 
-def _for_an_extra(requirement: Requirement) -> bool:
-    return bool(requirement.marker) and not requirement.marker.evaluate({"extra": ""})
+def _applies(requirement: Requirement, extra: str) -> bool:
+    return not requirement.marker or requirement.marker.evaluate({"extra": extra})
 
 
 def megabytes(distribution: Distribution) -> float:

@@ -21,14 +21,16 @@ def test_each_distribution_is_counted_once_where_it_is_needed_first():
         "numpy": Made(),
         "pandas": Made(["numpy", "tz", 'odd; extra == "all"', 'win; os_name == "no"']),
         "tz": Made(["pandas"]),
-        "py-test": Made(["tz"]),
+        "py-test": Made(["tz", 'plug; extra == "x"', 'other; extra == "y"']),
         "odd": Made(),
+        "plug": Made(),
+        "other": Made(),
     }
     assert parts(project, found) == {
         "the library": ["numpy"],
         "study": ["pandas", "tz"],
-        "dev": ["py-test"],
-        "others": ["odd"],
+        "dev": ["plug", "py-test"],
+        "others": ["odd", "other"],
     }
 
 
