@@ -22,6 +22,7 @@ PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
 STILL = """document.head.append(Object.assign(document.createElement('style'),
  {textContent: '* {transition: none !important}'}))"""
 
+PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
 HIDDEN = "return !document.querySelector('#rulegraph')?.getBoundingClientRect().width"
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
  + [...document.querySelectorAll("svg:not(#rulegraph svg)")]
@@ -147,6 +148,19 @@ def test_the_front_leads_to_every_kind_of_page_and_shows_no_graph(visit, browser
     click(browser, "//nav//ol//a")
     click(browser, "//nav//span[.='Workflow']")
     assert browser.execute_script(HIDDEN)
+
+
+def test_on_a_phone_the_menu_stands_above_the_page(browser, report):
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+    browser.get(report.as_uri())
+    wait = WebDriverWait(browser, PATIENCE, ignored_exceptions=[WebDriverException])
+    menu, page = (
+        wait.until(lambda _, its=its: browser.find_element(By.CSS_SELECTOR, its)).rect
+        for its in ("nav", ".prose")
+    )
+    browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    assert menu["y"] + menu["height"] <= page["y"]
+    assert page["x"] >= 0 and page["x"] + page["width"] <= PHONE["width"]
 
 
 def test_every_recording_is_linked(visit, report):
