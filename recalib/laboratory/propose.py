@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from recalib.errors import InvalidSetting
 from recalib.identification.design import most_telling
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
@@ -47,7 +48,11 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
         count: how many.
         candidates: joint coordinates, or poses of the tool in the arm's base, of which those that
             are out of reach or near the end of a joint's range are left out; drawn unless given.
+
+    Raises InvalidSetting where they would have to be drawn for a ball in sockets.
     """
+    if candidates is None and len(correction.calibration.frames.sockets):
+        raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
     calibration = correction.calibration
     model, estimate = calibration.model, calibration.estimate

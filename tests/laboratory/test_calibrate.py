@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.propose import propose
 from recalib.laboratory.summary import summary
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
@@ -134,6 +135,8 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets, folder):
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
     assert result.worthwhile and result.sockets == ("left", "right")
     assert "a ball in sockets shows errors there" in summary(result)
+    with pytest.raises(InvalidSetting, match="candidates is None; valid: postures in which"):
+        propose(result.correction, 3)
 
 
 def test_a_distance_between_sockets_that_are_not_there_is_refused(in_sockets, folder):
