@@ -55,7 +55,7 @@ def test_limits_are_said_in_words():
 def test_a_claim_sees_what_it_declared_and_nothing_else(supporting):
     job = judging(supporting.request)
     for claim in CLAIMS:
-        needs = job.claims[claim.id]
+        needs = supporting.made(job.claims[claim.id])
         for path in needs.files:
             without = tuple(each for each in needs.files if each != path)
             with pytest.raises(Undeclared, match=path):
