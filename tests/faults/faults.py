@@ -73,6 +73,7 @@ def job_killed(yard: Yard) -> str:
 def interrupted(yard: Yard) -> str:
     project = yard.bare()
     process = project.at_work()
+    time.sleep(2)  # while Python itself is still beginning, it answers in its own words
     os.killpg(process.pid, signal.SIGINT)
     project.ended(process).badly()
     project.run().well()
