@@ -3,6 +3,7 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
+from recalib.identification import calibration as module
 from recalib.identification.calibration import angles_for, calibrate, calibrate_again
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
@@ -44,6 +45,18 @@ def test_an_arm_that_cannot_reach_its_pose_keeps_no_other_from_it(controller, ca
 
 def test_no_poses_need_no_angles(calibrations):
     assert angles_for(calibrations, np.empty((2, 0, 4, 4)), np.empty((2, 0, 6))).shape == (2, 0, 6)
+
+
+def test_a_pattern_is_learned_from_so_many_rows_at_most(controller, monkeypatch):
+    robot, random = controller.robot, np.random.default_rng(1)
+    angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(random, 40)))
+    gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
+    seen = Observations(angles, gear.forward(angles))
+    for most, used in ((40, 40), (30, 30)):
+        monkeypatch.setattr(module, "MOST", most)
+        inputs = calibrate(robot.arm, (OFFSETS,), seen).residual.state()["inputs"]
+        assert len(np.unique(inputs, axis=0)) == used
+        assert {*map(tuple, inputs)} <= {*map(tuple, angles)}
 
 
 def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibrations):

@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import BadMeasurement
+from recalib.identification.closed_forms import turns_by_poses
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.first_guess import NoFirstGuess, fewest, guess_frames
@@ -94,6 +96,21 @@ def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(tmp_pa
     real = Real(nominal, 7)
     joints = real.postures(30)
     assert misses(real, nominal, Observations(joints, real.poses(joints))).mean() < 5e-4
+
+
+def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_about_one_axis():
+    random = np.random.default_rng(9)
+    turns = Rotation.random(12, random_state=9)
+    tool, base, target = np.tile(np.eye(4), (12, 1, 1)), np.eye(4), np.eye(4)
+    base[:3, :3], target[:3, :3] = turns[0].as_matrix(), turns[1].as_matrix()
+    tool[:, :3, 3] = random.uniform(-1, 1, (12, 3))
+
+    def told(turned: Rotation) -> list[np.ndarray]:
+        tool[:, :3, :3] = turned.as_matrix()
+        return turns_by_poses(tool, Observations(np.zeros((12, 6)), base @ tool @ target))
+
+    np.testing.assert_allclose(told(turns), [base[:3, :3]], atol=1e-12)
+    assert told(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
 
 
 @pytest.mark.parametrize(

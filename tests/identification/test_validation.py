@@ -110,6 +110,12 @@ def test_blocks_lie_together():
     assert len(np.unique(folds.reshape(FOLDS, 8), axis=1).T) == 1 and len(set(folds)) == FOLDS
 
 
+def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
+    joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
+    units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
+    assert np.array_equal(blocks(Observations(joints, 0)), blocks(Observations(joints * units, 0)))
+
+
 @pytest.mark.parametrize("count", [16, 30])
 def test_a_third_of_the_rows_may_be_grossly_wrong(arm, count):
     real = Real(arm, count)

@@ -39,9 +39,18 @@ KILLED, SURVIVED, STILLBORN = "killed", "survived", "stillborn"
 
 # By the part of the project that a mutant is in: the tests that it meets, the nearest first.
 TESTS = {
-    "recalib/identification": ["tests/identification", "tests/learners/test_peers.py"],
-    "recalib/learners": ["tests/learners", "tests/test_learned.py"],
-    "recalib/nominal": ["tests/nominal"],
+    "recalib/identification": [
+        "tests/identification",
+        "tests/learners/test_peers.py",
+        "tests/laboratory",
+    ],
+    "recalib/learners": [
+        "tests/learners",
+        "tests/test_learned.py",
+        "tests/test_experiment.py",
+        "tests/study/experiments/test_planted.py",
+    ],
+    "recalib/nominal": ["tests/nominal", "tests/damaged"],
     "recalib/damaged": ["tests/damaged", "tests/study/configuration/test_entries.py"],
     "recalib/study/statistics.py": [
         "tests/study/evidence/test_statistics.py",
