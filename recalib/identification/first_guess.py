@@ -5,6 +5,7 @@ not all spoil. The best, by the median of what they miss, are refined by robust 
 """
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -119,17 +120,18 @@ def _refined(arm: Arm, frames: Frames, seen: Observations) -> Frames:
     varied = np.flatnonzero(model.free & (model.deviations > HELD))
     terms, units = model.terms(seen.joints), np.array([1.0, LEVER])[: seen.kinds, None, None]
 
-    def look(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    @lru_cache(maxsize=1)  # residuals and slopes are asked for one after the other
+    def look(numbers: bytes) -> tuple[np.ndarray, np.ndarray]:
         parameters = np.zeros_like(model.deviations)
-        parameters[varied] = numbers
+        parameters[varied] = np.frombuffer(numbers)
         near = Linearised(model, parameters, seen, terms)
         slopes = near.jacobians[..., varied] * units[..., None]
         return (near.residuals * units).ravel(), -slopes.reshape(-1, len(varied))
 
     found = least_squares(
-        lambda numbers: look(numbers)[0],
+        lambda numbers: look(numbers.tobytes())[0],
         np.zeros(len(varied)),
-        jac=lambda numbers: look(numbers)[1],
+        jac=lambda numbers: look(numbers.tobytes())[1],
         loss="soft_l1",
         f_scale=ROBUST,
         max_nfev=STEPS,
