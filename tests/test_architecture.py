@@ -86,15 +86,6 @@ def test_what_draws_a_calibration_is_not_needed_to_make_one(package):
     assert ran.stdout.startswith("1 ") and f"{package} is missing; pip install" in ran.stdout
 
 
-def test_a_laboratory_compiles_nothing():
-    """It would start a tenth slower: Numba is there for the loops of studies."""
-    text = (
-        "import sys; sys.modules['numba'] = None\n"
-        "from recalib.laboratory import calibrate, correct, files, propose, command_line"
-    )
-    subprocess.run([sys.executable, "-c", text], cwd=ROOT, check=True)
-
-
 def test_rerun_is_imported_by_the_recordings_alone():
     for path in (ROOT / "recalib").rglob("*.py"):
         uses = any(name.split(".")[0] == "rerun" for name in imported(path))
