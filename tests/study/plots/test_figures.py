@@ -32,8 +32,8 @@ OF_UNIVERSES = "figure14", "figure15", "multiverse"
 EVERYWHERE = [name for name in FIGURES if name not in OF_UNIVERSES]
 
 
-def bytes_of(figure: str, needs, folder) -> list[bytes]:
-    paths = [folder / f"{figure}{suffix}" for suffix in (".svg", ".png")]
+def bytes_of(figure: str, needs, folder, suffixes=(".svg", ".png")) -> list[bytes]:
+    paths = [folder / f"{figure}{suffix}" for suffix in suffixes]
     with plt.rc_context(STYLE):
         save(DRAWINGS[figure](Evidence(needs)), *paths)
     return [path.read_bytes() for path in paths]
@@ -156,38 +156,34 @@ def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
     plt.close(figure)
 
 
-def drawn_by(figure: str, made_up):
+@pytest.fixture(
+    scope="module", params=[name for name in EVERYWHERE if FIGURES[name].part != "ideas"]
+)
+def drawing(request, made_up):
+    """A figure of results, drawn."""
     with plt.rc_context(STYLE):
-        drawing = DRAWINGS[figure](Evidence(needs_of(figure, made_up.request)))
-        drawing.draw_without_rendering()
-    return drawing
+        its = DRAWINGS[request.param](Evidence(needs_of(request.param, made_up.request)))
+        its.draw_without_rendering()
+    yield its
+    plt.close(its)
 
 
-OF_RESULTS = [name for name in EVERYWHERE if FIGURES[name].part != "ideas"]
-
-
-@pytest.mark.parametrize("figure", OF_RESULTS)
-def test_legends_hide_no_data_and_the_grid_lies_below(figure, made_up):
-    drawing = drawn_by(figure, made_up)
+def test_legends_hide_no_data_and_the_grid_lies_below(drawing):
     legends = [*drawing.legends, *filter(None, (axes.get_legend() for axes in drawing.axes))]
     for axes in drawing.axes:
         assert axes.get_axisbelow() is True
         for legend in legends:
             assert not legend.get_window_extent().overlaps(axes.get_window_extent())
-    plt.close(drawing)
 
 
-@pytest.mark.parametrize("figure", OF_RESULTS)
-def test_every_line_across_a_figure_says_what_it_is(figure, made_up):
+def test_every_line_across_a_figure_says_what_it_is(drawing):
     """Those that part one side from the other: at each ends some text of the axes."""
-    drawing = drawn_by(figure, made_up)
     for axes in drawing.axes:
         own = [line for line in axes.lines if str(line.get_color()) == BORDER["color"]]
         said = [text.xy for text in axes.texts if hasattr(text, "xy")]
         for line in own:
             (x, _), (y, _) = line.get_data()
-            assert any(np.isclose(x, at[0]) or np.isclose(y, at[1]) for at in said), figure
-    plt.close(drawing)
+            assert any(np.isclose(x, at[0]) or np.isclose(y, at[1]) for at in said)
 
 
 def test_a_colour_means_one_thing_throughout():
@@ -206,17 +202,18 @@ def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
     return np.allclose(gone, most * gone.max() / most.max(), atol=0.02)
 
 
+@few_resamples()
 @pytest.mark.parametrize("figure", [name for name in FIGURES if name != "figure8"])
 def test_every_colour_of_a_figure_has_its_meaning(figure, study, made_up, tmp_path, monkeypatch):
     """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
     monkeypatch.chdir(ROOT)  # where what was measured in the universes is committed
     made = figure in EVERYWHERE
     needs = needs_of(figure, made_up.request) if made else needs_of_a_full_run(figure, study)
-    text = bytes_of(figure, needs, tmp_path)[0].decode()
+    (svg,) = bytes_of(figure, needs, tmp_path, [".svg"])
     known = [look.color for look in LOOKS.values()] + [color for color, _ in OTHER.values()]
     known += [color for color, _ in UNKNOWN] + [style["color"] for style in (POSITION, ORIENTATION)]
     known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]
-    used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", text)}]
+    used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", svg.decode())}]
     strange = [color for color in used if not any(is_a_shade_of(color, its) for its in known)]
     assert used and not strange
 
