@@ -12,7 +12,7 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory check bench report docs pictures view web notebook tune design universes ship lock clean
+.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design universes ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -67,6 +67,9 @@ mutants: setup ## plant small errors that nobody chose, and say what no test not
 
 laboratory: setup ## what the identification of any arm has to show, in half an hour; RECORDED=FOLDER: on a real UR5, too
 	.venv/bin/python -m tests.identification.bars $(addprefix --recording ,$(RECORDED))
+
+peers: setup ## our calibration beside figaroh's and robotkinecal's, each in an environment of its own: docs/peers.md
+	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
 
 check: setup ## the final errors against their bands, by themselves
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
