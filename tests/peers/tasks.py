@@ -115,16 +115,7 @@ def _positions(measured: np.ndarray) -> np.ndarray:
     return measured if measured.ndim == 2 else measured[:, :3, 3]
 
 
-class Simulated(Real):
-    """An arm with everything a little off, an instrument and a target anywhere."""
-
-    @property
-    def frames(self) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (4, 4) [m] of the base in the instrument and of the target on the tool."""
-        return self._base, self._targets[0]
-
-
-class Shortened(Simulated):
+class Shortened(Real):
     """An arm with the paper's damage: three links shortened, three joints off, all else right."""
 
     def __init__(self, nominal: Arm, seed: int):
@@ -143,7 +134,7 @@ class Shortened(Simulated):
 def simulated(
     scenario: str,
     name: str,
-    kind: type[Simulated],
+    kind: type[Real],
     draw: int,
     told: bool = True,
     outliers: float = 0.0,
@@ -157,7 +148,8 @@ def simulated(
     ways = Rotation.random(POSES, rng=real.random).as_matrix()[:, 0]
     measured[far, :3, 3] += FAR * ways[far]
     seen, truth = Observations(joints, measured), real.poses(fresh, noise=(0, 0))
-    return Task(scenario, draw, arm, urdf, seen, fresh, truth, real.frames if told else None)
+    frames = (real.base, real.targets[0]) if told else None
+    return Task(scenario, draw, arm, urdf, seen, fresh, truth, frames)
 
 
 def recorded(folder: Path) -> Iterator[Task]:
@@ -179,9 +171,9 @@ def recorded(folder: Path) -> Iterator[Task]:
 def tasks(draws: int, recording: Path | None) -> Iterator[Task]:
     """All tasks."""
     for draw in range(draws):
-        yield simulated("panda", "Panda", Simulated, draw)
+        yield simulated("panda", "Panda", Real, draw)
         yield simulated("ur10", "UR10", Shortened, draw)
         yield simulated("ur10_outliers", "UR10", Shortened, draw, outliers=OUTLIERS)
-        yield simulated("untold", "Panda", Simulated, draw, told=False)
+        yield simulated("untold", "Panda", Real, draw, told=False)
     if recording is not None:
         yield from recorded(recording)

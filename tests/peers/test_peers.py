@@ -11,7 +11,7 @@ from recalib.identification.observations import Observations
 from recalib.nominal.arms import find_urdf, load_arm
 from recalib.nominal.kinematics import Arm
 from tests.identification.bars import ARMS
-from tests.identification.real import anywhere
+from tests.identification.real import Real, anywhere
 from tests.peers.__main__ import PEERS
 from tests.peers.page import HERE, PAGE, WHO, context, render
 from tests.peers.tasks import (
@@ -22,7 +22,6 @@ from tests.peers.tasks import (
     SHORTENED,
     SUBSETS,
     Shortened,
-    Simulated,
     Task,
     recorded,
     simulated,
@@ -88,7 +87,7 @@ def test_the_axes_that_a_peer_is_given_are_those_of_the_nominal_arm(name, measur
 
 
 def test_a_peer_is_not_given_the_truth(tmp_path):
-    task = simulated("panda", "Panda", Simulated, 0)
+    task = simulated("panda", "Panda", Real, 0)
     task.write(tmp_path)
     with np.load(tmp_path / "panda-000.npz") as given:
         assert {*given} == {
