@@ -59,6 +59,7 @@ TESTS = {
     "recalib/study/evidence": [
         *(f"tests/study/evidence/test_{name}.py" for name in ("words", "tables", "criteria")),
         *(f"tests/study/evidence/test_{name}.py" for name in ("evidence", "speedup", "claims")),
+        "tests/study/evidence/test_statistics.py",
         "tests/study/experiments/test_benchmark.py",
         "tests/study/evidence/test_report_texts.py",
         "tests/study/evidence/test_across.py",
