@@ -14,6 +14,12 @@ ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT))
 os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(ROOT / "workflow" / "start")])
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+# The same last digits on every processor with AVX2: otherwise NumPy and its linear algebra take
+# other loops on newer ones, and a search ends elsewhere where a likelihood is flat.
+processor = Path("/proc/cpuinfo")
+if processor.exists() and "avx2" in processor.read_text(encoding="utf-8"):
+    os.environ["NPY_DISABLE_CPU_FEATURES"] = "X86_V4 AVX512_ICL AVX512_SPR"
+    os.environ["OPENBLAS_CORETYPE"] = "Haswell"
 
 # Snakemake asks of every parameter whether it is a table, and brings pandas for that, which takes
 # longer than all else here. Ours are text.
