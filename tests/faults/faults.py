@@ -57,15 +57,20 @@ def killed(yard: Yard) -> str:
     return f"{CHAIN} times; then {SAME}"
 
 
+def _goes_on(yard: Yard, project: Project, process: subprocess.Popen) -> None:
+    """A run fails, and the next one makes up for it."""
+    project.ended(process).badly()
+    project.run().well()
+    yard.finished(project)
+
+
 @tried("kill -9 of one job")
 def job_killed(yard: Yard) -> str:
     project = yard.bare()
     process = project.at_work()
     for script in project.scripts()[:1]:
         script.kill()
-    project.ended(process).badly()
-    project.run().well()
-    yard.finished(project)
+    _goes_on(yard, project, process)
     return f"the run fails; the next one: {SAME}"
 
 
@@ -75,9 +80,7 @@ def interrupted(yard: Yard) -> str:
     process = project.at_work()
     time.sleep(2)  # while Python itself is still beginning, it answers in its own words
     os.killpg(process.pid, signal.SIGINT)
-    project.ended(process).badly()
-    project.run().well()
-    yard.finished(project)
+    _goes_on(yard, project, process)
     return f"the run ends; the next one: {SAME}"
 
 
