@@ -1,9 +1,11 @@
 """Archives of named arrays in groups, with a header: NumPy's .npz, whole or not at all."""
 
+import io
 import json
 import zipfile
 from collections.abc import Mapping
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,18 @@ from recalib.errors import InvalidFile
 from recalib.interfaces import State
 from recalib.storage import whole
 
+# What NumPy and zipfile raise of damaged files; RuntimeError where one seems to be encrypted.
+UNREADABLE = (
+    AttributeError,
+    EOFError,
+    KeyError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+)
+
 
 def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State) -> None:
     """Write arrays, named by their groups as in position/theta.
@@ -19,8 +33,9 @@ def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State
     Args:
         header: of JSON's types, with the `format` and its `version`.
     """
+    arrays = flat(groups)
     with whole(path) as temporary:
-        np.savez(temporary, header=json.dumps(header), **flat(groups))
+        np.savez(temporary, header=json.dumps({**header, "arrays": [*arrays]}), **arrays)
 
 
 def read_archive(
@@ -32,19 +47,26 @@ def read_archive(
         kind: its format and version, as they must be.
         writer: what writes such archives, for messages.
 
-    Raises InvalidFile: not whole, or not of this format.
+    Raises InvalidFile: not there, not whole, or not of this format.
     """
+    broken = InvalidFile(path, f"it is not whole, or not written by {writer}")
     try:
-        with open(path, "rb") as stream, np.load(stream) as file:
+        content = io.BytesIO(Path(path).read_bytes())
+    except OSError as error:
+        raise InvalidFile(path, error.strerror) from None
+    try:
+        with np.load(content) as file:
             arrays = {name: file[name][()] for name in file.files}
         header = json.loads(str(arrays.pop("header")))
         found = header["format"], header["version"]
-    except (AttributeError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile):
-        raise InvalidFile(path, f"it is not whole, or not written by {writer}") from None
-    if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
-        raise InvalidFile(path, "it holds numbers that are none")
+    except UNREADABLE:
+        raise broken from None
     if found != kind:
         raise InvalidFile(path, f"it is of format {found}; valid: {kind}")
+    if header.pop("arrays", None) != [*arrays]:  # a damaged directory can hide some
+        raise broken
+    if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
+        raise InvalidFile(path, "it holds numbers that are none")
     return header, _nested(arrays)
 
 

@@ -19,7 +19,7 @@ from recalib.interfaces import Savable, State
 if TYPE_CHECKING:  # to join files takes no robot
     from recalib.nominal.robots import Robot
 
-FORMAT, VERSION = "recalib learner", 4
+FORMAT, VERSION = "recalib learner", 5
 KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
 ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
 PROBES = 8  # joint angles at which the kinematics of two robots are compared

@@ -179,9 +179,9 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1, 1), robot)
     arrays = dict(np.load(path))
-    header = json.loads(str(arrays.pop("header"))) | {"version": 5}
+    header = json.loads(str(arrays.pop("header"))) | {"version": 6}
     np.savez(path, header=json.dumps(header), **arrays)
-    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 5\); valid: .* 4\)"):
+    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 6\); valid: .* 5\)"):
         load(path, robot)
 
 
