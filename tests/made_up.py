@@ -157,7 +157,8 @@ class MadeUp:
         )
 
     def coverage(self) -> pd.DataFrame:
-        return pd.DataFrame({"change": ["maps"], "effect": ["with it"], "inside": [0.95]})
+        row = {"change": "maps", "effect": "with it", "inside": 0.95}
+        return pd.DataFrame([row | {"once_low": 0.8, "once_high": 1.2}])
 
     def coupling(self) -> pd.DataFrame:
         rng = np.random.default_rng(1)

@@ -99,3 +99,8 @@ def make_peer(name: str, runs: int, controller: "Controller") -> "Learner":
 def needs_of(name: str) -> str:
     """What a learner needs to know."""
     return ENTRANTS[name].needs if name in ENTRANTS else TWO_MOVES
+
+
+def label_of(name: str) -> str:
+    """What a learner is called."""
+    return ENTRANTS[name].label if name in ENTRANTS else name.replace("_", " ")

@@ -12,7 +12,7 @@ from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims.switches import ask_for, with_and_without
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.statistics import Draws, combined
+from recalib.study.statistics import Draws, combined, ratio_of_two
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -28,7 +28,8 @@ def needs(ask: Request) -> None:
 def coverage(evidence: Evidence) -> "pd.DataFrame":
     """How often the interval from one half of the searches holds the other half's number.
 
-    A row for each effect: that of a change on the improved system, or on Ritter's.
+    A row for each effect: that of a change on the improved system, or on Ritter's; with where a
+    study would find it that searches only once.
     """
     import pandas as pd  # half a second, which the workflow would pay whenever it starts
 
@@ -36,9 +37,10 @@ def coverage(evidence: Evidence) -> "pd.DataFrame":
     for switch in SWITCHES:
         for label, pair in with_and_without(evidence, switch).items():
             luck = evidence.rng("coverage", switch.key, label)
-            values = [np.log(combined(evidence.errors(each))) for each in pair]
-            inside = _inside(*values, luck)
-            rows.append({"change": switch.label, "effect": label, "inside": inside.mean()})
+            errors = [combined(evidence.errors(each)) for each in pair]
+            inside = _inside(*map(np.log, errors), luck).mean()
+            once = dict(zip(("once_low", "once_high"), ratio_of_two(*errors), strict=True))
+            rows.append({"change": switch.label, "effect": label, "inside": inside, **once})
     return pd.DataFrame(rows)
 
 

@@ -103,6 +103,7 @@ def figures() -> list[str]:
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary, scaled = evidence.summary(), evidence.ensemble(IMPROVED, "scaled")
+    coverage = evidence.coverage()
     ensembles = [evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
     improved = evidence.fact("improved")
@@ -120,7 +121,8 @@ def context(evidence: Evidence) -> dict:
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),
-        "coverage": 100 * evidence.coverage()["inside"].mean(),
+        "coverage": 100 * coverage["inside"].mean(),
+        "once": coverage.to_dict("records"),
         "trials": len(sample) // searched_for.searches,
         "searches": searched_for.searches,
         "ensemble": _ensemble(*ensembles),

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.study.entrants import PEERS
+from recalib.study.entrants import PEERS, label_of
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS
@@ -52,7 +52,7 @@ def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
                         "error": error.split("_")[0],
                         "hybrid": errors["hybrid"],
                         "best": others.min(),
-                        "learner": others.idxmin().replace("_", " "),
+                        "learner": label_of(others.idxmin()),
                     }
                 )
     return rows
@@ -69,6 +69,7 @@ def context(evidence: Evidence) -> dict:
         "threshold": threshold,
         "seeds": table["seeds"].max(),
         "learners": learners,
+        "label": label_of,
         "scenarios": list(table["scenario"].unique()),
         "moves": lambda scenario, learner: moves_text(its.loc[[(scenario, learner)]]),
         "needs": reached.groupby("learner")["needs"].first(),

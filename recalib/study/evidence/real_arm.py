@@ -1,5 +1,6 @@
 """What the page of the real arm says."""
 
+from recalib.study.entrants import label_of
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.real import ERROR
 from recalib.study.evidence.results import Evidence
@@ -19,7 +20,8 @@ def context(evidence: Evidence) -> dict:
     table, published = evidence.real(), evidence.fact("published_mm")
     errors: dict[str, dict[int, str]] = {}
     for row in table.to_dict("records"):
-        its = errors.setdefault(row["learner"].replace("_", " "), {})
+        name, _, twin = row["learner"].partition(" ")
+        its = errors.setdefault(f"{label_of(name)} {twin}".strip(), {})
         its[row["poses"]] = f"{row[ERROR]:.3f}"
     return {
         "robot": evidence.fact("real_robot").upper(),

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from recalib.study.entrants import ENTRANTS
+from recalib.study.entrants import ENTRANTS, label_of
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
@@ -57,5 +57,5 @@ def looks(learners: Iterable[str]) -> dict[str, Look]:
             found[learner] = replace(LOOKS[name], color=color, marker=marker, linestyle=DOTTED)
         else:
             color, marker = UNKNOWN[len(found.keys() - LOOKS.keys()) % len(UNKNOWN)]
-            found[learner] = Look(color, marker, DASHED, learner.replace("_", " "))
+            found[learner] = Look(color, marker, DASHED, label_of(learner))
     return found

@@ -147,9 +147,9 @@ def figure10(evidence: Evidence) -> Figure:
         alpha=0.35,
         color="0.5",
         linewidths=0,
-        label=f"{len(table):,} assignments",
         rasterized=True,
     )
+    axes.scatter([], [], s=25, color="0.5", label=f"{len(table):,} assignments")
     nearest = evidence.nearest_assignment()
     axes.scatter(
         *(nearest[error] for error in ERRORS),

@@ -31,6 +31,7 @@ STYLE = {
     "axes.axisbelow": True,  # the grid
     "grid.color": "0.9",
     "legend.frameon": False,
+    "legend.handlelength": 2.6,  # two whole dashes
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
@@ -60,7 +61,7 @@ def save(figure: Figure, *paths: str | Path) -> None:
 def plain(axis: Axis, *ticks: float) -> None:
     """Label a logarithmic axis at these values, as plain numbers."""
     axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
     axis.set_minor_locator(NullLocator())
 
 

@@ -136,7 +136,7 @@ def figure15(evidence: Evidence) -> Figure:
         )
         axes.scatter(table["chance"], heights, s=60, marker="|", color="black", zorder=2)
         names = [
-            f"{row.factor.replace('_', ' ')}: {row.least} < {row.largest}"
+            f"{row.factor}: {row.least} < {row.largest}".replace("_", " ")
             for row in table.itertuples()
         ]
         axes.set_yticks(heights, names, fontsize=7)

@@ -7,6 +7,7 @@ from typing import Any
 
 from recalib.study import jobs
 from recalib.study.configuration.damages import Entry, damages_among, describe
+from recalib.study.entrants import label_of
 from recalib.study.measured import ERRORS
 from recalib.study.plants import Resolved
 from recalib.study.recording.scatter import enlarged
@@ -83,7 +84,7 @@ def beside(watched: Mapping[str, Watched]) -> str:
     """The text below all learners' arms, in Markdown."""
     each = (
         EACH.format(
-            name=named(name),
+            name=label_of(name),
             what="a map" if its.cells else "an identified model",
             moves=its.history.moves[-1],
             **_ends(its),
@@ -97,11 +98,6 @@ def when(resolved: Resolved) -> tuple[str, str]:
     """What the captions call the first and the third act."""
     what = "recalibration" if damages_among(resolved.damages) else "learning"
     return f"before {what}", f"after {what}"
-
-
-def named(learner: str) -> str:
-    """A learner's name for people."""
-    return learner.replace("_", " ")
 
 
 def in_words(entry: Entry) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
-from recalib.study.recording.about import named
+from recalib.study.entrants import label_of
 from recalib.study.recording.errors import PUBLISHED
 from recalib.study.recording.story import Watched
 
@@ -46,13 +46,13 @@ def arrange(
         name="the arm before and after",
     )
     beside = rrb.Vertical(
-        rrb.Horizontal(*(_scene(named(each), each, workspace, eye) for each in learners)),
+        rrb.Horizontal(*(_scene(label_of(each), each, workspace, eye) for each in learners)),
         rrb.Horizontal(
             rrb.TextDocumentView(origin="beside", name="what one sees"),
             *_plots(learners, watched, published),
         ),
         row_shares=[5, 3],
-        name=" and ".join(map(named, learners)),
+        name=" and ".join(map(label_of, learners)),
     )
     several = len(learners) > 1
     return rrb.Blueprint(

@@ -16,6 +16,7 @@ from recalib.study.statistics import (
     first_within,
     geometric,
     ratio,
+    ratio_of_two,
     typical,
 )
 from tests.made_up import OF_SEARCHES, OF_SEEDS, MadeUp
@@ -50,6 +51,21 @@ def test_the_interval_holds_repetitions_as_often_as_it_says(searches, compared, 
         inside.append(found.low <= np.exp(again[0] - sum(again[1:])) <= found.high)
     # three standard errors of 95 %; drawing seeds counts some of their luck twice, hence 99
     assert 0.905 <= np.mean(inside) <= 0.99
+
+
+@pytest.mark.parametrize("searches", [4, 12])
+def test_studies_with_one_search_find_their_number_as_often_as_it_says(searches):
+    inside = []
+    for number in range(1000):
+        random = rng(6, searches, number)
+        low, high = ratio_of_two(*(training(random, searches) for _ in range(2)))
+        ours, theirs = (np.log(training(random, 1)).mean() for _ in range(2))
+        inside.append(low <= np.exp(ours - theirs) <= high)
+    assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 1000))
+
+
+def test_of_a_single_search_nothing_is_said_of_another():
+    assert np.isnan(ratio_of_two(np.ones((1, SEEDS)), np.ones((2, SEEDS)))).all()
 
 
 def test_an_interval_grows_with_the_spread_of_searches_and_with_that_of_seeds(quick):

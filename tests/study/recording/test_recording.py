@@ -357,7 +357,7 @@ def test_the_panel_names_the_robot_and_what_is_wrong_with_it(resolved, recording
     ):
         assert words in texts[0][0]
     _, texts = columns("/beside", "TextDocument:text")
-    assert "under 2 learners" in texts[0][0] and "**ritter**, a map: 80 moves" in texts[0][0]
+    assert "under 2 learners" in texts[0][0] and "**Ritter**, a map: 80 moves" in texts[0][0]
 
 
 @pytest.mark.parametrize("damages", [(), (Noise(0.0002, 0.0003),)], ids=["intact", "noise alone"])
