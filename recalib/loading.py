@@ -35,7 +35,7 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
 
 
 def _build(kind: str, settings: Mapping[str, Any], runs: int, robot: Robot) -> Savable:
-    # Imported where they are used: the maps need not wait for scikit-learn.
+    # Imported where they are used: the maps need not wait for SciPy.
     match kind:
         case "hierarchical":
             from recalib.learners.hierarchical import HierarchicalLearner

@@ -1,15 +1,15 @@
-"""Gaussian process regression, by scikit-learn, for several outputs with one covariance.
+"""Gaussian process regression for several outputs with one covariance.
 
 The covariance is that of a linear trend, a smooth function with a length along each input, and
 white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
-the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
+the trend's variance, of the smooth function's, of its lengths and of the noise's variance. The
+equations are those of Rasmussen and Williams (2006), Gaussian Processes for Machine Learning.
 """
 
 import numpy as np
+from scipy.linalg import cho_solve, cholesky
 from scipy.optimize import minimize
 from scipy.spatial.distance import cdist
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import Kernel
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
@@ -20,51 +20,12 @@ FEWEST = 6  # points to judge hyperparameters by
 MOST = 128
 STEPS = 50  # of a search
 ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
+REGULAR = 1e-10  # a variance that every point has, lest exact data make singular equations
 
 
 def is_time_to_search(before: int, points: int) -> bool:
     """Whether to search hyperparameters anew: the points have doubled since there were `before`."""
     return points.bit_length() > before.bit_length() and before < MOST
-
-
-class Covariance(Kernel):
-    """The covariance as one kernel: faster than a sum of scikit-learn's.
-
-    Args:
-        theta: (d + 3,) the hyperparameters.
-    """
-
-    theta = None  # replaces a property that collects them from the parts of a kernel
-
-    def __init__(self, theta: np.ndarray):
-        self.theta = theta
-
-    def __call__(self, X: np.ndarray, Y: np.ndarray | None = None, eval_gradient: bool = False):
-        """Covariances (n, m) of points X (n, d) with points Y (m, d), or of X with itself.
-
-        The latter include the noise; `eval_gradient` adds their gradient (n, n, d + 3) by the
-        hyperparameters.
-        """
-        trend, smooth, *lengths, noise = np.exp(self.theta)
-        others = X if Y is None else Y
-        linear = trend * (1 + X @ others.T)
-        bell = smooth * np.exp(-cdist(X / lengths, others / lengths, "sqeuclidean") / 2)
-        if Y is not None:
-            return linear + bell
-        white = noise * np.eye(len(X))
-        covariances = linear + bell + white
-        if not eval_gradient:
-            return covariances
-        by_length = bell[..., None] * np.square((X[:, None] - X) / lengths)
-        return covariances, np.dstack([linear, bell, by_length, white])
-
-    def diag(self, X: np.ndarray) -> np.ndarray:
-        """Variances (n,) at the points X (n, d)."""
-        return np.diag(self(X))
-
-    def is_stationary(self) -> bool:
-        """It is not: the trend has a centre."""
-        return False
 
 
 class Process:
@@ -96,16 +57,16 @@ class Process:
                 else _start(inputs.shape[1])
             )
         self.hyperparameters = hyperparameters
-        self._regressor = _regressor(inputs, outputs, hyperparameters)
+        likelihood = Likelihood(inputs, outputs, hyperparameters)
+        self._points, self._weights = inputs, likelihood.weights
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
         chance = len(hyperparameters) / 2 * np.log(outputs.size)
-        self.gain = self._regressor.log_marginal_likelihood_value_ - white - chance
+        self.gain = likelihood.value - white - chance
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        # The regressor's own `predict` checks and copies for longer than it computes.
-        regressor = self._regressor
-        expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
+        linear, bell = _parts(inputs - self._centre, self._points, self.hyperparameters)
+        expected = (linear + bell) @ self._weights
         return self._mean + expected * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
@@ -117,16 +78,56 @@ class Process:
         }
 
 
+class Likelihood:
+    """The marginal likelihood of hyperparameters, given training data.
+
+    Args:
+        inputs: (n, d).
+        outputs: (n, k), each of mean zero and a deviation of one.
+        hyperparameters: (d + 3,).
+
+    Attributes:
+        value: its logarithm.
+        weights: (n, k) of the training points in what is expected elsewhere.
+
+    Raises numpy.linalg.LinAlgError: the covariances are singular but for rounding.
+    """
+
+    def __init__(self, inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray):
+        self._inputs, self._hyperparameters = inputs, hyperparameters
+        self._linear, self._bell = _parts(inputs, inputs, hyperparameters)
+        self._white = np.exp(hyperparameters[-1]) * np.eye(len(inputs))
+        covariances = self._linear + self._bell + self._white
+        covariances[np.diag_indices_from(covariances)] += REGULAR
+        self._factor = cholesky(covariances, lower=True, check_finite=False), True
+        self.weights = cho_solve(self._factor, outputs, check_finite=False)
+        each = -0.5 * np.einsum("ik,ik->k", outputs, self.weights)
+        each -= np.log(np.diag(self._factor[0])).sum()
+        each -= len(inputs) / 2 * np.log(2 * np.pi)
+        self.value = each.sum()
+
+    def slope(self) -> np.ndarray:
+        """Of the logarithm, by the hyperparameters (d + 3,)."""
+        lengths = np.exp(self._hyperparameters[2:-1])
+        by_length = np.square((self._inputs[:, None] - self._inputs) / lengths)
+        by_length *= self._bell[..., None]
+        slopes = np.dstack([self._linear, self._bell, by_length, self._white])
+        inverse = cho_solve(self._factor, np.eye(len(self._inputs)), check_finite=False)
+        outer = np.einsum("ik,jk->ijk", self.weights, self.weights) - inverse[..., None]
+        return 0.5 * np.einsum("ijl,jik->kl", outer, slopes).sum(axis=-1)
+
+
+def _parts(
+    points: np.ndarray, others: np.ndarray, hyperparameters: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Covariances (n, m) of points (n, d) and others (m, d): the trend's, the smooth function's."""
+    trend, smooth, *lengths, _ = np.exp(hyperparameters)
+    bell = smooth * np.exp(-cdist(points / lengths, others / lengths, "sqeuclidean") / 2)
+    return trend * (1 + points @ others.T), bell
+
+
 def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
     return np.log([1.0, 1.0, *[FIRST_LENGTH] * dimensions, noise])
-
-
-def _regressor(
-    inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
-) -> GaussianProcessRegressor:
-    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(
-        inputs, outputs
-    )
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
@@ -135,18 +136,19 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
     """
     dimensions = inputs.shape[1]
-    starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
-    regressor = _regressor(inputs, outputs, starts[0])
 
     def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:
-        value, slope = regressor.log_marginal_likelihood(
-            hyperparameters, eval_gradient=True, clone_kernel=False
-        )
-        return -value, -slope
+        try:
+            likelihood = Likelihood(inputs, outputs, hyperparameters)
+        except np.linalg.LinAlgError:
+            return np.inf, np.zeros_like(hyperparameters)
+        return -likelihood.value, -likelihood.slope()
 
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
     found = [
-        minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS})
-        for start in starts
+        minimize(
+            loss, _start(dimensions, noise), jac=True, bounds=bounds, options={"maxiter": STEPS}
+        )
+        for noise in FIRST_NOISES
     ]
     return min(found, key=lambda result: result.fun).x

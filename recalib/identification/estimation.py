@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-from scipy.stats import chi2
+from scipy.special import chdtri
 
 from recalib.identification.checks import check_observations
 from recalib.identification.error_model import ErrorModel
@@ -34,7 +34,7 @@ SPARSITY = 0.05
 COMMON = 20.0
 # The noise of position and of orientation are believed to be alike, as by so many measurements.
 SHARED = 10.0
-MEDIAN = chi2.ppf(0.5, 3)  # of the squared length of a residual whose components are normal
+MEDIAN = chdtri(3, 0.5)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad
 LEAST_NOISE = 1e-6  # m, rad: finer than any instrument; exact data would make singular equations
 ROBUST_STEPS = 3  # at the start, in which the noise comes from medians, which outliers do not move
@@ -88,7 +88,7 @@ def identify(
     parameters, variances = _initial(model, start)
     noise = np.full(kinds, FIRST_NOISE)
     weights = np.ones(len(seen)) if weights is None else weights
-    limit = chi2.ppf(GOOD, 3 * kinds)
+    limit = chdtri(3 * kinds, 1 - GOOD)
     terms = model.terms(seen.joints)
     sparse, diagonal, near = ~model.free, np.diag_indices(len(scale)), None
     for step in range(STEPS):

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from sklearn.cluster import KMeans
+from scipy.cluster.vq import kmeans, vq
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.linearised import LEVER
@@ -79,10 +79,10 @@ def blocks(seen: Observations) -> np.ndarray:
     """Likewise, of parts that lie together in joint space."""
     spread = seen.joints.std(axis=0)
     scaled = seen.joints / np.where(spread > 0, spread, 1)
-    folds = np.empty(len(seen), dtype=int)
+    random, folds = generator(0, "blocks"), np.empty(len(seen), dtype=int)
     for rows in _groups(seen):
-        parts = min(FOLDS, len(np.unique(scaled[rows], axis=0)))
-        folds[rows] = KMeans(parts, n_init=4, random_state=0).fit_predict(scaled[rows])
+        centres, _ = kmeans(scaled[rows], min(FOLDS, len(rows)), rng=random)
+        folds[rows], _ = vq(scaled[rows], centres)
     return folds
 
 

@@ -68,7 +68,7 @@ def _positive(text: str) -> int:
     return int(text)
 
 
-# Imported where they are used: help and refusals need not wait for Pinocchio and scikit-learn.
+# Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
 
 
 def _calibrate(given: argparse.Namespace) -> int:

@@ -12,11 +12,10 @@ import numpy as np
 
 from recalib.compiled import compiled
 from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.newton import LONGEST_STEP, SINGULAR
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
-LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
-SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 
 
 class Chain(NamedTuple):

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.nominal.chain import LONGEST_STEP, SINGULAR
-
+LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
+SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 # Of x, y and z the two others, in a circle.
 NEXT, LAST = [1, 2, 0], [2, 0, 1]
 

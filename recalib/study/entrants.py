@@ -39,7 +39,7 @@ class Entrant(NamedTuple):
     make: Make | None = None
 
 
-# Imported where they are used: jobs without such a learner need not wait for scikit-learn.
+# Imported where they are used: jobs without such a learner need not wait for SciPy.
 def _uncorrected(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.uncorrected import UncorrectedLearner
 
