@@ -57,7 +57,10 @@ TESTS = {
         "tests/study/evidence/test_speedup.py",
     ],
     "recalib/study/evidence": [
-        *(f"tests/study/evidence/test_{name}.py" for name in ("words", "tables", "criteria")),
+        *(
+            f"tests/study/evidence/test_{name}.py"
+            for name in ("words", "tables", "contexts", "criteria")
+        ),
         *(f"tests/study/evidence/test_{name}.py" for name in ("evidence", "speedup", "claims")),
         "tests/study/evidence/test_statistics.py",
         "tests/study/experiments/test_benchmark.py",

@@ -147,6 +147,21 @@ def test_contradicting_measurements_change_the_verdict(few, tmp_path):
         assert made_up.verdict(claim) == "not supported", claim
 
 
+@pytest.mark.parametrize(
+    ("ratio", "error", "verdict"),
+    [
+        (1.04, 0.02, "supported"),  # within 5 %, and within three standard errors
+        (1.04, 0.01, "not supported"),  # not within these
+        (0.94, 0.04, "not supported"),  # not within 5 %
+    ],
+)
+def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, ratio, error, verdict):
+    made_up = MadeUp(tmp_path, few)
+    visits = made_up.visits().assign(ratio=ratio, error=error)
+    made_up.write(made_up.layout.mapping("visits"), visits)
+    assert made_up.verdict("expected-learning") == verdict
+
+
 def test_contradicting_trials_change_the_verdict(few, tmp_path):
     made_up = MadeUp(tmp_path, few)
     trials = made_up.trials("improved")

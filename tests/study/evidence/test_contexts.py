@@ -1,0 +1,81 @@
+"""What the other pages say, beside what one counts by hand."""
+
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+
+from recalib.study.evidence import choices, guidance
+from recalib.study.evidence.all_results import _on_its_way, _tuned_anew
+from recalib.study.evidence.results import Evidence
+from recalib.study.measured import ERRORS
+
+
+def test_choices_say_how_much_was_searched(made_up):
+    """A hundred trials of each search were made up, and 41 assignments."""
+    said = choices.context(Evidence(made_up.needs(choices.needs)))
+    assert said == {
+        "universes": 0,
+        "damages": "forearm_link 4 cm",
+        "assignments": 41,
+        "translation": "5 cm, -5 cm, 4.3 cm",
+        "rotation": "2 deg, -3 deg, 3 deg",
+        "trials": 100,
+        "searches": 4,
+        "short": 500,
+        "searches_long": 3,
+    }
+
+
+@pytest.mark.parametrize(
+    ("last", "text"),
+    [
+        ([2.0, 3.0], "after 1,000 iterations"),  # both are within there, one was before
+        ([0.5, 3.0], "in none of its 5,000 iterations"),
+    ],
+)
+def test_ritters_is_said_to_have_both_errors_of_the_improved_one_on_its_way(last, text):
+    ours = pd.DataFrame([[9.0, 9.0, 0], [*last, 200]], columns=[*ERRORS, "iteration"])
+    # of two seeds: what counts is their mean
+    ritters = pd.DataFrame(
+        [[9, 9, 0], [1, 4, 100], [3, 4, 100], [1, 2, 1000], [3, 4, 1000], [1, 1, 5000]],
+        columns=[*ERRORS, "iteration"],
+    )
+    histories = {"improved": ours, "ritter_own": ritters}
+    roles = {"improved": "improved", "ritter": "ritter_own"}
+    assert _on_its_way(SimpleNamespace(history=histories.get, fact=roles.get)) == text
+
+
+def test_tuned_anew_it_needs_as_many_times_the_iterations_as_the_claim_says():
+    assert _tuned_anew(70.0, 200) == "after 14,000 iterations"
+    assert _tuned_anew(None, 200) == "in none of those that were tried"
+
+
+def test_guidance_says_of_what_it_is_and_where_the_hybrid_is_not_the_best(made_up, few):
+    said = guidance.context(Evidence(made_up.needs(guidance.needs)))
+    assert said["learners"] == list(few.benchmark.learners)
+    assert said["scenarios"] == list(few.benchmark.scenarios)
+    assert (said["seeds"], said["threshold"], said["budget"]) == (4, 0.1, 400)
+    assert (said["first"], said["percent"], said["negligible"]) == (4, "10", 1e-4)
+    assert not said["shipped"]
+
+
+def test_the_hybrid_is_worse_where_a_peer_is_better_by_more_than_a_tenth():
+    def cells(moves, hybrid, geometric, affine, improved=0.0):
+        learners = {"hybrid": hybrid, "geometric": geometric, "affine": affine}
+        learners["improved"] = improved  # is no peer: it chooses its moves
+        errors = [dict(zip(ERRORS, pair, strict=True)) for pair in learners.values()]
+        return pd.DataFrame(errors).assign(scenario="sag", learner=[*learners], moves=moves)
+
+    table = pd.concat(
+        [
+            cells(2, (9.0, 9.0), (1.0, 1.0), (1.0, 1.0), (1.0, 1.0)),  # too few moves to say
+            cells(4, (1.2, 1.05), (2.0, 1.0), (1.0, 3.0), (0.1, 0.1)),
+            cells(8, (9e-5, 2e-4), (1e-5, 1.9e-4), (1.0, 1.0), (0.1, 0.1)),  # rounding; a twentieth
+            cells(16, (9.0, 9.0), (1.0, 1.0), (1.0, 1.0), (1.0, 1.0)),  # no budget of the page
+        ]
+    )
+    worse = {"scenario": "sag", "moves": 4, "error": "position"}
+    assert guidance.where_worse(table, [1, 2, 4, 8]) == [
+        worse | {"hybrid": 1.2, "best": 1.0, "learner": "affine"}
+    ]
