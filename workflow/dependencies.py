@@ -17,18 +17,22 @@ NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
 @cache
-def code(script: str) -> str:
-    """A digest of the script and of every module that it imports, directly or not."""
+def code(script: str, *named: str) -> str:
+    """A digest of the script and of every module that it imports, directly or not.
+
+    Args:
+        named: dotted names of further modules, which it imports by a name that it is told.
+    """
     digest = hashlib.sha256()
-    for module in modules(script):
+    for module in modules(script, *named):
         digest.update(module.encode() + b"\0" + content(module))
     return digest.hexdigest()
 
 
 @cache
-def modules(script: str) -> list[str]:
+def modules(script: str, *named: str) -> list[str]:
     """The script and every module that it imports, as paths below the project."""
-    needed, waiting = set(), {f"workflow/scripts/{script}"}
+    needed, waiting = set(), {f"workflow/scripts/{script}"}.union(*map(_files, named))
     while waiting:
         needed |= waiting
         waiting = set().union(*map(imported, waiting)) - needed

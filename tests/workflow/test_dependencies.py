@@ -2,6 +2,7 @@ import ast
 
 import pytest
 
+from recalib.study.plots.registry import FIGURES
 from tests.conftest import ROOT
 from workflow import dependencies
 
@@ -44,6 +45,16 @@ def test_a_training_depends_on_its_rules_and_not_on_figures_or_other_learners():
     assert "workflow/scripts/train.py" in needed
     others = ("plots", "evidence", "recording", "identification", "learners/geo", "regression")
     assert not [path for path in needed if any(other in path for other in others)]
+
+
+def test_a_figure_depends_on_the_module_that_draws_it_and_not_on_other_figures():
+    needed = dependencies.modules("figure.py", FIGURES["method"].home)
+    drawing = [path for path in needed if "/plots/" in path]
+    others = [figure.home.replace(".", "/") for figure in FIGURES.values()]
+    assert [path for path in drawing if path.removesuffix(".py") in others] == [
+        "recalib/study/plots/explained/method.py"
+    ]
+    assert {"recalib/study/plots/explained/sketch.py", "recalib/learners/nets.py"} < {*needed}
 
 
 def test_an_edited_module_changes_the_digest(tmp_path, monkeypatch):

@@ -14,7 +14,7 @@ rule figure:
         LAYOUT.figure("{figure}"),
         LAYOUT.figure("{figure}", ".png"),
     params:
-        code=code("figure.py"),
+        code=lambda w: code("figure.py", FIGURES[w.figure].home),
         job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),

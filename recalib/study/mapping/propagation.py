@@ -80,15 +80,3 @@ def propagation(job: jobs.TrueMapping, scenario: str | Path) -> pd.DataFrame:
                     for c, u in errors
                 ]
     return pd.DataFrame(rows)
-
-
-def integral_ratios(table: pd.DataFrame) -> pd.Series:
-    """E_upd / E_clas for each kind, start and scale: the median over the balls of `propagation`.
-
-    Scales at which a pose of some ball has no command are left out: the balls that remain would be
-    the easy ones.
-    """
-    balls = table.assign(ratio=table["updated"] / table["classic"]).groupby(
-        ["kind", "start", "scale"]
-    )["ratio"]
-    return balls.median()[balls.count() == balls.size()]

@@ -5,8 +5,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.claims import expected_learning, weak_coupling
+from recalib.study.evidence.claims.integrals import integral_ratios
 from recalib.study.evidence.results import Evidence
-from recalib.study.mapping.propagation import integral_ratios
 from recalib.study.measured import ERRORS, KINDS
 from recalib.study.plots.looks import DASHED
 from recalib.study.plots.steady import LOG

@@ -1,16 +1,21 @@
-"""Every figure: what it reads, and when it is drawn. Nothing here draws."""
+"""Every figure: what it reads, when it is drawn, and where."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from itertools import product
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.speed_up import READINGS
 from recalib.study.evidence.claims.switches import ask_for
 from recalib.study.evidence.needs import Needs, Request
+from recalib.study.evidence.results import Evidence
 from recalib.study.layout import SHIPPED
+
+if TYPE_CHECKING:
+    import matplotlib.figure
 
 
 @dataclass(frozen=True)
@@ -21,10 +26,18 @@ class Figure:
         needs: asks for what it reads.
         part: of a study that draws it: its trainings where they suffice, its evidence, or a target
             of its own. An idea is explained once, with the shipped study.
+        module: beside this one, whose function of the figure's name draws it. Imported when that is
+            asked for: the workflow declares figures, and each job draws one.
     """
 
     needs: Callable[[Request], None]
     part: Literal["trainings", "evidence", "benchmark", "real", "ideas"]
+    module: str
+
+    @property
+    def home(self) -> str:
+        """The module's whole name."""
+        return f"{__package__}.{self.module}"
 
 
 def _figure1(ask: Request) -> None:
@@ -120,30 +133,35 @@ def _nothing(ask: Request) -> None:
 
 
 FIGURES: Mapping[str, Figure] = {
-    "figure1": Figure(_figure1, "trainings"),
-    "figure2": Figure(_figure2, "trainings"),
-    "figure3": Figure(_figure3, "trainings"),
-    "figure4": Figure(_figure4, "trainings"),
-    "figure5": Figure(_figure5, "evidence"),
-    "figure6": Figure(_figure6, "evidence"),
-    "figure7": Figure(_figure7, "evidence"),
-    "figure8": Figure(_figure8, "evidence"),
-    "figure9": Figure(_figure9, "trainings"),
-    "figure10": Figure(_figure10, "evidence"),
-    "figure11": Figure(_figure11, "evidence"),
-    "figure12": Figure(_figure12, "benchmark"),
-    "figure13": Figure(_figure13, "real"),
-    "figure14": Figure(_universes, "evidence"),
-    "figure15": Figure(_universes, "evidence"),
-    "method": Figure(_nothing, "ideas"),
-    "fake_pose": Figure(_nothing, "ideas"),
-    "increments": Figure(_nothing, "ideas"),
-    "schedule": Figure(_nothing, "ideas"),
-    "multiverse": Figure(_universes, "ideas"),
+    "figure1": Figure(_figure1, "trainings", "learning"),
+    "figure2": Figure(_figure2, "trainings", "learning"),
+    "figure3": Figure(_figure3, "trainings", "learning"),
+    "figure4": Figure(_figure4, "trainings", "changes"),
+    "figure5": Figure(_figure5, "evidence", "mapping"),
+    "figure6": Figure(_figure6, "evidence", "searched"),
+    "figure7": Figure(_figure7, "evidence", "mapping"),
+    "figure8": Figure(_figure8, "evidence", "mapping"),
+    "figure9": Figure(_figure9, "trainings", "ladders"),
+    "figure10": Figure(_figure10, "evidence", "mapping"),
+    "figure11": Figure(_figure11, "evidence", "elsewhere"),
+    "figure12": Figure(_figure12, "benchmark", "benchmark"),
+    "figure13": Figure(_figure13, "real", "benchmark"),
+    "figure14": Figure(_universes, "evidence", "universes"),
+    "figure15": Figure(_universes, "evidence", "universes"),
+    "method": Figure(_nothing, "ideas", "explained.method"),
+    "fake_pose": Figure(_nothing, "ideas", "explained.fake_pose"),
+    "increments": Figure(_nothing, "ideas", "explained.increments"),
+    "schedule": Figure(_nothing, "ideas", "explained.schedule"),
+    "multiverse": Figure(_universes, "ideas", "explained.multiverse"),
 }
 
 
 IDEAS = [name for name, figure in FIGURES.items() if figure.part == "ideas"]
+
+
+def draw(figure: str, evidence: Evidence) -> "matplotlib.figure.Figure":
+    """A figure from what it declares; `style.STYLE` is for the caller to set."""
+    return getattr(import_module(FIGURES[figure].home), figure)(evidence)
 
 
 def needs_of(figure: str, request: Callable[[], Request]) -> Needs:

@@ -11,8 +11,7 @@ from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.pages import PAGES, render
 from recalib.study.evidence.results import Evidence
 from recalib.study.layout import DESIGN, OUTCOMES
-from recalib.study.plots.drawings import DRAWINGS
-from recalib.study.plots.registry import FIGURES, drawn
+from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.style import STYLE, plt
 from recalib.study.studies import SHIPPED
 from tests.conftest import ROOT
@@ -67,7 +66,7 @@ def test_the_findings_tell_the_factor_over_all_universes(made_up, outcomes):
 @pytest.mark.parametrize("name", ["figure14", "figure15"])
 def test_figures_of_the_multiverse_have_a_panel_for_each_claim_and_system(made_up, outcomes, name):
     with plt.rc_context(STYLE):
-        figure = DRAWINGS[name](Evidence(made_up.needs(FIGURES[name].needs)))
+        figure = draw(name, Evidence(made_up.needs(FIGURES[name].needs)))
     titles = [axes.get_title(loc="left") + axes.get_title(loc="right") for axes in figure.axes]
     assert len(titles) == sum(len(claim.across) for claim in CLAIMS)
     if name == "figure14":
