@@ -58,24 +58,3 @@ def test_guidance_says_of_what_it_is_and_where_the_hybrid_is_not_the_best(made_u
     assert (said["seeds"], said["threshold"], said["budget"]) == (4, 0.1, 400)
     assert (said["first"], said["percent"], said["negligible"]) == (4, "10", 1e-4)
     assert not said["shipped"]
-
-
-def test_the_hybrid_is_worse_where_a_peer_is_better_by_more_than_a_tenth():
-    def cells(moves, hybrid, geometric, affine, improved=0.0):
-        learners = {"hybrid": hybrid, "geometric": geometric, "affine": affine}
-        learners["improved"] = improved  # is no peer: it chooses its moves
-        errors = [dict(zip(ERRORS, pair, strict=True)) for pair in learners.values()]
-        return pd.DataFrame(errors).assign(scenario="sag", learner=[*learners], moves=moves)
-
-    table = pd.concat(
-        [
-            cells(2, (9.0, 9.0), (1.0, 1.0), (1.0, 1.0), (1.0, 1.0)),  # too few moves to say
-            cells(4, (1.2, 1.05), (2.0, 1.0), (1.0, 3.0), (0.1, 0.1)),
-            cells(8, (9e-5, 2e-4), (1e-5, 1.9e-4), (1.0, 1.0), (0.1, 0.1)),  # rounding; a twentieth
-            cells(16, (9.0, 9.0), (1.0, 1.0), (1.0, 1.0), (1.0, 1.0)),  # no budget of the page
-        ]
-    )
-    worse = {"scenario": "sag", "moves": 4, "error": "position"}
-    assert guidance.where_worse(table, [1, 2, 4, 8]) == [
-        worse | {"hybrid": 1.2, "best": 1.0, "learner": "affine"}
-    ]
