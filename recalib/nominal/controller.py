@@ -22,7 +22,7 @@ from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.monomials import monomials, polynomial
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import ORIENTATION
-from recalib.nominal.robots import Robot
+from recalib.nominal.robots import Robot, shown
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
@@ -164,12 +164,13 @@ class Controller:
     def _check_limits(self, knots: np.ndarray) -> None:
         robot = self.robot
         for knot, joint in np.argwhere((knots < robot.lower) | (knots > robot.upper)):
-            turn, low, high = np.degrees(
-                [knots[knot, joint], robot.lower[joint], robot.upper[joint]]
+            coordinate, low, high = (
+                shown(each, robot.arm.slides[joint])
+                for each in (knots[knot, joint], robot.lower[joint], robot.upper[joint])
             )
             raise UnfitWorkspace(
-                f"the {robot.name} would have to turn {robot.joints[joint]} to {turn:.1f} deg in"
-                f" its workspace, beyond its limits of {low:.1f} to {high:.1f} deg."
+                f"the {robot.name} would have to move {robot.joints[joint]} to {coordinate} in"
+                f" its workspace, beyond its limits of {low} to {high}."
                 " Make its workspace smaller or move its home"
             )
 

@@ -56,6 +56,13 @@ class Robot:
         return links
 
 
+def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
+    """A joint coordinate [rad], or [m] where the joint slides, for people."""
+    return (
+        f"{1e3 * coordinate:{digits}} mm" if slides else f"{math.degrees(coordinate):{digits}} deg"
+    )
+
+
 def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
     """Where the link behind `joint` ends, (3,) in m in that joint's frame: a writable view."""
     if joint < model.njoints - 1:
@@ -78,10 +85,10 @@ def load_robot(
     Args:
         urdf: a path, or a name: see `find_urdf`.
         tool: name of the link whose frame is the pose.
-        home: rad by joint, at the centre of the workspace.
+        home: rad by joint (m where one slides), at the centre of the workspace.
         position_range: (3,) m, full sizes of the workspace along the base's axes.
         orientation_range: (3,) rad, its full ranges of roll, pitch and yaw, or of rotation vectors.
-        limits: lowest and highest angle [rad] by joint, in place of the URDF's.
+        limits: lowest and highest angle [rad] (or length [m]) by joint, in place of the URDF's.
         name: what people call it; the file's name unless given.
         coordinates: of orientations; see `Workspace`.
 
@@ -107,10 +114,12 @@ def load_robot(
     for joint, bounds in limits.items():
         lower[joints.index(joint)], upper[joints.index(joint)] = bounds
     angles = np.array([home[joint] for joint in joints], dtype=float)
-    for joint, low, angle, high in zip(joints, lower, angles, upper, strict=True):
+    for joint, slides, low, angle, high in zip(
+        joints, arm.slides, lower, angles, upper, strict=True
+    ):
         if not low <= angle <= high:
-            valid = f"{math.degrees(low):.1f} deg to {math.degrees(high):.1f} deg"
-            raise InvalidSetting(f"home.{joint}", f"{math.degrees(angle):.6g} deg", valid)
+            valid = f"{shown(low, slides)} to {shown(high, slides)}"
+            raise InvalidSetting(f"home.{joint}", shown(angle, slides, ".6g"), valid)
     for key, sides in (
         ("position_range", position_range),
         ("orientation_range", orientation_range),

@@ -87,7 +87,7 @@ def test_a_workspace_out_of_reach_is_refused(plan):
 
 @pytest.mark.parametrize("limits", [(110, 350), (-350, 130)], ids=["lower", "upper"])
 def test_a_workspace_beyond_a_joint_limit_is_refused(plan, limits):
-    message = "turn elbow_joint to .* beyond its limits of {:.1f} to {:.1f} deg".format(*limits)
+    message = "move elbow_joint to .* deg in .* limits of {:.1f} deg to {:.1f} deg".format(*limits)
     limited = changed(plan.nominal("ur10"), limits={"elbow_joint": np.radians(limits)})
     with pytest.raises(UnfitWorkspace, match=message):
         nominal_controller(limited)

@@ -3,6 +3,7 @@ import pinocchio as pin
 import pytest
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.arms import load_arm
 from recalib.nominal.robots import load_robot
 from recalib.study.plants import nominal_robot
 from tests.conftest import changed
@@ -75,6 +76,13 @@ def test_names_may_stand_in_any_order(robot):
         assert its.lower.tolist() == [-3, -4, -5, -6, -7, -8]
         assert its.upper.tolist() == [3, 4, 5, 6, 7, 8]
         assert np.array_equal(its.workspace.centre, robot.workspace.centre)
+
+
+def test_the_home_of_a_joint_that_slides_is_a_length():
+    arm = load_arm("tiago.urdf", "hand_tool_link")
+    home = dict.fromkeys(arm.joints, 0.2) | {"torso_lift_joint": 0.5}
+    with pytest.raises(InvalidSetting, match="joint is '500 mm'; valid: 0.0 mm to 350.0 mm"):
+        load_robot("tiago.urdf", arm.tool, home, [0.01] * 3, [0.01] * 3)
 
 
 def test_a_workspace_without_size_is_refused(robot):

@@ -37,6 +37,7 @@ def check_robots(study: Study) -> list[Mistake]:
             found.append(_of_robot(name, error))
         else:
             found += _of_links(robots[name], entry.links)
+            found += _of_slides(robots[name])
     if not found:
         for scenario, robot in used:
             found += _of_scenario(study, scenario, robots[robot])
@@ -95,6 +96,13 @@ def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
     for index, link in enumerate(links):
         if link not in robot.links:
             yield unknown(("robots", robot.name, "links", index), link, robot.links)
+
+
+def _of_slides(robot: Robot) -> Iterator[Mistake]:
+    """Joints that slide, of which a study would take an angle for a length."""
+    for joint, slides in zip(robot.joints, robot.arm.slides, strict=True):
+        if slides:
+            yield Mistake(("robots", robot.name, "home", joint), " slides; valid: joints that turn")
 
 
 def _of_assignment(study: Study, robots: Iterable[Robot]) -> Iterator[Mistake]:

@@ -112,10 +112,6 @@ class Request:
         self.lacking: list[str] = []
         self._beyond = False
 
-    def anew(self) -> "Request":
-        """Another one of the same study, of which nothing was asked yet."""
-        return Request(self.study, self.trainings, self._layout, self._sample_at)
-
     @property
     def trained(self) -> bool:
         """Whether the trainings of the study leave all that was asked for."""

@@ -7,6 +7,7 @@ import time
 import pytest
 import yaml
 
+from recalib.nominal.arms import load_arm
 from recalib.study.configuration import schema
 from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguration
@@ -75,6 +76,15 @@ def test_a_mistake_is_told_in_one_sentence_with_its_place(here, row):
 def test_what_is_no_yaml_is_told_with_its_place(here, text, said):
     (mistake,) = mistakes_of(here, text)
     assert mistake.startswith(f"config.yaml:{said}")
+
+
+def test_a_joint_that_slides_is_told_since_its_home_is_no_angle(here):
+    arm = load_arm("tiago.urdf", "hand_tool_link")
+    tiago = {"urdf": "tiago.urdf", "tool": arm.tool, "links": ["arm_2_link"]}
+    tiago["home"] = dict.fromkeys(arm.joints, "10 deg")
+    tiago["workspace"] = {"position": ["1 cm"] * 3, "orientation": ["1 deg"] * 3}
+    (said,) = mistakes_of(here, TEXT, {"robots": {"tiago": tiago}})
+    assert said.endswith("robots.tiago.home.torso_lift_joint slides; valid: joints that turn")
 
 
 @pytest.mark.parametrize(
