@@ -23,6 +23,7 @@ STILL = """document.head.append(Object.assign(document.createElement('style'),
  {textContent: '* {transition: none !important}'}))"""
 
 PHONE = {"width": 390, "height": 844, "deviceScaleFactor": 1, "mobile": True}
+LOW = {"width": 1280, "height": 600, "deviceScaleFactor": 1, "mobile": False}
 HIDDEN = "return !document.querySelector('#rulegraph')?.getBoundingClientRect().width"
 BROKEN = """return [...document.images].filter(image => !image.naturalWidth).length
  + [...document.querySelectorAll("svg:not(#rulegraph svg)")]
@@ -150,15 +151,27 @@ def test_the_front_leads_to_every_kind_of_page_and_shows_no_graph(visit, browser
     assert browser.execute_script(HIDDEN)
 
 
-def test_on_a_phone_the_menu_stands_above_the_page(browser, report):
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", PHONE)
+def where(browser, report, screen: dict, *parts: str) -> list[dict]:
+    """Where parts of the report lie when it is opened on a screen."""
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
     browser.get(report.as_uri())
     wait = WebDriverWait(browser, PATIENCE, ignored_exceptions=[WebDriverException])
-    menu, page = (
+    places = [
         wait.until(lambda _, its=its: browser.find_element(By.CSS_SELECTOR, its)).rect
-        for its in ("nav", ".prose")
-    )
+        for its in parts
+    ]
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+    return places
+
+
+def test_a_front_taller_than_the_window_begins_with_its_heading(browser, report):
+    heading, page = where(browser, report, LOW, ".prose h1", ".prose")
+    assert page["height"] > LOW["height"]
+    assert heading["y"] >= 0
+
+
+def test_on_a_phone_the_menu_stands_above_the_page(browser, report):
+    menu, page = where(browser, report, PHONE, "nav", ".prose")
     assert menu["y"] + menu["height"] <= page["y"]
     assert page["x"] >= 0 and page["x"] + page["width"] <= PHONE["width"]
 
