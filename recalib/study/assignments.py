@@ -4,11 +4,10 @@ The paper says by how much three links were shortened and three encoders were sh
 the initial errors were. It says neither which links and encoders nor which signs.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import permutations, product
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
@@ -107,12 +106,12 @@ class Assignment(Kept):
     within_5_percent: int
 
 
-def assign(job: jobs.Assignments) -> tuple[pd.DataFrame, Assignment]:
+def assign(job: jobs.Assignments) -> tuple[dict[str, np.ndarray], Assignment]:
     """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
 
-    Returns a table with a row for each of `Ways`: the mean initial errors position_error_cm and
-    orientation_error_deg, and `distance`, the larger of their relative deviations from the
-    published ones. Of several equally near, up to rounding, the first is used.
+    Returns the columns of a table with a row for each of `Ways`: the mean initial errors
+    position_error_cm and orientation_error_deg, and `distance`, the larger of their relative
+    deviations from the published ones. Of several equally near, up to rounding, the first is used.
     """
     controller = nominal_controller(job.nominal)
     robot, damage = controller.robot, job.damage
@@ -121,21 +120,19 @@ def assign(job: jobs.Assignments) -> tuple[pd.DataFrame, Assignment]:
     position, orientation = map(
         np.concatenate, zip(*initial_errors(controller, ways, poses), strict=True)
     )
-    table = pd.DataFrame(
-        {"position_error_cm": 100 * position, "orientation_error_deg": np.degrees(orientation)}
-    )
-    table["distance"] = distance_to(table, damage.published)
-    nearest = int(table["distance"].round(TIE).idxmin())
-    return table, Assignment(
+    errors = {"position_error_cm": 100 * position, "orientation_error_deg": np.degrees(orientation)}
+    distance = distance_to(errors, damage.published)
+    nearest = int(distance.round(TIE).argmin())
+    return errors | {"distance": distance}, Assignment(
         robot=robot.name,
-        assignments=len(table),
+        assignments=len(ways),
         damages=ways[nearest],
-        distance=round(table["distance"][nearest], TIE),
-        within_5_percent=int((table["distance"] <= 0.05).sum()),
+        distance=round(distance[nearest], TIE),
+        within_5_percent=int((distance <= 0.05).sum()),
     )
 
 
-def distance_to(table: pd.DataFrame, published: Published) -> pd.Series:
-    """The larger of the relative deviations of both errors from the published ones."""
-    deviations = [(table[error] / value - 1).abs() for error, value in published]
+def distance_to(errors: Mapping[str, np.ndarray], published: Published) -> np.ndarray:
+    """The larger of the relative deviations of both errors (n,) from the published ones."""
+    deviations = [np.abs(errors[name] / value - 1) for name, value in published]
     return np.maximum(*deviations)

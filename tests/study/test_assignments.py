@@ -39,7 +39,7 @@ def test_every_row_has_the_errors_of_its_damages(assigned, controller):
     job, table, _ = assigned
     robot = controller.robot
     ways = Ways(LINKS, job.damage.shorten, robot.joints, job.damage.shift)
-    assert len(table) == len(ways) == 12 * 12
+    assert len(table["distance"]) == len(ways) == 12 * 12
     poses = robot.workspace.sample(generator(1, "assignments"), 10)
     desired = robot.workspace.to_poses(poses)
     for index in range(0, len(ways), 29):
@@ -53,14 +53,14 @@ def test_every_row_has_the_errors_of_its_damages(assigned, controller):
 def test_the_nearest_assignment_is_used(assigned):
     _, table, assignment = assigned
     assert assignment.distance == pytest.approx(table["distance"].min(), abs=1e-9)
-    assert assignment.assignments == len(table) and len(assignment.damages) == 3
+    assert assignment.assignments == len(table["distance"]) and len(assignment.damages) == 3
     again = type(assignment).model_validate_json(assignment.model_dump_json())
     assert again == assignment
 
 
 def test_the_distance_is_the_larger_relative_deviation(assigned):
     _, table, _ = assigned
-    position, orientation, _ = table.loc[3]
+    position, orientation, _ = (column[3] for column in table.values())
     exact = Published(position_error_cm=position, orientation_error_deg=orientation)
     off = Published(position_error_cm=position / 1.5, orientation_error_deg=orientation)
     assert distance_to(table, exact)[3] == 0

@@ -8,7 +8,6 @@ import pandas as pd
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.entrants import needs_of
-from recalib.study.experiments.benchmark import moves_to_reach
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import bootstrap
 
@@ -52,6 +51,16 @@ def reached(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
                 }
             )
     return pd.DataFrame(rows)
+
+
+def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
+    """Moves (seed,) of the first measurement within the threshold; infinity where there is none."""
+    within = history[history[error] <= threshold].groupby("seed")["moves"].min()
+    return (
+        within.astype(float)
+        .reindex(np.sort(history["seed"].unique()), fill_value=np.inf)
+        .to_numpy()
+    )
 
 
 def seconds(history: pd.DataFrame) -> pd.DataFrame:

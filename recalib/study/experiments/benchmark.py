@@ -85,13 +85,3 @@ def compete(
         learner=job.name,
         seconds_per_move=learner.seconds / (total * iterations * moves),
     )
-
-
-def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
-    """Moves (seed,) of the first measurement within the threshold; infinity where there is none."""
-    within = history[history[error] <= threshold].groupby("seed")["moves"].min()
-    return (
-        within.astype(float)
-        .reindex(np.sort(history["seed"].unique()), fill_value=np.inf)
-        .to_numpy()
-    )

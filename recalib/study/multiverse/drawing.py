@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, Damage, apply
@@ -126,13 +125,11 @@ def _nearest(
     position, orientation = map(
         np.concatenate, zip(*initial_errors(controller, ways, tests), strict=True)
     )
-    table = pd.DataFrame(
-        {
-            "position_error_cm": 100 * position / scale,
-            "orientation_error_deg": np.degrees(orientation),
-        }
-    )
-    return ways[int(distance_to(table, published).round(TIE).idxmin())]
+    errors = {
+        "position_error_cm": 100 * position / scale,
+        "orientation_error_deg": np.degrees(orientation),
+    }
+    return ways[int(distance_to(errors, published).round(TIE).argmin())]
 
 
 def _initial_errors(

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import qmc
 
 from recalib.study.configuration.universes import Factors, Universes
 
@@ -30,6 +29,8 @@ def rows(plan: Universes) -> Iterator[Row]:
     A Sobol sequence: of a power of two of rows, the levels of each factor have equal shares, and so
     have the levels of most pairs.
     """
+    from scipy.stats import qmc  # a third of a second, which only drawing a sample needs
+
     names = list(Factors.model_fields)
     power = math.ceil(math.log2(plan.count)) + 1
     sequence = qmc.Sobol(len(names) + 1, rng=np.random.default_rng(plan.seed))

@@ -14,7 +14,7 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.study import Budget
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
-from recalib.study.evidence.claims.rigid import SCENARIOS as RIGID
+from recalib.study.evidence.claims import rigid
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.experiments import search
 from recalib.study.experiments.campaign import desired_poses, test_poses
@@ -26,7 +26,6 @@ from recalib.study.plants import nominal_controller
 from recalib.study.statistics import combined
 from recalib.training import train
 
-NONE = 1e-6  # cm and degrees: an initial error below it is rounding
 PARTS = (0, 0.1, 0.25, 0.5, 1)  # of a training, after which it is measured
 
 
@@ -92,8 +91,8 @@ def measure(universe: Universe) -> dict[str, float]:
         row[f"{switch.key}_improved"] = _ratio(errors[IMPROVED], errors[switch.without])
         row[f"{switch.key}_ritter"] = _ratio(errors[switch.added], errors[RITTER])
     row["factor"] = _factor(world)
-    rigid = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in RIGID)
-    row["rigid_left"] = max(_left(each).max() for each in rigid)
+    moved = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in rigid.SCENARIOS)
+    row["rigid_left"] = max(_left(each).max() for each in moved)
     row["intact"] = world.train(IMPROVED, iterations, trials[IMPROVED], "intact").max()
     row["width_order"] = _width_order(trials[IMPROVED])
     return row
@@ -104,7 +103,7 @@ def _left(errors: np.ndarray) -> np.ndarray:
 
     Of an error that is zero to begin with nothing is asked here.
     """
-    there = errors[:, 0].min(axis=0) > NONE
+    there = errors[:, 0].min(axis=0) > rigid.NONE
     first, last = errors[:, 0, there], errors[:, -1, there]
     return np.exp(np.log(last / first).mean(axis=0))
 

@@ -4,54 +4,17 @@ from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 
-import pandas as pd
 import rerun as rr
 
 from recalib.interfaces import Learner
 from recalib.storage import whole
 from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among, disturbances_among
-from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
-from recalib.study.experiments.settings import build_tuned
-from recalib.study.measured import errors_of
 from recalib.study.plants import Resolved
 from recalib.study.recording import about, arms, colours, corrections, errors, scatter, scene, story
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.seal import check_errors, check_recording, write_sealed
-from recalib.study.statistics import typical
-
-
-def record(
-    path: str | Path,
-    job: jobs.Recording,
-    scenario: str | Path,
-    samples: Sequence[str | Path],
-    histories: Sequence[str | Path],
-) -> None:
-    """Write the recording of a scenario from files: a run of a typical search.
-
-    It is that of the first of the paper's learners. See `write_recording`.
-
-    Args:
-        scenario: file of the scenario as resolved.
-        samples: for each of the job's learners of the paper, the file of the search for it.
-        histories: for each of them, the file of its training.
-    """
-    resolved = Resolved.read(scenario)
-    papers = job.papers()
-    tables = dict(zip(papers, (pd.read_parquet(history) for history in histories), strict=True))
-    left = errors_of(next(iter(tables.values())))
-    seed = typical(left) * left.shape[1]  # the first one of that search
-    measured = {name: table[table["seed"] == seed] for name, table in tables.items()}
-    searched = dict(zip(papers, samples, strict=True))
-    learners: dict[str, Learner] = {
-        name: build_tuned(learner, searched[name], measured[name]["search"].unique())
-        if learner
-        else make_peer(name, 1, resolved.controller())
-        for name, learner in job.learners.items()
-    }
-    write_recording(Path(path), job, resolved, learners, measured, seed)
 
 
 def write_recording(

@@ -31,10 +31,11 @@ from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import resolve
 from recalib.study.recording import about, colours, marks, scatter, scene, story
 from recalib.study.recording.blueprint import ARM, TITLES, arrange, seen_from
+from recalib.study.recording.files import record
 from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import SEAL, BrokenRecording, check_recording, write_sealed
 from recalib.study.recording.story import AFTER, BEFORE
-from recalib.study.recording.writing import record, write_recording
+from recalib.study.recording.writing import write_recording
 from recalib.study.statistics import typical
 from recalib.training import train
 from tests.conftest import changed
