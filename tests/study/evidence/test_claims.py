@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.evidence.words import measured
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import Estimate
-from tests.made_up import MadeUp
+from tests.made_up import INITIAL, MadeUp
 
 IDS = [claim.id for claim in CLAIMS]
 
@@ -35,6 +36,54 @@ def test_supporting_evidence_supports_every_claim(supporting):
     assert {claim["id"]: claim["verdict"] for claim in supporting.judge()} == dict.fromkeys(
         IDS, "supported"
     )
+
+
+def test_what_is_measured_is_what_was_made_up(supporting):
+    """But for luck, which is of some hundredths for a mean over searches and seeds."""
+    cm, deg = INITIAL
+    switches = {
+        "improved with it / without it": 0.1 / 0.4,
+        "Ritter with it / without it": np.sqrt(4 * 2 / (5 * 3)),
+    }
+    integrals = {"E_upd / E_clas, intact": 0.1, "E_upd / E_clas, damaged": 0.1}
+    expected = {
+        "identity": {"largest cm": 1e-9, "largest degrees": 1e-9},
+        "ritter-slow": {"position left": 5 / cm, "orientation left": 3 / deg},
+        # 95 % of what is spread evenly from half to one and a half of it
+        "weak-coupling": {"position commands": 1.45 * 0.02, "orientation commands": 1.45 * 0.05},
+        "width-order": {
+            "position map, g_k over g_kl": 0.3,
+            "orientation map, g_k over g_kl": 1 / 0.3,
+        },
+        **dict.fromkeys(("theta-reason", "jacobian-reason"), integrals),
+        "expected-learning": {"largest deviation": 0.01},
+        **dict.fromkeys(
+            ("separate-maps", "theta-increments", "jacobian-increments", "schedule"), switches
+        ),
+        "rigid": {
+            "translation, position": 0.1 / cm,
+            "rotation, position": 0.1 / cm,
+            "rotation, orientation": 0.1 / deg,
+            "translation and rotation, position": 0.1 / cm,
+            "translation and rotation, orientation": 0.1 / deg,
+            "translation, orientation at most": 1e-9,
+        },
+        "initial-error": {
+            "assignments below 8.3 cm": 14 / 41,
+            "assignments below 4.7 deg": 14 / 41,
+        },
+        "figure-1": {
+            "position left": 0.1 / cm,
+            "orientation left": 0.1 / deg,
+            "final cm": 0.1,
+            "final degrees": 0.1,
+        },
+        "rough-search": {"improved": 0.3, "Ritter": 0.3},
+        "controller-kept": {"largest difference": 0.0},
+    }
+    found = {claim["id"]: claim["measured"] for claim in supporting.judge()}
+    assert found.pop("speed-up") == dict.fromkeys([f"factor, {x}" for x in READINGS.values()])
+    assert found == {name: pytest.approx(its, rel=0.15, abs=0) for name, its in expected.items()}
 
 
 def test_the_contract_of_claims_json_holds(supporting):
@@ -197,6 +246,25 @@ def test_the_highest_rung_is_a_lower_bound_and_nothing_more(few, tmp_path, rung,
     assert judged["measured"] == {f"factor, {name}": None for name in READINGS.values()}
     assert judged["note"].count(f"all that is known is a factor above {bound}") == 2
     assert "published" not in judged["note"]
+
+
+def test_what_gets_there_in_its_shortest_training_has_a_factor_of_at_most_that(few, tmp_path):
+    """Nothing less was tried: so nobody knows, and least of all that it does not get there."""
+    judged = MadeUp(tmp_path, few, {"ritter_200": 0.05}).judged("speed-up")
+    first, other = READINGS.values()
+    assert judged["verdict"] == "undecided"
+    assert judged["measured"] == {f"factor, {first}": 1, f"factor, {other}": None}
+    assert list(judged["interval"]) == [f"factor, {other}"]
+    assert "gets there in 200: all that is known is a factor of at most 1 and" in judged["note"]
+    assert judged["note"].count("does not get there") == 1
+
+
+def test_a_single_search_has_no_interval_to_say(study, tmp_path):
+    once = study.search.model_copy(update={"searches": 1, "searches_long": 1})
+    made_up = MadeUp(tmp_path, study.model_copy(update={"name": "once", "search": once}))
+    judged = made_up.judged("ritter-slow")
+    assert judged["verdict"] == "undecided" and judged["interval"] == {}
+    assert re.fullmatch(r"position left: 0\.\d+; orientation left: 0\.\d+", measured(judged))
 
 
 def test_a_number_that_is_missing_decides_nothing():

@@ -189,3 +189,12 @@ def test_a_threshold_counts_where_all_errors_are_within():
     iterations, errors = np.array([0, 10, 20]), np.array([[3, 3], [1, 3], [1, 1.0]])
     assert first_within(iterations, errors, np.array([1, 2])) == 20
     assert first_within(iterations, errors, np.array([0.5, 2])) == np.inf
+
+
+def test_a_study_is_split_into_halves_of_its_searches_each_time_others():
+    searches = np.arange(8.0)[:, None].repeat(3, axis=1)
+    halves = coverage._split(searches, np.random.default_rng(1).permuted)
+    assert [half.shape for half in halves] == [(4, 3, coverage.SPLITS)] * 2
+    for own in np.moveaxis(np.concatenate(halves), -1, 0):
+        assert np.array_equal(np.sort(own[:, 0]), searches[:, 0]) and np.ptp(own, axis=1).max() == 0
+    assert len(np.unique(np.sort(halves[0][:, 0], axis=0), axis=1).T) > 40, "of 70 halves"

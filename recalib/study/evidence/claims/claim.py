@@ -155,6 +155,7 @@ class Claim:
             "interval": {
                 label: [_number(low), _number(high)]
                 for label, (low, high) in finding.interval.items()
+                if not np.isnan([low, high]).any()  # that of a single search
             },
             "criterion": said(self.criterion),
             "verdict": verdict(somewhere(judged.values())),

@@ -34,17 +34,24 @@ def factor(evidence, reading: str) -> Estimate:
 def measure(evidence, limits):
     own, factors, judged, notes = evidence.fact("iterations"), {}, [], []
     for reading, name in READINGS.items():
-        most = max(evidence.ladder(reading)) / own
+        rungs = evidence.ladder(reading)
+        least, most = min(rungs) / own, max(rungs) / own
         estimate = factor(evidence, reading)
-        factors[f"factor, {name}"] = estimate
         judged.append(_holds(estimate, most, limits["factor"]))
-        notes.append(f"{name}, {_needed(estimate, own, most)}")
+        notes.append(f"{name}, {_needed(estimate, own, least, most)}")
+        if np.isnan(estimate.mean):
+            estimate = estimate._replace(mean=least)
+        factors[f"factor, {name}"] = estimate
     note = f"Ritter's, {' and, '.join(notes)}."
     agreed = judged[0] if len(set(judged)) == 1 else None
     return Finding.of(agreed, factors, note)
 
 
-def _needed(factor: Estimate, own: int, most: float) -> str:
+def _needed(factor: Estimate, own: int, least: float, most: float) -> str:
+    if np.isnan(factor.mean):
+        return (
+            f"gets there in {least * own:,.0f}: all that is known is a factor of at most {least:g}"
+        )
     if np.isfinite(factor.mean):
         return f"needs {own * factor.mean:,.0f} iterations for the errors of the improved system"
     return f"does not get there in {most * own:,.0f}: all that is known is a factor above {most:g}"
