@@ -8,7 +8,6 @@ equations are those of Rasmussen and Williams (2006), Gaussian Processes for Mac
 
 import numpy as np
 from scipy.linalg import cho_solve, cholesky
-from scipy.optimize import minimize
 from scipy.spatial.distance import cdist
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
@@ -135,6 +134,8 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
     """
+    from scipy.optimize import minimize  # a tenth of a second, which only searches need
+
     dimensions = inputs.shape[1]
 
     def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
@@ -196,6 +195,8 @@ def _fit(
         return (reached(found) - nominal).ravel()
 
     if fitted.any():
+        from scipy.optimize import least_squares  # slow to import, and most tables are right
+
         best = least_squares(missed, found[fitted], x_scale="jac", max_nfev=STEPS)
         found[fitted] = best.x
     base = np.eye(4)
