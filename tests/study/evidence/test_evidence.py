@@ -53,6 +53,8 @@ def test_results_pass_their_own_bands_and_a_change_does_not():
 
 def test_what_is_negligible_only_has_to_stay_so():
     bands = expect(SUMMARY)
+    intact = bands[bands["scenario"] == "intact"]
+    assert intact[["low", "high"]].values.tolist() == [[0.0, 1e-3]] * 2
     table = check(SUMMARY.assign(final_position_error_cm=[0.25, 2e-3]), bands)
     assert table.loc[~table["ok"], ["scenario", "error"]].values.tolist() == [
         ["intact", "position_error_cm"]

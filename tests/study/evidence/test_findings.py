@@ -6,10 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.findings import (
     _ensemble,
     _multiverse,
     _refused,
+    _said,
     _scaled,
     context,
     needs,
@@ -84,6 +86,15 @@ def test_universes_are_counted_with_those_that_were_replaced():
     said = _multiverse(SimpleNamespace(outcomes=lambda: half, whole_design=lambda: design))
     assert said["factors"] == {"10 %": "2", "25 %": "2", "50 %": "2"} and said["beyond"] == 5
     assert _multiverse(SimpleNamespace(outcomes=lambda: None)) == {}
+
+
+def test_what_is_said_of_a_claim_besides_is_its_own():
+    for claim in CLAIMS:
+        said = _said({"id": claim.id, "verdict": "supported"})
+        assert said["reason"] == claim.reason.format(**claim.limits)
+        figures = [f"Figure {each.removeprefix('figure')}" for each in claim.figures]
+        assert said["figures"] == " and ".join(figures)
+        assert said["verdict"] == "supported"
 
 
 def test_the_rest_is_counted_in_the_results(made_up):

@@ -53,19 +53,37 @@ def test_the_interval_holds_repetitions_as_often_as_it_says(searches, compared, 
     assert 0.905 <= np.mean(inside) <= 0.99
 
 
-@pytest.mark.parametrize("searches", [4, 12])
+@pytest.mark.parametrize("searches", [2, 4])
 def test_studies_with_one_search_find_their_number_as_often_as_it_says(searches):
     inside = []
-    for number in range(1000):
+    for number in range(4000):
         random = rng(6, searches, number)
-        low, high = ratio_of_two(*(training(random, searches) for _ in range(2)))
+        low, high = ratio_of_two(3 * training(random, searches), training(random, searches))
         ours, theirs = (np.log(training(random, 1)).mean() for _ in range(2))
-        inside.append(low <= np.exp(ours - theirs) <= high)
-    assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 1000))
+        inside.append(low <= 3 * np.exp(ours - theirs) <= high)
+    assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 4000))
+
+
+@pytest.mark.parametrize("searches", [(8,), (12,), (12, 4), (4, 12, 6), (4, 4)])
+def test_of_normal_means_an_interval_is_students_of_the_fewest_searches(searches):
+    """With as many degrees of freedom as the two trainings of the fewest have; for a repetition."""
+    draws = Draws(rng(1))
+    for each in searches:
+        draws.means(np.zeros((each, 1)))
+    normal = norm.ppf((np.arange(1_000_000) + 0.5) / 1_000_000)
+    found = draws.estimate(np.array([0.3, *normal]))
+    fewest, *more = sorted(searches)[:2]
+    freedom = sum(each - 1 for each in (fewest, *more))
+    wide = np.sqrt(2 * fewest / (fewest - 1)) * student.ppf(0.975, freedom)
+    assert found.mean == 0.3
+    assert (-found.low, found.high) == pytest.approx((wide, wide), rel=0.01)
 
 
 def test_of_a_single_search_nothing_is_said_of_another():
     assert np.isnan(ratio_of_two(np.ones((1, SEEDS)), np.ones((2, SEEDS)))).all()
+    values = training(rng(2), 1)
+    found = estimate(values, rng(1))
+    assert found.mean == pytest.approx(values.mean()) and np.isnan(found[1:]).all()
 
 
 def test_an_interval_grows_with_the_spread_of_searches_and_with_that_of_seeds(quick):
