@@ -2,6 +2,8 @@
 
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 # before NumPy is there: small matrices are slower on many threads than on one
@@ -27,6 +29,15 @@ settings.load_profile("untimed")
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
 PARTS += ["tests", "docs", "figures"]
+
+
+def loaded_with(statement: str, heavy: set[str]) -> set[str]:
+    """Which heavy packages a statement imports."""
+    text = f"import sys; {statement}; print(*({heavy} & sys.modules.keys()))"
+    ran = subprocess.run(
+        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
+    )
+    return set(ran.stdout.split())
 
 
 @pytest.fixture(scope="session")

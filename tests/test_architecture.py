@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from tests.conftest import ROOT
+from tests.conftest import ROOT, loaded_with
 
 LIBRARY = "nominal", "damaged", "identification", "learners", "laboratory"
 STUDY = "mapping", "experiments", "evidence", "multiverse", "plots", "recording"
@@ -93,18 +93,9 @@ def test_rerun_is_imported_by_the_recordings_alone():
         assert not uses or allowed, path
 
 
-def loaded_with(modules: str, heavy: set[str]) -> set[str]:
-    """Which heavy packages come with modules."""
-    text = f"import sys, {modules}; print(*({heavy} & sys.modules.keys()))"
-    ran = subprocess.run(
-        [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
-    )
-    return set(ran.stdout.split())
-
-
 def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
     """The workflow does it whenever it starts."""
-    declaring = "recalib.study.evidence.pages, recalib.study.evidence.report"
+    declaring = "import recalib.study.evidence.pages, recalib.study.evidence.report"
     declaring += ", recalib.study.plots.registry, recalib.study.evidence.coverage"
     declaring += ", recalib.study.multiverse.universe, recalib.study.multiverse.design"
     heavy = {"pandas", "scipy", "matplotlib", "jinja2", "pinocchio", "numba"}
@@ -114,7 +105,8 @@ def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
 def test_calibrating_an_arm_loads_no_tables_and_compiles_nothing():
     """Each of these takes longer than the identification of an arm from 100 poses."""
     heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic"}
-    assert loaded_with("recalib.laboratory.calibrate, recalib.laboratory.files", heavy) == set()
+    calibrating = "import recalib.laboratory.calibrate, recalib.laboratory.files"
+    assert loaded_with(calibrating, heavy) == set()
 
 
 CHANGES = {"DamagedArm", "Finding"}  # what is gathered part by part

@@ -16,7 +16,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import recalib
-from tests.conftest import ROOT
+from tests.conftest import ROOT, loaded_with
 
 ALONE = "ur10", "notebook"  # the robot of the examples, and tests/test_notebook.py
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem not in ALONE)
@@ -39,11 +39,7 @@ def test_an_unknown_name_is_no_attribute():
 
 
 def test_the_packages_come_with_the_names_that_need_them():
-    code = "import recalib, sys; print(*sys.modules)"
-    loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    )
-    assert not {"numpy", "scipy", "pinocchio", "numba"} & set(loaded.stdout.split())
+    assert loaded_with("import recalib", {"numpy", "scipy", "pinocchio", "numba"}) == set()
 
 
 @pytest.mark.slow
