@@ -1,10 +1,23 @@
-"""What compiles the loops of robots and learners."""
+"""What compiles the loops of robots and learners, and that they stay within their arrays."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
+from numba import config
 from numba.core import caching
 
 from recalib.compiled import compiled
+from recalib.learners.cells import Cells
+from recalib.monomials import monomials, polynomial
+from recalib.nominal.arms import load_arm
+from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.poses import COORDINATES, Workspace
+
+ROOT = Path(__file__).parents[1]
 
 
 def over(one, other):
@@ -20,3 +33,36 @@ def test_where_nothing_can_be_kept_it_is_compiled_all_the_same(monkeypatch):
     with pytest.raises(RuntimeError, match="no locator available"):
         caching.FunctionCache(over)
     assert compiled(over)(1.0, 4.0) == 0.25
+
+
+def go_through_all_loops() -> None:
+    """As plain Python, where a number beside an array is an error; compiled, nobody looks."""
+    assert config.DISABLE_JIT
+    random = np.random.default_rng(1)
+    for urdf, tool, home in (
+        ("ur10_robot.urdf", "tool0", [0.0, -1.4, 2.1, -2.9, -1.6, 0.1]),
+        ("panda.urdf", "panda_hand_tcp", [0.0, -0.7, 0.2, -2.1, 0.0, 1.6, 0.5]),
+        ("so100.urdf", "gripper", [0.0, 1.0, -1.2, 0.5, 0.5]),
+    ):
+        arm, angles = load_arm(urdf, tool), home + random.uniform(-0.1, 0.1, (2, len(home)))
+        chain, (poses, jacobians) = Chain.of(arm), arm.forward_and_jacobian(angles)
+        twice = Chain.side_by_side([chain, chain]).forward(np.stack([angles, angles]))
+        assert np.allclose(twice, poses)
+        assert np.allclose(chain.jacobians(angles), jacobians)
+        assert chain.solve(poses, angles + 0.01)[1].max() <= TOLERANCE
+    coordinates = random.uniform(-1, 1, (3, 6))
+    for kind in COORDINATES:
+        workspace = Workspace(poses[0], np.full(6, 0.3), kind)
+        assert np.allclose(workspace.to_coordinates(workspace.to_poses(coordinates)), coordinates)
+    coefficients = random.normal(size=(monomials(coordinates, 3).shape[-1], 2))
+    expected = monomials(coordinates, 3) @ coefficients
+    assert np.allclose(polynomial(coefficients, coordinates, 3), expected)
+    cells = Cells(2, np.zeros((3, 4, 5)), increments=True)
+    cells.update(np.ones(2), np.ones((2, 3)), np.ones((2, 4)), np.ones((2, 5)))
+    assert np.array_equal(cells.at(np.array([0, 2]), np.array([3, 1])), np.ones((2, 5)))
+
+
+def test_no_loop_writes_beside_an_array():
+    code = "from tests.test_compiled import go_through_all_loops as go; go()"
+    environment = os.environ | {"NUMBA_DISABLE_JIT": "1"}
+    subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=environment, check=True)

@@ -47,10 +47,11 @@ TESTS = {
     "recalib/learners": [
         "tests/learners",
         "tests/test_learned.py",
+        "tests/test_compiled.py",
         "tests/test_experiment.py",
         "tests/study/experiments/test_planted.py",
     ],
-    "recalib/nominal": ["tests/nominal", "tests/damaged"],
+    "recalib/nominal": ["tests/nominal", "tests/damaged", "tests/test_compiled.py"],
     "recalib/damaged": ["tests/damaged", "tests/study/configuration/test_entries.py"],
     "recalib/study/statistics.py": [
         "tests/study/evidence/test_statistics.py",
