@@ -91,6 +91,7 @@ def identify(
     limit = chdtri(3 * kinds, 1 - GOOD)
     terms = model.terms(seen.joints)
     sparse, diagonal, near = ~model.free, np.diag_indices(len(scale)), None
+    precision = np.empty((len(scale),) * 2)
     for step in range(STEPS):
         if near is None or not near.is_good_at(parameters, NEGLIGIBLE * noise.min()):
             near = None  # of two there is no room for
@@ -99,33 +100,35 @@ def identify(
             weights = limit / np.maximum(_squares(near.residuals, noise), limit)
         # The most probable parameters, given noise, weights and variances ...
         information, pull = near.normal_equations(weights)
-        known, stretch = _distances(model, parameters, seen)
-        precision = np.einsum("k,kpq->pq", noise**-2, information) + known
+        np.einsum("k,kpq->pq", noise**-2, information, out=precision)
+        pull = noise**-2 @ pull - parameters / variances
+        if seen.distances:
+            known, stretch = _distances(model, parameters, seen)
+            precision += known
+            pull += stretch
         precision[diagonal] += 1 / variances
-        factor = scipy.linalg.cholesky(precision), False
-        pull = noise**-2 @ pull + stretch
-        change = scipy.linalg.cho_solve(factor, pull - parameters / variances)
-        covariance = _inverse(factor)
+        change, length, covariance, volume = _posterior(precision, pull)
+        spread = np.diag(covariance)
         parameters = parameters + change
         near.move(change)
         # ... and then noise and variances, given the parameters.
-        taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
+        twice = 2 * (information.reshape(kinds, -1) @ covariance.T.ravel())
+        taken = (twice - np.einsum("p,kpp->k", spread, information)) / noise**2
         last_noise, noise = (
             noise,
             _noise(near.residuals, weights, taken, robust=step < ROBUST_STEPS),
         )
         common = (COMMON + sparse.sum()) / (COMMON + np.sum(1 / variances[sparse]))
-        variances = _variances(model, parameters, np.diag(covariance), common)
-        settled = np.sqrt(change @ precision @ change) < CONVERGED and np.allclose(
-            noise, last_noise, rtol=CONVERGED, atol=0
-        )
+        variances = _variances(model, parameters, spread, common)
+        settled = length < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
         if converged := settled and step >= ROBUST_STEPS:
             break
     log_evidence = (
         _log_likelihood(near.residuals, noise, limit)
         + _log_prior(parameters, variances, sparse, common)
-        - np.log(np.diag(factor[0])).sum()  # the volume that the posterior leaves
+        + volume
     )
+    covariance = covariance + np.triu(covariance, 1).T
     return Estimate(
         parameters * scale,
         covariance * np.outer(scale, scale),
@@ -134,6 +137,24 @@ def identify(
         log_evidence,
         bool(converged),
     )
+
+
+def _posterior(
+    precision: np.ndarray, pull: np.ndarray
+) -> tuple[np.ndarray, float, np.ndarray, float]:
+    """The change of the parameters (P,) for a pull (P,), and what is left unknown of them.
+
+    The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
+    them.
+
+    Returns the change, its length in posterior deviations, the covariance (P, P) with zeros below
+    its diagonal, and the logarithm of the volume that the posterior leaves.
+    """
+    factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
+    change = scipy.linalg.cho_solve((factor, False), pull)
+    length, volume = np.linalg.norm(factor @ change), -np.log(np.diag(factor)).sum()
+    covariance, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
+    return change, length, covariance, volume
 
 
 def _initial(model: ErrorModel, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
@@ -173,14 +194,6 @@ def _distances(
         information += np.outer(slope, slope) / deviation**2
         pull += slope * (length - apart) / deviation**2
     return information, pull
-
-
-def _inverse(factor: tuple[np.ndarray, bool]) -> np.ndarray:
-    """The inverse (P, P) of a matrix of which `cholesky` returned the upper factor."""
-    upper, _ = scipy.linalg.lapack.dpotri(*factor)
-    inverse = upper + upper.T
-    np.fill_diagonal(inverse, np.diag(upper))
-    return inverse
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:

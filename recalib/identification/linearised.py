@@ -82,12 +82,14 @@ class Linearised:
 
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""
-        information, doubted = self._information.copy(), np.flatnonzero(weights < 1)
-        for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
-            information[kind] -= rows.T @ rows  # doubted rows are few: what they have too much
-        weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), -1)
-        rows = self.jacobians.reshape(*weighted.shape, -1)
-        return information, np.einsum("kr,krp->kp", weighted, rows, optimize=True)
+        information, doubted = self._information, np.flatnonzero(weights < 1)
+        if len(doubted):  # they are few: what they have too much
+            information = information.copy()
+            for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
+                information[kind] -= rows.T @ rows
+        weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), 1, -1)
+        rows = self.jacobians.reshape(len(weighted), weighted.shape[-1], -1)
+        return information, (weighted @ rows)[:, 0]
 
     @cached_property
     def _information(self) -> np.ndarray:

@@ -60,6 +60,7 @@ def draw_over_joints(result: Calibrated) -> str:
                 **style,
             )
         axes.set_yscale("log")
+        axes.minorticks_off()  # on so many axes, they would be half of the work
         axes.yaxis.set_major_formatter("{x:g}")
         axes.set_xlabel(f"{joint} [{unit}]", fontsize=9)
         _tidy(axes)
