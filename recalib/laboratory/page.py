@@ -25,7 +25,8 @@ def write_page(path: Path, result: Calibrated) -> None:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    decided = [each for each in described(result.geometry) if each.decided_by == "data"]
+    parameters = described(result.geometry, result.seen)
+    decided = [each for each in parameters if each.decided_by == "data"]
     decided.sort(key=lambda each: -abs(each.value) / each.deviation)
     text = environment.get_template("page.html.j2").render(
         result=result,
@@ -37,6 +38,6 @@ def write_page(path: Path, result: Calibrated) -> None:
         arm_drawing=draw_arm(result),
         parameters=decided[:LISTED],
         decided=len(decided),
-        undecided=len(described(result.geometry)) - len(decided),
+        undecided=len(parameters) - len(decided),
     )
     path.write_text(text, encoding="utf-8")

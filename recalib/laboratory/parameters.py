@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.identification.calibration import Calibration
+from recalib.identification.frames import HELD
 from recalib.identification.observations import Observations
 from recalib.identification.openness import open_parameters
 
-DATA = 0.5  # of a prior's variance: what measurements have left less of, they decided
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 
 
@@ -21,7 +21,7 @@ class Parameter:
         name: in words.
         unit: mm or deg, or what else a joint's error is a function of.
         value, deviation: in that unit, of the estimate.
-        decided_by: data, or prior where these have told little.
+        decided_by: data, or prior where these do not tell it from others.
     """
 
     name: str
@@ -31,9 +31,11 @@ class Parameter:
     decided_by: str
 
 
-def described(calibration: Calibration) -> list[Parameter]:
+def described(calibration: Calibration, seen: Observations) -> list[Parameter]:
     """All parameters of geometry, in the order of the error model."""
-    model, estimate = calibration.model, calibration.estimate
+    # a small deviation tells nothing: of what explains nothing, the prior becomes narrow
+    estimate, by_prior = calibration.estimate, calibration.model.deviations <= HELD
+    by_prior[[one.parameter for one in open_parameters(calibration, seen)]] = True
     deviations = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(
@@ -41,7 +43,7 @@ def described(calibration: Calibration) -> list[Parameter]:
             unit,
             float(scale * estimate.parameters[index]),
             float(scale * deviations[index]),
-            "data" if deviations[index] ** 2 < DATA * model.deviations[index] ** 2 else "prior",
+            "prior" if by_prior[index] else "data",
         )
         for index, (name, unit, scale) in enumerate(_names(calibration))
     ]

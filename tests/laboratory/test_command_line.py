@@ -90,6 +90,16 @@ def test_a_calibration_is_a_folder_of_files(calibrated):
     assert (calibrated / "summary.txt").read_text().startswith("On rows that were not learned from")
 
 
+def test_data_decide_no_more_parameters_than_they_can_tell_apart(calibrated):
+    """Four for each joint and six at the ends, without how the target is turned."""
+    told = json.loads((calibrated / "parameters.json").read_text())
+    decided = [each["name"] for each in told["parameters"] if each["decided_by"] == "data"]
+    assert 9 < len(decided) <= 4 * 3 + 3
+    assert f"{len(decided)} of the {len(told['parameters'])} parameters" in (
+        calibrated / "page.html"
+    ).read_text().replace("\n", " ")
+
+
 def test_the_page_asks_for_nothing_from_elsewhere(calibrated):
     page = (calibrated / "page.html").read_text()
     assert page.count("<svg") == 3
