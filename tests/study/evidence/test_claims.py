@@ -5,10 +5,12 @@ import math
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from recalib.study.evidence.claims import CLAIMS, judging, missing
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, above, below, every
+from recalib.study.evidence.claims.integrals import _where_it_ends
 from recalib.study.evidence.claims.speed_up import READINGS
 from recalib.study.evidence.needs import Needs
 from recalib.study.evidence.results import Evidence, Undeclared
@@ -209,6 +211,14 @@ def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, rati
     visits = made_up.visits().assign(ratio=ratio, error=error)
     made_up.write(made_up.layout.mapping("visits"), visits)
     assert made_up.verdict("expected-learning") == verdict
+
+
+def test_the_note_says_between_which_shifts_the_reason_ends():
+    ratios = pd.Series([0.1, 0.2, 0.5, 0.9, 1.5], index=[0.1, 0.5, 1.0, 4.0, 8.0])
+    assert _where_it_ends(ratios).startswith(
+        "E_upd passes E_clas between 4 and 8 times the paper's"
+    )
+    assert "below E_clas up to 4 times the paper's" in _where_it_ends(ratios[:4])
 
 
 def test_contradicting_trials_change_the_verdict(few, tmp_path):
