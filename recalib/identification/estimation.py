@@ -108,18 +108,16 @@ def identify(
             pull += stretch
         precision[diagonal] += 1 / variances
         change, length, covariance, volume = _posterior(precision, pull)
-        spread = np.diag(covariance)
         parameters = parameters + change
         near.move(change)
         # ... and then noise and variances, given the parameters.
-        twice = 2 * (information.reshape(kinds, -1) @ covariance.T.ravel())
-        taken = (twice - np.einsum("p,kpp->k", spread, information)) / noise**2
+        taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
         last_noise, noise = (
             noise,
             _noise(near.residuals, weights, taken, robust=step < ROBUST_STEPS),
         )
         common = (COMMON + sparse.sum()) / (COMMON + np.sum(1 / variances[sparse]))
-        variances = _variances(model, parameters, spread, common)
+        variances = _variances(model, parameters, np.diag(covariance), common)
         settled = length < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
         if converged := settled and step >= ROBUST_STEPS:
             break
@@ -128,7 +126,6 @@ def identify(
         + _log_prior(parameters, variances, sparse, common)
         + volume
     )
-    covariance = covariance + np.triu(covariance, 1).T
     return Estimate(
         parameters * scale,
         covariance * np.outer(scale, scale),
@@ -147,13 +144,15 @@ def _posterior(
     The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
     them.
 
-    Returns the change, its length in posterior deviations, the covariance (P, P) with zeros below
-    its diagonal, and the logarithm of the volume that the posterior leaves.
+    Returns the change, its length in posterior deviations, the covariance (P, P), and the logarithm
+    of the volume that the posterior leaves.
     """
     factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
     change = scipy.linalg.cho_solve((factor, False), pull)
     length, volume = np.linalg.norm(factor @ change), -np.log(np.diag(factor)).sum()
-    covariance, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
+    upper, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
+    covariance = upper + upper.T
+    np.fill_diagonal(covariance, np.diag(upper))
     return change, length, covariance, volume
 
 

@@ -87,9 +87,9 @@ class Linearised:
             information = information.copy()
             for kind, rows in self._scaled(doubted, np.sqrt(1 - weights[doubted])):
                 information[kind] -= rows.T @ rows
-        weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), 1, -1)
-        rows = self.jacobians.reshape(len(weighted), weighted.shape[-1], -1)
-        return information, (weighted @ rows)[:, 0]
+        weighted = (self.residuals * weights[:, None]).reshape(len(self.residuals), -1)
+        rows = self.jacobians.reshape(*weighted.shape, -1)
+        return information, np.einsum("kr,krp->kp", weighted, rows, optimize=True)
 
     @cached_property
     def _information(self) -> np.ndarray:
