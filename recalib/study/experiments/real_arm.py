@@ -15,7 +15,6 @@ from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
-from recalib.laboratory.description import read_description
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
@@ -27,7 +26,7 @@ from recalib.study import jobs
 from recalib.study.entrants import MOVES
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import Measurements, read_of
+from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.plants import nominal_robot
 from recalib.training import train
 
@@ -42,7 +41,7 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     arm = robot.arm.copy()
     tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
-    workspace = Workspace(arm.forward(robot.home[None])[0], robot.workspace.half_ranges)
+    workspace = replace(robot.workspace, centre=arm.forward(robot.home[None])[0])
     return replace(robot, arm=arm, workspace=workspace)
 
 
@@ -144,7 +143,7 @@ def learn_from_tables(
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
-    said = read_description(description)
+    said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
@@ -170,7 +169,7 @@ def learn_on_twin(
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
-    said = read_description(description)
+    said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
     twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = job.learner.iterations, range(job.subsets)

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.errors import RecalibError
-from recalib.laboratory.description import Description
-from recalib.laboratory.measurements import read_measurements
+from recalib.errors import InvalidFile, RecalibError
+from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.measurements import NOMINAL, read_measurements
 from recalib.laboratory.sanity import check_nominal
 from recalib.nominal.kinematics import Arm
 from recalib.study import jobs
@@ -47,6 +47,17 @@ class Measurements:
         return Measurements(self.angles[rows], self.nominal[rows], self.measured[rows])
 
 
+def read_whole_description(path: str | PathLike) -> Description:
+    """The description of such tables at `path`.
+
+    Raises InvalidFile, also where it says not where the instrument stands or the target sits.
+    """
+    description = read_description(path)
+    if description.instrument is None or description.target is None:
+        raise InvalidFile(path, "it lacks an instrument or a target; valid: both")
+    return description
+
+
 def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measurements:
     """The measurements in the table at `path`, of this arm and no other.
 
@@ -58,6 +69,8 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
     it does not get to the nominal positions in the table).
     """
     rows = read_measurements(path, arm, description)
+    if rows.positions is None or rows.nominal is None:
+        raise InvalidFile(path, f"it lacks {', '.join(NOMINAL)} or what was measured; valid: both")
     base = np.linalg.inv(description.instrument)
     check_nominal(arm, rows.coordinates, rows.nominal, base, np.zeros(3))
     turn, place = description.instrument[:3, :3], description.instrument[:3, 3]

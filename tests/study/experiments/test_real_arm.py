@@ -1,5 +1,7 @@
 """What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,10 +9,10 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, UnknownName
-from recalib.laboratory.description import read_description
+from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.sanity import WrongNominal
 from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
-from recalib.study.experiments.tracker import read_of
+from recalib.study.experiments.tracker import read_of, read_whole_description
 from recalib.study.plants import nominal_robot
 from tests.conftest import ROOT
 
@@ -87,6 +89,9 @@ def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
         np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
         [*TOOL_POINT, 1],
     )
+    by_vectors = replace(flange.workspace, coordinates="rotation_vector")
+    moved = with_tool_point(replace(flange, workspace=by_vectors), TOOL_POINT)
+    assert moved.workspace.coordinates == "rotation_vector"
 
 
 def test_learners_leave_ever_smaller_errors(recording, ur5):
@@ -114,6 +119,18 @@ def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, ur5, desc
     spoil(table).to_csv(tmp_path / "spoilt.csv", index=False)
     with pytest.raises(InvalidFile, match="y_dif"):
         read_of(ur5.arm, tmp_path / "spoilt.csv", description)
+
+
+def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
+    path = tmp_path / "half.toml"
+    path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
+    with pytest.raises(InvalidFile, match=r"half\.toml: it lacks an instrument or a target"):
+        read_whole_description(path)
+    columns = {f"{joint} [rad]": recording.angles[:, i] for i, joint in enumerate(ur5.joints)}
+    columns |= {f"{axis} [m]": recording.measured[:, i] for i, axis in enumerate("xyz")}
+    pd.DataFrame(columns).to_csv(tmp_path / "half.csv", index=False)
+    with pytest.raises(InvalidFile, match="lacks x_nominal, y_nominal, z_nominal or what was"):
+        read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
 
 
 @pytest.mark.parametrize(
