@@ -58,7 +58,7 @@ def test_studies_with_one_search_find_their_number_as_often_as_it_says(searches)
     inside = []
     for number in range(4000):
         random = rng(6, searches, number)
-        low, high = ratio_of_two(3 * training(random, searches), training(random, searches))
+        low, high = ratio_of_two(6 * training(random, searches), 2 * training(random, searches))
         ours, theirs = (np.log(training(random, 1)).mean() for _ in range(2))
         inside.append(low <= 3 * np.exp(ours - theirs) <= high)
     assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 4000))
