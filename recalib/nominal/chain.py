@@ -208,8 +208,10 @@ def _missing(pose, goal, missing):
     """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
 
     The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
-    angle itself where Newton's method ends.
+    angle itself where Newton's method ends. Beyond a right angle it is the angle, lest half a turn
+    be taken for none.
     """
+    trace = 0.0  # of the rotation from pose to goal
     for row in range(3):
         missing[row] = goal[row, 3] - pose[row, 3]
         one, other = (row + 1) % 3, (row + 2) % 3
@@ -218,8 +220,33 @@ def _missing(pose, goal, missing):
             turn += (
                 goal[other, column] * pose[one, column] - goal[one, column] * pose[other, column]
             )
+            trace += goal[row, column] * pose[row, column]
         missing[3 + row] = turn / 2
+    if trace < 1:
+        _turn_far(pose, goal, (trace - 1) / 2, missing)
     return _longest(missing)
+
+
+@compiled
+def _turn_far(pose, goal, cosine, missing):
+    """Write a turn beyond a right angle, where that with the sine of its angle stands.
+
+    Its axis is told by what of the rotation is symmetric: at half a turn all of it is.
+    """
+    between = np.zeros((3, 3))
+    for row in range(3):
+        for column in range(3):
+            for each in range(3):
+                between[row, column] += goal[row, each] * pose[column, each]
+    sure = np.argmax(np.diag(between))  # along this coordinate the axis has most
+    axis = (between[sure] + between[:, sure]) / 2
+    axis[sure] -= cosine
+    sine = missing[3:].copy()
+    factor = np.arctan2(np.linalg.norm(sine), cosine) / np.linalg.norm(axis)
+    if axis @ sine < 0:
+        factor = -factor
+    for row in range(3):
+        missing[3 + row] = factor * axis[row]
 
 
 @compiled
