@@ -32,7 +32,8 @@ class InvalidSetting(RecalibError):
 
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
-        super().__init__(f"{key} is {value!r}; valid: {valid}")
+        said = "missing" if value is None else repr(value)
+        super().__init__(f"{key} is {said}; valid: {valid}")
 
 
 class BadMeasurement(RecalibError):

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
@@ -30,8 +30,8 @@ def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = N
         tool: link whose frame is the pose; the only end of the arm unless given.
         base: link in whose frame poses are; the root unless given.
 
-    Raises UnknownName (URDF, link), InvalidSetting (several ends, and no tool given), and
-    UnsuitableRobot: no URDF, or no such arm.
+    Raises UnknownName (URDF, link), InvalidFile (no such file), InvalidSetting (several ends, and
+    no tool given), and UnsuitableRobot: no URDF, or no such arm.
     """
     tree = _Tree(find_urdf(urdf))
     base = tree.link("base", base or tree.root)
@@ -63,7 +63,7 @@ def find_urdf(urdf: str | PathLike) -> Path:
         urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
             a description in robot_descriptions.py, such as panda_description, if it is installed.
 
-    Raises UnknownName.
+    Raises UnknownName, or InvalidFile where that is no name but a path.
     """
     packaged = _packaged_urdfs()
     if urdf in packaged:
@@ -74,9 +74,11 @@ def find_urdf(urdf: str | PathLike) -> Path:
         except (ImportError, AttributeError):
             valid = f"a path, or a URDF of {PACKAGE}, which has to be installed"
             raise InvalidSetting("urdf", fspath(urdf), valid) from None
-    if not Path(urdf).is_file():
-        raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
-    return Path(urdf)
+    if Path(urdf).is_file():
+        return Path(urdf)
+    if Path(urdf).name != fspath(urdf):
+        raise InvalidFile(urdf, "there is no such file")
+    raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
 
 
 @cache

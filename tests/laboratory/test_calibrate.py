@@ -135,7 +135,7 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets, folder):
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
     assert result.worthwhile and result.sockets == ("left", "right")
     assert "a ball in sockets shows errors there" in summary(result)
-    with pytest.raises(InvalidSetting, match="candidates is None; valid: postures in which"):
+    with pytest.raises(InvalidSetting, match="candidates is missing; valid: postures in which"):
         propose(result.correction, 3)
 
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.arms import load_arm
 from tests.arms import GANTRY, SCARA, urdf
 
@@ -118,7 +118,7 @@ MIMIC = '<mimic joint="slide"/>'
         (urdf(SLIDER, ("drift", "planar", "0 0 1", "0 0 0")), [], UnsuitableRobot, "drift .* plan"),
         (urdf(SLIDER, ("fly", "floating", "0 0 1", "0 0 0")), [], UnsuitableRobot, "fly .* float"),
         (urdf(SLIDER, ("ape", *SLIDER[1:], MIMIC)), [], UnsuitableRobot, "ape .* is mimic"),
-        (urdf(), [], InvalidSetting, "tool is None; .* at its ends are none"),
+        (urdf(), [], InvalidSetting, "tool is missing; .* at its ends are none"),
         (
             SCARA.replace("link_3", "link_1").replace('<link name="link_1"/>', "", 1),
             [],
@@ -155,3 +155,10 @@ def test_what_is_no_such_arm_is_refused_by_name(load, text, links, error, messag
 def test_of_several_ends_the_tool_has_to_be_named():
     with pytest.raises(InvalidSetting, match="at its ends are panda_leftfinger, panda_right"):
         load_arm("panda.urdf")
+
+
+def test_a_path_to_nothing_is_told_without_the_names_that_would_do(tmp_path):
+    with pytest.raises(InvalidFile, match=r"my_arm.urdf: there is no such file$"):
+        load_arm(tmp_path / "my_arm.urdf")
+    with pytest.raises(UnknownName, match=r"'my_arm.urdf'; valid: .*ur10_robot.urdf"):
+        load_arm("my_arm.urdf")
