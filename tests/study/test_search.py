@@ -166,6 +166,25 @@ def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(plan, tmp_
     assert samples.winners(path) == best(trials).to_dict("records")
 
 
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda lines: lines[:6],  # the trials of one search
+        lambda lines: [*lines[:-1], lines[-1][:9]],
+        lambda lines: [*lines, "3" + lines[-1][1:]],
+        lambda lines: [*lines[:-1], lines[-1].replace(".", "x")],
+    ],
+    ids=["cut off", "cut off in a row", "a further search", "no number"],
+)
+def test_a_sample_without_a_winner_for_each_search_is_refused(spoil, plan, tmp_path):
+    path = tmp_path / "improved_200.csv"
+    job = plan.sample("improved_200").model_copy(update={"searches": 2})
+    samples.write_sample(path, job, sample_of_two())
+    path.write_text("\n".join(spoil(path.read_text().splitlines())) + "\n")
+    with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
+        samples.winners(path)
+
+
 def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(
     study, plan, tmp_path
 ):

@@ -42,19 +42,23 @@ def searched_for(path: str | Path) -> jobs.Sample:
 def winners(path: str | Path) -> list[dict[str, float]]:
     """The trial in a file that each search keeps, in their order. Raises BrokenSample.
 
-    As `best(read_sample(path))`, without a table: every training starts with
-    this.
+    As `best(read_sample(path))`, without a table: every training starts with this.
     """
-    found: dict[float, dict[str, float]] = {}
-    for number in range(1, searched_for(path).searches + 1):
-        found[number] = {}
-    with Path(path).open(encoding="utf-8", newline="") as lines:
-        next(lines)
-        for row in csv.DictReader(lines):
-            trial = {name: float(text) for name, text in row.items()}
-            best = found[trial["search"]]
-            if not best or trial["score"] < best["score"]:
-                found[trial["search"]] = trial
+    found: dict[float, dict[str, float]] = {
+        number: {} for number in range(1, searched_for(path).searches + 1)
+    }
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as lines:
+            next(lines)
+            for row in csv.DictReader(lines):
+                trial = {name: float(text) for name, text in row.items()}
+                best = found[trial["search"]]
+                if not best or trial["score"] < best["score"]:
+                    found[trial["search"]] = trial
+    except (KeyError, TypeError, ValueError):
+        raise BrokenSample(path) from None
+    if not all(found.values()):  # a search without any trial
+        raise BrokenSample(path)
     return list(found.values())
 
 
