@@ -7,7 +7,7 @@ from recalib.identification import validation as module
 from recalib.identification.calibration import calibrate
 from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
-from recalib.identification.held_out import FOLDS, blocks, random_folds
+from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
 from recalib.identification.observations import Observations
 from recalib.identification.soundness import Implausible, TooFewRows
 from recalib.identification.validation import (
@@ -149,3 +149,11 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
 def test_few_rows_are_refused(arm):
     with pytest.raises(TooFewRows, match="9 rows; valid: at least 10"):
         validate(arm, seen_of(Real(arm, 6), 9))
+
+
+def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
+    misses = np.array([[0.003, 0.0, 0.004, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]])
+    held = HeldOut(misses, np.ones(2), np.arange(2))
+    assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
+    assert held.losses == pytest.approx([0.055, 0.01])
+    assert HeldOut(misses[:, :3], held.spreads, held.folds).losses == pytest.approx([0.005, 0])
