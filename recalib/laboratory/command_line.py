@@ -1,6 +1,7 @@
 """The command line: `recalib calibrate`, `correct`, `next` and `urdf`; docs/own_arm.md."""
 
 import argparse
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -14,6 +15,9 @@ EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better t
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command, and return its exit code. Mistakes are told in a sentence on stderr."""
     given = _parser().parse_args(arguments)
+    # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
+    # where something else is at work, ten times as long as it takes one alone.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         return given.command(given)
     except RecalibError as error:

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.correction import load_correction
 from recalib.nominal.arms import load_arm
 from tests.arms import urdf
+from tests.conftest import loaded_with
 
 NOISE = 5e-5  # m
 ROWS = 30
@@ -186,3 +188,14 @@ def test_a_mistake_is_told_in_one_sentence(arm, folder, capsys):
     assert code == REFUSED and told == f"recalib: cannot use {folder / 'empty.csv'}: it is empty\n"
     assert main(["correct", str(folder), str(folder / "empty.csv")]) == REFUSED
     assert "correction.npz: No such file or directory" in capsys.readouterr().err
+
+
+def test_a_command_leaves_linear_algebra_to_one_thread_before_numpy_counts_cores(monkeypatch):
+    assert loaded_with("import recalib.laboratory.command_line", {"numpy"}) == set()
+    for threads in ("4", "1"):
+        monkeypatch.setenv("OPENBLAS_NUM_THREADS", threads)
+        assert main(["next", "nowhere"]) == REFUSED
+        assert os.environ["OPENBLAS_NUM_THREADS"] == threads
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS")
+    assert main(["next", "nowhere"]) == REFUSED
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
