@@ -29,11 +29,8 @@ STARTS = {
     "benchmark_table check expect outcomes real_table search_sample study_visits summarise": {
         "pandas"
     },
-    "assign bench design scenario train": ARMS,
-    "benchmark ensemble real_run real_twin record search study_mapping study_replay universe": {
-        *ARMS,
-        "pandas",
-    },
+    "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
+    "study_mapping study_replay train universe": ARMS,
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
     "film pictures": {*ARMS, "rerun"},

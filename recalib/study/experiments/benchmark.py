@@ -3,9 +3,9 @@
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.interfaces import Learner
 from recalib.study import jobs
@@ -15,6 +15,9 @@ from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
 from recalib.training import train
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 class Timed:
@@ -52,7 +55,7 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
 
 def compete(
     job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None
-) -> pd.DataFrame:
+) -> "pd.DataFrame":
     """Let a learner work through scenarios of one robot side by side.
 
     Args:
@@ -62,6 +65,8 @@ def compete(
 
     Returns a row for each scenario, seed and budget of moves.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     runs, total = range(job.seeds), len(scenarios) * job.seeds
     controller, plants = fleet([Resolved.read(path) for path in scenarios], job.seed, runs)
     if job.learner is None:

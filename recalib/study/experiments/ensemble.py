@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import Damage, DamagedArm, apply
 from recalib.damaged.plant import Plant
@@ -18,6 +18,9 @@ from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import nominal_controller
 from recalib.training import train
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
@@ -35,7 +38,7 @@ def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> It
         yield ways[index]
 
 
-def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
+def train_draws(job: jobs.Draws, sample: str | Path) -> "pd.DataFrame":
     """Train a learner on some robots of a series, each with all scales of its damage.
 
     Args:
@@ -43,6 +46,8 @@ def train_draws(job: jobs.Draws, sample: str | Path) -> pd.DataFrame:
 
     Returns a row for each robot and scale.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     controller = nominal_controller(job.nominal)
     robot, iterations, scales = controller.robot, job.learner.iterations, job.plan.scales
     ways = Ways(job.nominal.robot.links, job.damage.shorten, robot.joints, job.damage.shift)

@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from os import PathLike
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 import pinocchio as pin
 
 from recalib.damaged.plant import Plant
@@ -29,6 +29,9 @@ from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.plants import nominal_robot
 from recalib.training import train
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 
@@ -135,7 +138,7 @@ def remaining_errors(
 
 def learn_from_tables(
     job: jobs.RealRun, fit: str | PathLike, test: str | PathLike, description: str | PathLike
-) -> pd.DataFrame:
+) -> "pd.DataFrame":
     """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
 
     Args:
@@ -143,6 +146,8 @@ def learn_from_tables(
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
@@ -160,7 +165,7 @@ def learn_from_tables(
 
 def learn_on_twin(
     job: jobs.RealTwin, fit: str | PathLike, description: str | PathLike, sample: str | PathLike
-) -> pd.DataFrame:
+) -> "pd.DataFrame":
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
@@ -169,6 +174,8 @@ def learn_on_twin(
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
     twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))

@@ -1,9 +1,9 @@
 """Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.archives import flat
 from recalib.study import jobs
@@ -11,14 +11,19 @@ from recalib.study.experiments.campaign import desired_poses
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
 
+if TYPE_CHECKING:
+    import pandas as pd
 
-def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> pd.DataFrame:
+
+def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> "pd.DataFrame":
     """For each array that the learner holds, the largest difference between both teachers.
 
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the searches for this training.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     resolved, iterations = Resolved.read(scenario), job.learner.iterations
     plant = resolved.plant(resolved.controller(), job.seed, [0])
     desired = desired_poses(job.seed, "replay", [0], iterations)

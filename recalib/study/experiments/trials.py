@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.interfaces import Commandable
 from recalib.learners.hierarchical import HierarchicalLearner, Rules
@@ -17,15 +17,20 @@ from recalib.study.experiments.settings import rules_of
 from recalib.study.plants import Resolved
 from recalib.training import train
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 DIGITS = 4  # of errors and scores
 
 
-def search_for(job: jobs.Searches, scenario: str | Path) -> pd.DataFrame:
+def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
     """All trials of some searches, a row each.
 
     Args:
         scenario: file of the scenario as resolved.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(job.budget.seeds)]
 
@@ -50,7 +55,7 @@ def search_once(
     budget: Budget,
     tests: int,
     luck: str,
-) -> pd.DataFrame:
+) -> "pd.DataFrame":
     """All trials of one search, round after round, a row each.
 
     Args:
@@ -59,6 +64,8 @@ def search_once(
         tests: poses on which a trial is measured.
         luck: the scope of its randomness.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     seeds = range(budget.seeds)
     poses = desired_poses(budget.seed, luck, seeds, iterations)
     tested = test_poses(budget.seed, luck, seeds, tests)

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
@@ -14,10 +14,13 @@ from recalib.study import jobs
 from recalib.study.mapping.true_mapping import mapping_jacobians
 from recalib.study.plants import Resolved
 
+if TYPE_CHECKING:
+    import pandas as pd
+
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 
 
-def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
+def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "pd.DataFrame":
     """The off-diagonal blocks of the true mapping's Jacobian against the diagonal ones.
 
     Args:
@@ -28,6 +31,8 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd
     Returns a row for each pose, with columns position and orientation for these commands: the ratio
     of the blocks' Frobenius norms, in coordinates of the workspace.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
         name: [np.linalg.norm(jacobians[:, own, seen], axis=(1, 2)) for seen in (own, other)]
@@ -36,13 +41,15 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})
 
 
-def couplings(job: jobs.TrueMapping, scenarios: Sequence[str | Path]) -> pd.DataFrame:
+def couplings(job: jobs.TrueMapping, scenarios: Sequence[str | Path]) -> "pd.DataFrame":
     """The coupling at random poses of each scenario.
 
     Args:
         job: how many poses.
         scenarios: files of the scenarios as resolved.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     tables = []
     for scenario in map(Resolved.read, scenarios):
         controller = scenario.controller()

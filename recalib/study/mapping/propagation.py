@@ -3,9 +3,9 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
 from recalib.randomness import generator
@@ -13,6 +13,9 @@ from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from recalib.study.plants import Resolved
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 Mapping = Callable[[np.ndarray], np.ndarray]
 
@@ -51,7 +54,7 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
     return [*links, *encoders]
 
 
-def propagation(job: jobs.TrueMapping, scenario: str | Path) -> pd.DataFrame:
+def propagation(job: jobs.TrueMapping, scenario: str | Path) -> "pd.DataFrame":
     """Both integrals in balls about random centres, from slight to large damage.
 
     Args:
@@ -61,6 +64,8 @@ def propagation(job: jobs.TrueMapping, scenario: str | Path) -> pd.DataFrame:
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with columns classic (E_clas) and updated (E_upd).
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     resolved, plan = Resolved.read(scenario), job.plan
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)

@@ -4,9 +4,9 @@ Luck is new in every universe: of the searches, of the poses and of the seeds.
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
@@ -25,6 +25,9 @@ from recalib.study.multiverse.universe import Universe
 from recalib.study.plants import nominal_controller
 from recalib.study.statistics import combined
 from recalib.training import train
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 PARTS = (0, 0.1, 0.25, 0.5, 1)  # of a training, after which it is measured
 
@@ -46,14 +49,14 @@ class World:
         arm = apply(self._controller.robot, damages)
         return lambda runs: Plant(self._controller, [arm])
 
-    def tune(self, learner: str, iterations: int, budget: Budget) -> pd.DataFrame:
+    def tune(self, learner: str, iterations: int, budget: Budget) -> "pd.DataFrame":
         """All trials of the search for a learner, on the paper's damage."""
         rules, robots = rules_in(self.universe, learner), self.robots(self.universe.own)
         luck = f"search for {learner}_{iterations}"
         return search_once(robots, rules, iterations, budget, self.universe.tests, luck)
 
     def train(
-        self, learner: str, iterations: int, trials: pd.DataFrame, scenario: str = ""
+        self, learner: str, iterations: int, trials: "pd.DataFrame", scenario: str = ""
     ) -> np.ndarray:
         """Errors (seed, measurement, 2) [cm, degrees] of the best of some trials.
 
@@ -114,7 +117,7 @@ def _ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
     return float(np.exp(np.subtract(*logs).mean()))
 
 
-def _width_order(trials: pd.DataFrame) -> float:
+def _width_order(trials: "pd.DataFrame") -> float:
     """Narrow over wide, as section 4 has them, in the map that shows it less.
 
     Of the best tenth of the first round, as in the claim.

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import pandas as pd
-
 from recalib.interfaces import Learner
 from recalib.study import jobs
 from recalib.study.entrants import make_peer
@@ -30,6 +28,8 @@ def record(
         samples: for each of the job's learners of the paper, the file of the search for it.
         histories: for each of them, the file of its training.
     """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
     resolved = Resolved.read(scenario)
     papers = job.papers()
     tables = dict(zip(papers, (pd.read_parquet(history) for history in histories), strict=True))
