@@ -162,3 +162,10 @@ def test_a_path_to_nothing_is_told_without_the_names_that_would_do(tmp_path):
         load_arm(tmp_path / "my_arm.urdf")
     with pytest.raises(UnknownName, match=r"'my_arm.urdf'; valid: .*ur10_robot.urdf"):
         load_arm("my_arm.urdf")
+
+
+def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
+    """Such as a camera on the base."""
+    camera = '<link name="camera"/><joint name="mount" type="fixed"><parent link="base"/>'
+    beside = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
+    assert load(beside).tool == load(GANTRY).tool
