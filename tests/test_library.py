@@ -39,7 +39,9 @@ def test_an_unknown_name_is_no_attribute():
 
 
 def test_the_packages_come_with_the_names_that_need_them():
-    assert loaded_with("import recalib", {"numpy", "scipy", "pinocchio", "numba"}) == set()
+    assert (
+        loaded_with("import recalib", {"numpy", "scipy", "pinocchio", "numba", "sklearn"}) == set()
+    )
 
 
 @pytest.mark.slow

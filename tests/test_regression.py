@@ -6,7 +6,8 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.regression import Likelihood, Process, is_time_to_search
+from recalib.covariance import Covariance
+from recalib.regression import Process, is_time_to_search
 
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
@@ -76,34 +77,18 @@ def test_few_points_constant_inputs_and_exact_data_warn_of_nothing(count):
     assert np.all(np.isfinite(predicted))
 
 
-def test_likelihood_slope_and_predictions_are_those_of_scikit_learn():
+def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
     theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
-    kernel = ConstantKernel(0.5) * DotProduct(1, "fixed") + ConstantKernel(2.0) * RBF(
-        [0.7, 1.5, 4.0]
+    parts = (
+        ConstantKernel(0.5) * DotProduct(1, "fixed")
+        + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0])
+        + WhiteKernel(0.01)
     )
-    inputs, outputs = INPUTS - INPUTS.mean(axis=0), SMOOTH - SMOOTH.mean(axis=0)
-    theirs = GaussianProcessRegressor(kernel + WhiteKernel(0.01), optimizer=None)
-    theirs.fit(inputs, outputs / SMOOTH.std(axis=0))
-    assert np.allclose(theirs.kernel_.theta, theta)
-    value, slope = theirs.log_marginal_likelihood(theta, eval_gradient=True)
-    ours = Likelihood(inputs, outputs / SMOOTH.std(axis=0), theta)
-    assert np.allclose([ours.value, *ours.slope()], [value, *slope], rtol=1e-9)
-    expected = SMOOTH.mean(axis=0) + SMOOTH.std(axis=0) * theirs.predict(inputs[:5] + 0.1)
-    assert np.allclose(Process(INPUTS, SMOOTH, theta).predict(INPUTS[:5] + 0.1), expected)
-
-
-def test_a_search_goes_on_where_covariances_are_singular_but_for_rounding(monkeypatch):
-    refused = []
-
-    def likelihood(*arguments):
-        try:
-            return Likelihood(*arguments)
-        except np.linalg.LinAlgError:
-            refused.append(arguments)
-            raise
-
-    monkeypatch.setattr("recalib.regression.Likelihood", likelihood)
-    inputs = np.random.default_rng(0).uniform(-1, 1, (128, 1))
-    asked = np.linspace(-0.9, 0.9, 20)[:, None]
-    assert np.allclose(Process(inputs, np.sin(inputs)).predict(asked), np.sin(asked), atol=1e-5)
-    assert refused
+    assert np.allclose(parts.theta, theta)
+    ours = Covariance(theta)
+    for own, theirs in zip(
+        ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True
+    ):
+        assert np.allclose(own, theirs, atol=1e-12)
+    assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
+    assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)
