@@ -15,10 +15,13 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.frames import HELD
 from recalib.identification.linearised import Linearised
 from recalib.identification.observations import Observations
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.newton import solve_groups
 from recalib.randomness import generator
 
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
 POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
+SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's steps to there
 ROUNDING = 1e-8  # of a parameter's own information
 PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
 
@@ -75,15 +78,40 @@ def _information(calibration: Calibration, seen: Observations, weights: np.ndarr
 
 
 def _anywhere(calibration: Calibration, seen: Observations) -> Observations:
-    """Observations of the same kind, of all targets, in postures all over the joints' ranges."""
+    """Observations of the same kind, of all targets, in postures all over the joints' ranges.
+
+    A ball goes into its sockets from there, by the shortest way.
+    """
     arm, random = calibration.model.nominal.model, generator(0, "openness")
     low, high = (
         np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
     )
     joints = random.uniform(low, high, (POSTURES, len(low)))
+    if seen.measured is None:
+        return _seated(calibration, joints, seen)
     targets = np.arange(POSTURES) % (seen.targets.max() + 1)
     poses = calibration.model.predict(calibration.estimate.parameters, joints, targets)
     return Observations(joints, poses if seen.kinds == 2 else poses[:, :3, 3], targets)
+
+
+def _seated(calibration: Calibration, joints: np.ndarray, seen: Observations) -> Observations:
+    """Each ball in its sockets, in postures near the given ones (n, joints) that reach them."""
+    pairs = np.unique(np.stack([seen.targets, seen.sockets]), axis=1)
+    targets, sockets = pairs[:, np.arange(len(joints)) % pairs.shape[1]]
+    goals = calibration.frames.sockets[sockets]
+    found, left = joints.copy(), np.empty(len(joints))
+    for target in np.unique(targets):
+        rows = np.flatnonzero(targets == target)
+        arm = calibration.model.arm(calibration.estimate.parameters, target)
+
+        def look(_, postures: np.ndarray, arm: Arm = arm) -> tuple[np.ndarray, np.ndarray]:
+            poses, jacobians = arm.forward_and_jacobian(postures[:, 0])
+            return poses[:, None], jacobians[:, None]
+
+        its = solve_groups(look, goals[rows, None], joints[rows, None], SEATED, STEPS)
+        found[rows], left[rows] = its[0][:, 0], its[1][:, 0]
+    reached = left <= SEATED
+    return Observations(found[reached], None, targets[reached], sockets[reached])
 
 
 def _dependent(information: np.ndarray, least: np.ndarray):

@@ -49,10 +49,19 @@ class Implausible(RecalibError):
         )
 
 
-def check_rows(rows: int) -> None:
-    """Raise TooFewRows."""
-    if rows < FEWEST:
-        raise TooFewRows(rows)
+class OnePosture(RecalibError):
+    """Rows that are all of the same posture, so that none can be held out."""
+
+    def __init__(self):
+        super().__init__("all rows are of one posture; valid: postures all over the joints' ranges")
+
+
+def check_rows(joints: np.ndarray) -> None:
+    """Raise TooFewRows or OnePosture unless some of the postures (n, joints) can be held out."""
+    if len(joints) < FEWEST:
+        raise TooFewRows(len(joints))
+    if not np.ptp(joints, axis=0).any():
+        raise OnePosture
 
 
 def check_estimate(estimate: Estimate) -> None:

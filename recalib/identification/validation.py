@@ -102,9 +102,9 @@ def validate(
         frames: at both ends; see `guess_frames` for those that are unknown.
         say: is told what is being done.
 
-    Raises BadMeasurement, TooFewRows, NotConverged and Implausible.
+    Raises BadMeasurement, TooFewRows, OnePosture, NotConverged and Implausible.
     """
-    check_rows(len(seen))
+    check_rows(seen.joints)
     say("geometry")
     geometry = ErrorModel(arm, OFFSETS, frames)
     estimate = identify_by_consensus(geometry, seen)

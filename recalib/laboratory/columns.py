@@ -107,6 +107,8 @@ def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -
             )
     meant = [columns.get(heading, heading) for heading in headings]
     kept = [index for index, heading in enumerate(meant) if heading != IGNORED]
+    if not kept:
+        raise InvalidFile(path, "its description ignores every column")
     parts = [_HEADING.fullmatch(meant[index]) for index in kept]
     if (
         wrong := next((i for i, part in enumerate(parts) if not part or not part["name"]), None)

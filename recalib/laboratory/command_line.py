@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from recalib.errors import RecalibError
+from recalib.errors import InvalidFile, RecalibError
 
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -80,6 +80,8 @@ def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.files import looks, write_files
     from recalib.laboratory.summary import summary
 
+    if given.out.exists() and not given.out.is_dir():  # known before the work, not after it
+        raise InvalidFile(given.out, "it is no folder")
     result = calibrate_arm(
         given.urdf, given.measurements, given.description, given.tool, given.base, _tell
     )

@@ -1,8 +1,8 @@
 """What was identified of an arm, in one file that needs no other: enough to correct commands.
 
-The file is an archive (`recalib.archives`). Its header holds the format's version, the URDF of the
-nominal arm with its base and tool link, and by how much errors fell on poses that were not learned
-from. Its arrays are the calibration's, and the joint coordinates learned from.
+The file is an archive (`recalib.archives`). Its header holds the format's version and the nominal
+arm's base and tool link. Its arrays are the bytes of the arm's URDF, the calibration's, and the
+joint coordinates learned from.
 """
 
 import tempfile
@@ -17,7 +17,7 @@ from recalib.identification.calibration import Calibration
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 
-FORMAT = "recalib correction", 2
+FORMAT = "recalib correction", 3
 
 
 @dataclass(frozen=True)
@@ -44,18 +44,18 @@ class Correction:
         header = {
             "format": FORMAT[0],
             "version": FORMAT[1],
-            "urdf": self.urdf.decode(),
             "tool": self.arm.tool,
             "base": self.arm.base,
         }
-        state = {"learned": self.learned, "calibration": self.calibration.state()}
+        urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
+        state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
         write_archive(path, header, state)
 
 
 def load_correction(path: str | PathLike) -> Correction:
     """What `Correction.save` wrote. Raises InvalidFile."""
     header, state = read_archive(path, FORMAT, "recalib calibrate")
-    urdf = header["urdf"].encode()
+    urdf = state["urdf"].tobytes()
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "arm.urdf"
         file.write_bytes(urdf)

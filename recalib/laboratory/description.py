@@ -67,7 +67,7 @@ def read_description(path: str | PathLike) -> Description:
             _columns(parts.get("columns", {})),
             instrument,
             target,
-            dict(map(_distance, parts.get("distance", []))),
+            _distances(parts.get("distance", [])),
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
@@ -99,13 +99,22 @@ def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
     return [_read(key, each, kind) for each in given]
 
 
+def _distances(given: Any) -> dict[tuple[str, str], float]:
+    if not isinstance(given, list):
+        raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
+    return dict(map(_distance, given))
+
+
 def _distance(given: Any) -> tuple[tuple[str, str], float]:
     if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
         raise InvalidSetting("distance", given, "sockets and length")
     between = given["sockets"]
     if not isinstance(between, list) or len({*map(str, between)}) != 2:
         raise InvalidSetting("distance.sockets", between, "the names of two sockets")
-    return (str(between[0]), str(between[1])), _read("distance.length", given["length"], LENGTH)
+    length = _read("distance.length", given["length"], LENGTH)
+    if length <= 0:
+        raise InvalidSetting("distance.length", given["length"], "more than zero")
+    return (str(between[0]), str(between[1])), length
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:

@@ -15,6 +15,7 @@ from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.quantities import ANGLE, LENGTH
 
 JOINT, KIND = "joint", "kind"
+MOUNT = f"{TOOL}_mount"  # the joint by which the tool hangs on the last link
 PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
 KINDS = "revolute", "prismatic"
 
@@ -34,8 +35,9 @@ def read_rows(path: str | PathLike) -> list[Row]:
             raise InvalidFile(path, f"column {column!r} is missing")
     kinds = table.cells.get(KIND, [KINDS[0]] * len(table))
     for row, (name, kind) in enumerate(zip(table.cells[JOINT], kinds, strict=True), 1):
-        if not name:
-            raise InvalidFile(path, f"row {row} of column {JOINT!r} is empty; valid: a name")
+        if name in ("", MOUNT):
+            found = "is empty" if not name else f"is {MOUNT!r}, which the tool's is called"
+            raise InvalidFile(path, f"row {row} of column {JOINT!r} {found}; valid: another name")
         if kind not in KINDS:
             valid = " or ".join(KINDS)
             raise InvalidFile(path, f"row {row} of column {KIND!r} is {kind!r}; valid: {valid}")
@@ -67,7 +69,7 @@ def urdf_of(arm: Arm) -> str:
             ElementTree.SubElement(joint, "limit", **bounds, effort="0", velocity="0")
         parent = child
     tool = model.frames[tool_frame(model, arm.tool)].placement
-    _add(robot, f"{TOOL}_mount", "fixed", parent, TOOL, tool)
+    _add(robot, MOUNT, "fixed", parent, TOOL, tool)
     ElementTree.indent(robot)
     return ElementTree.tostring(robot, encoding="unicode") + "\n"
 

@@ -106,8 +106,18 @@ def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Me
         _positions(table, vectors),
         _rotations(table, vectors),
         vectors[NOMINAL],
-        *(np.array(table.cells[label]) if label in table else None for label in LABELS),
+        *(_labels(table, label) for label in LABELS),
     )
+
+
+def _labels(table: Table, column: str) -> np.ndarray | None:
+    if column not in table:
+        return None
+    labels = table.cells[column]
+    if "" in labels:
+        row = labels.index("") + 1
+        raise InvalidFile(table.path, f"row {row} of column {column!r} is empty; valid: a name")
+    return np.array(labels)
 
 
 def _kinds(arm: Arm) -> list[Quantity]:

@@ -49,11 +49,14 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
         candidates: joint coordinates, or poses of the tool in the arm's base, of which those that
             are out of reach or near the end of a joint's range are left out; drawn unless given.
 
-    Raises InvalidSetting where they would have to be drawn for a ball in sockets.
+    Raises InvalidSetting where they would have to be drawn for a ball in sockets, or none is left.
     """
     if candidates is None and len(correction.calibration.frames.sockets):
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
+    if not len(postures):
+        valid = "some within reach, and off the ends of joint ranges"
+        raise InvalidSetting("candidates", f"{len(candidates)}, none of use", valid)
     calibration = correction.calibration
     model, estimate = calibration.model, calibration.estimate
     probes = _drawn(correction)[:PROBES]

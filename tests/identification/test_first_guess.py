@@ -60,6 +60,16 @@ def test_several_targets_sit_anywhere_on_one_tool(panda):
     assert misses(real, panda, seen).mean() < 5e-4
 
 
+def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
+    real = Real(panda, 6, targets=2)
+    joints, targets = real.postures(600), np.repeat([0, 1], [597, 3])
+    seen = Observations(joints, real.poses(joints, targets), targets)
+    frames = guess_frames(panda, seen)
+    assert len(frames.targets) == 2
+    reached = frames.base @ panda.forward(joints[-3:]) @ frames.targets[1]
+    assert np.linalg.norm((reached - seen.measured[-3:])[:, :3, 3], axis=1).max() < 0.05
+
+
 @pytest.mark.parametrize("what", ["poses", "positions"])
 @pytest.mark.parametrize("known", ["base", "target"])
 def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):

@@ -1,10 +1,11 @@
+import numpy as np
 import pytest
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.first_guess import guess_frames
-from recalib.identification.observations import Observations
+from recalib.identification.observations import Distance, Observations
 from recalib.identification.openness import Open, open_parameters
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
@@ -50,3 +51,14 @@ def test_a_joint_that_never_moved_leaves_open_what_moving_it_would_tell(panda):
     by_data = [one for one in found(panda, hold=3) if not one.lasting]
     assert len(by_data) >= 2
     assert not [one for one in found(panda) if not one.lasting]
+
+
+def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda):
+    """The ball is always at the socket, such as when all of the arm is a little higher."""
+    real, ball = Real(panda, 1), np.array([0.02, -0.01, 0.12])
+    sockets = np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
+    joints = np.concatenate([real.touching(ball, socket, 80) for socket in sockets])
+    seen = Observations(joints, sockets=np.repeat([0, 1], 80), distances=[Distance(0, 1, 0.3)])
+    model = ErrorModel(panda, OFFSETS, guess_frames(panda, seen))
+    open_ones = open_parameters(Calibration(model, identify(model, seen)), seen)
+    assert open_ones and all(one.lasting for one in open_ones)

@@ -9,7 +9,7 @@ from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
 from recalib.identification.observations import Observations
-from recalib.identification.soundness import Implausible, TooFewRows
+from recalib.identification.soundness import Implausible, OnePosture, TooFewRows
 from recalib.identification.validation import (
     GEOMETRIC,
     HYBRID,
@@ -157,3 +157,9 @@ def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
     assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
     assert held.losses == pytest.approx([0.055, 0.01])
     assert HeldOut(misses[:, :3], held.spreads, held.folds).losses == pytest.approx([0.005, 0])
+
+
+def test_rows_of_one_posture_are_refused_as_such(arm):
+    seen = seen_of(Real(arm, 6), 12)
+    with pytest.raises(OnePosture, match="all rows are of one posture"):
+        validate(arm, seen[np.zeros(12, dtype=int)])

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,6 +39,15 @@ def test_a_file_needs_no_other(correction, saved):
     assert np.array_equal(again.learned, correction.learned)
     here, there = (each.calibration.forward(joints[None]) for each in (correction, again))
     assert np.abs(here - there).max() < 1e-14
+
+
+def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
+    """As its first line says: the file is kept as it is."""
+    urdf = correction.urdf.replace(b"<robot", "<!-- Gerät --><robot".encode("latin-1"), 1)
+    urdf = b'<?xml version="1.0" encoding="ISO-8859-1"?>' + urdf[urdf.index(b"?>") + 2 :]
+    replace(correction, urdf=urdf).save(tmp_path / "correction.npz")
+    again = load_correction(tmp_path / "correction.npz")
+    assert again.urdf == urdf and again.arm.joints == correction.arm.joints
 
 
 @pytest.mark.parametrize("keep", [0, 100, -1])

@@ -50,6 +50,7 @@ def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
         ("joint,a [mm],d [mm]\nwaist,1,2\n", "column 'alpha' is missing"),
         (TABLE.replace("prismatic", "helical"), "row 3 of column 'kind' is 'helical'; valid: rev"),
         (f"{HEADER}\n,1,2,3,4\n", "row 1 of column 'joint' is empty"),
+        (f"{HEADER}\ntool_mount,1,2,3,4\n", "'tool_mount', which the tool's is called"),
         (TABLE.replace("15", "half"), "row 2 of column 'd' is 'half'; valid: a number"),
     ],
 )

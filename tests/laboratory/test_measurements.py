@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
-from recalib.laboratory.description import read_description
+from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.measurements import read_measurements
 from recalib.nominal.arms import load_arm
 
@@ -156,6 +156,10 @@ REFUSED = {
         "the quaternion in row 1 has length 0; valid: 1",
     ),
     "nothing measured": (joints, "nothing was measured in it; valid: x, y, z or socket"),
+    "an empty name": (
+        lambda: with_cell(joints() | positions() | {"target": ["mirror"] * ROWS}, "target", 4, ""),
+        "row 4 of column 'target' is empty; valid: a name",
+    ),
     "positions and sockets": (
         lambda: joints() | positions() | {"socket": ["left"] * ROWS},
         "it has both positions and sockets; valid: one of them",
@@ -245,6 +249,9 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
     read = read_measurements(write(columns), gantry, said)
     assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
     assert np.allclose(read.positions - read.nominal, 0.001)
+    every = Description(dict.fromkeys(columns, "ignored"))
+    with pytest.raises(InvalidFile, match="its description ignores every column"):
+        read_measurements(write(columns), gantry, every)
     del columns["step"]
     with pytest.raises(InvalidFile, match="its description names column 'step'; it has j1, j2"):
         read_measurements(write(columns), gantry, said)
@@ -263,6 +270,11 @@ WRONG = {
     "one socket": (
         '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
         "distance.sockets is ['a', 'a']; valid: the names of two sockets",
+    ),
+    "one distance": ("distance = 5\n", "distance is 5; valid: parts that begin with [[distance]]"),
+    "a length below zero": (
+        '[[distance]]\nsockets = ["a", "b"]\nlength = "-25 mm"\n',
+        "distance.length is '-25 mm'; valid: more than zero",
     ),
     "no length": ('[[distance]]\nsockets = ["a", "b"]\n', "valid: sockets and length"),
 }
