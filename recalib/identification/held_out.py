@@ -56,8 +56,8 @@ class HeldOut:
         that is in what was missed (split conformal prediction, Lei et al. 2018).
         """
         ratios = self.errors[:, 0] / self.spreads
-        level = min(1.0, np.ceil((len(ratios) + 1) * COVERED) / len(ratios))
-        return float(np.quantile(ratios, level, method="higher"))
+        rank = min(len(ratios), int(np.ceil((len(ratios) + 1) * COVERED)))
+        return float(np.sort(ratios)[rank - 1])
 
     def coverage(self) -> float:
         """The part of positions within intervals whose factor is that of the other folds."""

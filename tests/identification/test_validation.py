@@ -163,3 +163,11 @@ def test_rows_of_one_posture_are_refused_as_such(arm):
     seen = seen_of(Real(arm, 6), 12)
     with pytest.raises(OnePosture, match="all rows are of one posture"):
         validate(arm, seen[np.zeros(12, dtype=int)])
+
+
+@pytest.mark.parametrize(("rows", "rank"), [(12, 12), (19, 19), (40, 39), (99, 95), (100, 96)])
+def test_of_so_many_rows_the_least_that_covers_95_percent_of_others_is_taken(rows, rank):
+    """A further one is at most the k-th of n with a probability of k / (n + 1)."""
+    ratios = np.random.default_rng(1).permutation(rows) + 1.0
+    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(rows), np.arange(rows) % 5)
+    assert held.factor() == pytest.approx(rank)
