@@ -16,6 +16,7 @@ from recalib.nominal.newton import LONGEST_STEP, SINGULAR
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
+SMALL = 1e-6  # m, rad: a turn whose sine is less is none, or half a turn
 
 
 class Chain(NamedTuple):
@@ -208,10 +209,9 @@ def _missing(pose, goal, missing):
     """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
 
     The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
-    angle itself where Newton's method ends. Beyond a right angle it is the angle, lest half a turn
-    be taken for none.
+    angle itself where Newton's method ends. The sine of half a turn is zero as well: infinity is
+    returned for it.
     """
-    trace = 0.0  # of the rotation from pose to goal
     for row in range(3):
         missing[row] = goal[row, 3] - pose[row, 3]
         one, other = (row + 1) % 3, (row + 2) % 3
@@ -220,33 +220,19 @@ def _missing(pose, goal, missing):
             turn += (
                 goal[other, column] * pose[one, column] - goal[one, column] * pose[other, column]
             )
-            trace += goal[row, column] * pose[row, column]
         missing[3 + row] = turn / 2
-    if trace < 1:
-        _turn_far(pose, goal, (trace - 1) / 2, missing)
-    return _longest(missing)
+    longest = _longest(missing)
+    return np.inf if longest < SMALL and _is_half_a_turn(pose, goal) else longest
 
 
 @compiled
-def _turn_far(pose, goal, cosine, missing):
-    """Write a turn beyond a right angle, where that with the sine of its angle stands.
-
-    Its axis is told by what of the rotation is symmetric: at half a turn all of it is.
-    """
-    between = np.zeros((3, 3))
+def _is_half_a_turn(pose, goal):
+    """Whether it is not none that takes a pose to a goal, if one of both is it."""
+    trace = 0.0
     for row in range(3):
         for column in range(3):
-            for each in range(3):
-                between[row, column] += goal[row, each] * pose[column, each]
-    sure = np.argmax(np.diag(between))  # along this coordinate the axis has most
-    axis = (between[sure] + between[:, sure]) / 2
-    axis[sure] -= cosine
-    sine = missing[3:].copy()
-    factor = np.arctan2(np.linalg.norm(sine), cosine) / np.linalg.norm(axis)
-    if axis @ sine < 0:
-        factor = -factor
-    for row in range(3):
-        missing[3 + row] = factor * axis[row]
+            trace += goal[row, column] * pose[row, column]
+    return trace < 1
 
 
 @compiled
