@@ -33,7 +33,7 @@ STARTS = {
     "study_mapping study_replay train universe": ARMS,
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
-    "film pictures": {*ARMS, "rerun"},
+    "film pictures": {"rerun"},
 }
 SCRIPTS = ROOT / "workflow" / "scripts"
 EXPLAINED = [its.home for its in FIGURES.values() if its.part == "ideas"]

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from recalib.study.recording.acts import AFTER, BEFORE
 from recalib.study.recording.picture import take_pictures
-from recalib.study.recording.story import AFTER, BEFORE
 from workflow.scripts.job import job
 
 with job(snakemake):

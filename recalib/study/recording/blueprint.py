@@ -7,10 +7,10 @@ import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
 from recalib.study.entrants import label_of
+from recalib.study.recording.acts import ARM
 from recalib.study.recording.errors import PUBLISHED
 from recalib.study.recording.story import Watched
 
-ARM = "the arm"  # the view of the first learner's
 TITLES = {
     "position_error_cm": "mean position error [cm]",
     "orientation_error_deg": "mean orientation error [degrees]",

@@ -7,9 +7,8 @@ import numpy as np
 from PIL import Image
 
 from recalib.storage import whole
-from recalib.study.recording.blueprint import ARM
+from recalib.study.recording.acts import ACT, ARM, LEARNING
 from recalib.study.recording.picture import take_pictures
-from recalib.study.recording.story import ACT, LEARNING
 
 SHOWN = 6.4  # seconds at the end of each act: the last poses that the arm visits
 WINDOW = 1160, 600  # pixels, of which the arm has five eighths

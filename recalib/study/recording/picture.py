@@ -36,7 +36,7 @@ def take_pictures(
     Args:
         recording: the file.
         pictures: the second that each shows.
-        view: name of the one that is shown, such as `blueprint.ARM`; all that the window shows
+        view: name of the one that is shown, such as `acts.ARM`; all that the window shows
             unless given. In a smaller window, words are larger beside the rest.
         window: its size in pixels.
 

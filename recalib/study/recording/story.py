@@ -10,15 +10,10 @@ from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
+from recalib.study.recording.acts import ACT, FRAMES_A_SECOND, LEARNING, POSES
 from recalib.study.recording.cells import Cells, CellWatch
 from recalib.training import History, train
 
-FRAMES_A_SECOND = 25
-POSES = 12  # that the arm visits
-ACT = 19.2  # seconds in which it visits them: half of them it moves, half of them it rests there
-LEARNING = 10.0  # seconds in which the longest training is shown
-BEFORE = ACT - 0.4  # seconds: the arm rests at the last pose, not yet recalibrated
-AFTER = BEFORE + LEARNING + ACT  # the same, recalibrated
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
 

@@ -30,11 +30,11 @@ from recalib.study.experiments.samples import write_sample
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import resolve
 from recalib.study.recording import about, colours, marks, scatter, scene, story
-from recalib.study.recording.blueprint import ARM, TITLES, arrange, seen_from
+from recalib.study.recording.acts import ACT, AFTER, ARM, BEFORE, FRAMES_A_SECOND, LEARNING, POSES
+from recalib.study.recording.blueprint import TITLES, arrange, seen_from
 from recalib.study.recording.files import record
 from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import SEAL, BrokenRecording, check_recording, write_sealed
-from recalib.study.recording.story import AFTER, BEFORE
 from recalib.study.recording.writing import write_recording
 from recalib.study.statistics import typical
 from recalib.training import train
@@ -189,7 +189,7 @@ def test_recorded_errors_are_those_of_the_experiment(columns, results):
 
 def test_landings_are_where_the_damaged_arm_lands(resolved, controller, columns):
     desired, tests = poses()
-    shown = story.visiting_order(tests[0, : story.POSES])
+    shown = story.visiting_order(tests[0, :POSES])
     plant = resolved(DAMAGES).plant(controller, SEED, [0])
     goals = controller.robot.workspace.to_poses(shown)
     untrained, _ = plant.achieve(shown[None])
@@ -295,11 +295,11 @@ def test_only_a_short_link_has_another_colour(columns):
 
 def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_seen(recording, columns):
     training = recording[1]["improved"]
-    assert training.scatter.shape == (story.POSES, story.REPEATED, 3)
+    assert training.scatter.shape == (POSES, story.REPEATED, 3)
     assert training.scatter.std() == pytest.approx(0.0002, rel=0.2)  # of 360 numbers
     assert scatter.enlarged(training) == 100
     _, lines = columns("/improved/measured", "LineStrips3D:strips", "moves")
-    starts, ends = np.reshape(lines[-1], (story.POSES, story.REPEATED, 2, 3)).swapaxes(0, 2)
+    starts, ends = np.reshape(lines[-1], (POSES, story.REPEATED, 2, 3)).swapaxes(0, 2)
     landed = training.achieved[-1, :, :3, 3]
     assert np.allclose(starts, landed, atol=1e-6)
     assert np.allclose(ends - starts, 100 * training.scatter.swapaxes(0, 1), atol=1e-5)
@@ -352,7 +352,7 @@ def test_the_panel_names_the_robot_and_what_is_wrong_with_it(resolved, recording
         "link forearm_link, shorten 4 cm",
         "translate 1 cm, 0 m, -2 cm",
         "noise position 0.2 mm, orientation 0.0003 rad",
-        f"visits {story.POSES} poses",
+        f"visits {POSES} poses",
         f"learns for {2 * ITERATIONS} moves",
         f"how far {story.REPEATED} measurements of each pose are off, 100 times enlarged",
     ):
@@ -490,7 +490,7 @@ def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
     ):
         speed = np.abs(np.diff(angles, axis=0)).max(axis=-1)
         assert (
-            speed.max() < 2 * np.pi / story.FRAMES_A_SECOND
+            speed.max() < 2 * np.pi / FRAMES_A_SECOND
         )  # rad a frame: never more than one turn a second
         resting = angles.reshape(len(stops), -1, 6)[:, -1]
         assert np.allclose(resting, stops)
@@ -645,7 +645,7 @@ def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, resolved,
     assert (few.misses[0] == many.misses[0]).all() and (few.desired == many.desired).all()
     assert few.misses[-1].max() < 1e-4 < many.misses[-1].mean()
     clock = story.move(few, its.controller().robot.home, many.history.moves[-1])
-    assert clock.learning[-1] == pytest.approx(story.ACT + story.LEARNING * 5 / (2 * ITERATIONS))
+    assert clock.learning[-1] == pytest.approx(ACT + LEARNING * 5 / (2 * ITERATIONS))
     tabs = arrange(watched, its.controller().robot.workspace, {}, True).root_container
     assert len(tabs.contents) == 2 and tabs.active_tab == 1
 
