@@ -65,7 +65,15 @@ def draw_over_joints(result: Calibrated) -> str:
         axes.set_xlabel(f"{joint} [{unit}]", fontsize=9)
         _tidy(axes)
     figure.supylabel("position error [mm]", fontsize=10)
-    grid[0].legend(frameon=False, fontsize=9, markerscale=3, handletextpad=0.2)
+    figure.legend(
+        *grid[0].get_legend_handles_labels(),
+        loc="outside upper left",  # inside it would lie on rows
+        ncols=2,
+        frameon=False,
+        fontsize=9,
+        markerscale=3,
+        handletextpad=0.2,
+    )
     return _svg(figure)
 
 
