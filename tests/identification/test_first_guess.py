@@ -140,6 +140,19 @@ def test_frames_that_nothing_tells_are_refused(change, said, panda):
         guess_frames(panda, change(seen))
 
 
+def test_positions_in_a_plane_tell_how_the_instrument_stands():
+    """Those of a UR10 whose parallel axes alone move: the plane's two sides differ for the arm."""
+    arm = load_arm(*ARMS["ur10"])
+    real = Real(arm, 9)
+    joints = real.postures(40)
+    joints[:, [0, 4, 5]] = joints[0, [0, 4, 5]]
+    exact = arm.forward(joints)
+    seen = Observations(joints, (real.base @ exact @ real.targets[0])[:, :3, 3])
+    frames = guess_frames(arm, seen)
+    found = (frames.base @ exact @ frames.targets[0])[:, :3, 3]
+    assert np.abs(found - seen.positions).max() < 1e-3
+
+
 def test_it_says_how_many_rows_it_needs():
     joints, two = np.zeros((8, 6)), np.arange(8) % 2
     assert fewest(Observations(joints, np.zeros((8, 4, 4)))) == 3

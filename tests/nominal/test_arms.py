@@ -63,6 +63,11 @@ def test_a_scara_moves_as_its_closed_form_says(load):
     assert np.allclose(pose[:2, 0], [np.cos(both + wrist), np.sin(both + wrist)])
 
 
+def test_a_joint_may_be_held_by_its_limits(load):
+    arm = load(SCARA.replace('lower="-2"', 'lower="2"', 1))
+    assert arm.model.lowerPositionLimit[0] == arm.model.upperPositionLimit[0] == 2
+
+
 def test_a_gantry_adds_its_slides_along_their_axes(load):
     arm = load(GANTRY)
     x, y, z = 0.3, -0.2, 0.5

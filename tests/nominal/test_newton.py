@@ -64,6 +64,32 @@ def test_a_start_where_the_arm_is_singular_is_left(robot):
     assert np.allclose(robot.arm.forward(angles), near, atol=1e-10)
 
 
+def test_a_start_where_a_redundant_arm_is_singular_is_left():
+    arm, straight = load_arm("panda.urdf", "panda_hand_tcp"), np.zeros((1, 7))
+    _, jacobians = arm.forward_and_jacobian(straight)
+    assert np.linalg.matrix_rank(jacobians[0]) < 6
+    near = arm.forward(straight + [0.1, 0.2, 0.1, -0.4, 0.1, 0.3, 0.1])
+    angles, residuals = Chain.of(arm).solve(near, straight)
+    assert residuals.max() <= TOLERANCE
+    assert np.allclose(arm.forward(angles), near, atol=1e-10)
+
+
+def test_where_a_group_ends_depends_on_no_other():
+    tool, posture = ARMS["ur10_robot.urdf"]
+    arm, start = load_arm("ur10_robot.urdf", tool), np.tile(posture, (2, 1, 1))
+    goals = arm.forward(start[:, 0] + [[1e-3], [0.5]])[:, None]  # the first is reached sooner
+
+    def look(_, angles):
+        return [each[:, None] for each in arm.forward_and_jacobian(angles[:, 0])]
+
+    together = solve_groups(look, goals, start, TOLERANCE, 15)
+    for index in range(2):
+        one = slice(index, index + 1)
+        alone = solve_groups(look, goals[one], start[one], TOLERANCE, 15)
+        for found, its in zip(alone, together, strict=True):
+            assert np.array_equal(found, its[one])
+
+
 def test_of_a_pose_that_nothing_reaches_the_best_angles_are_kept(robot):
     pose = robot.arm.forward(robot.home[None])
     pose[0, 0, 3] += 3.0  # m
