@@ -68,7 +68,7 @@ def test_a_start_where_a_redundant_arm_is_singular_is_left():
     arm, straight = load_arm("panda.urdf", "panda_hand_tcp"), np.zeros((1, 7))
     _, jacobians = arm.forward_and_jacobian(straight)
     assert np.linalg.matrix_rank(jacobians[0]) < 6
-    near = arm.forward(straight + [0.1, 0.2, 0.1, -0.4, 0.1, 0.3, 0.1])
+    near = arm.forward(np.array([[0.1, 0.2, 0.1, -0.4, 0.1, 0.3, 0.1]]))
     angles, residuals = Chain.of(arm).solve(near, straight)
     assert residuals.max() <= TOLERANCE
     assert np.allclose(arm.forward(angles), near, atol=1e-10)
