@@ -85,7 +85,7 @@ def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
 def _regressor(
     inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
 ) -> "GaussianProcessRegressor":
-    # Half a second to import, with pandas: where geometry explains all, it is not needed.
+    # Most of a second to import, with pandas: who does not regress need not wait for it.
     from sklearn.gaussian_process import GaussianProcessRegressor
 
     from recalib.covariance import Covariance
@@ -100,7 +100,7 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
     """
-    from scipy.optimize import minimize
+    from scipy.optimize import minimize  # comes with scikit-learn, and as late
 
     dimensions = inputs.shape[1]
     starts = [_start(dimensions, noise) for noise in FIRST_NOISES]

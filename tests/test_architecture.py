@@ -103,7 +103,7 @@ def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
 
 
 def test_calibrating_an_arm_loads_no_tables_and_compiles_nothing():
-    """Each of these takes longer than the identification of an arm from 100 poses."""
+    """Each takes a tenth of a second or more, and geometry alone needs none of them."""
     heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic"}
     calibrating = "import recalib.laboratory.calibrate, recalib.laboratory.files"
     assert loaded_with(calibrating, heavy) == set()

@@ -86,22 +86,16 @@ def guess_frames(
     return best
 
 
-def _groups(seen: Observations) -> np.ndarray:
-    """By the number (n,) of its group, which target, or which ball in which socket, a row is of."""
-    groups = seen.targets if seen.sockets is None else np.stack([seen.targets, seen.sockets])
-    return np.unique(groups, return_inverse=True, axis=-1)[1]
-
-
 def _some(seen: Observations, order: np.ndarray) -> np.ndarray:
     """The first rows of an order, and all rows of groups that none of these is of."""
-    group = _groups(seen)
+    group = seen.groups
     rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))
     return np.union1d(order[:MOST], rare)
 
 
 def _small_sets(seen: Observations, random: np.random.Generator) -> Iterator[np.ndarray]:
     """Rows in which each target, or each socket with each ball, is seen about equally often."""
-    group = _groups(seen)
+    group = seen.groups
     each = -(-(fewest(seen) + SPARE) // (group.max() + 1))
     for _ in range(SETS):
         order = random.permutation(len(seen))

@@ -88,8 +88,7 @@ def blocks(seen: Observations) -> np.ndarray:
 
 def _groups(seen: Observations) -> list[np.ndarray]:
     """Rows of each target, or of each ball in each socket."""
-    groups = np.stack([seen.targets, seen.targets if seen.sockets is None else seen.sockets])
-    _, group = np.unique(groups, axis=1, return_inverse=True)
+    group = seen.groups
     return [np.flatnonzero(group == one) for one in range(group.max() + 1)]
 
 

@@ -64,3 +64,9 @@ class Observations:
     def kinds(self) -> int:
         """Of what is seen in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
+
+    @property
+    def groups(self) -> np.ndarray:
+        """By number (n,): which target, or which ball in which socket, a row is of."""
+        labels = self.targets if self.sockets is None else np.stack([self.targets, self.sockets])
+        return np.unique(labels, return_inverse=True, axis=-1)[1]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Distance, Observations
+from recalib.identification.openness import Open, open_parameters
 from recalib.identification.validation import GEOMETRIC, NOTHING, RANDOM, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
@@ -59,6 +61,11 @@ class Calibrated:
     def geometry(self) -> Calibration:
         """What a URDF can hold."""
         return self.validation.full[GEOMETRIC]
+
+    @cached_property
+    def left_open(self) -> list[Open]:
+        """The parameters of geometry that were not told apart."""
+        return open_parameters(self.geometry, self.seen)
 
     @property
     def calibration(self) -> Calibration:

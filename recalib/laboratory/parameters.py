@@ -1,14 +1,13 @@
 """The parameters of a calibrated arm by name, with what is known of each."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.frames import HELD
-from recalib.identification.observations import Observations
-from recalib.identification.openness import open_parameters
+from recalib.identification.openness import Open
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 
@@ -31,11 +30,15 @@ class Parameter:
     decided_by: str
 
 
-def described(calibration: Calibration, seen: Observations) -> list[Parameter]:
-    """All parameters of geometry, in the order of the error model."""
+def described(calibration: Calibration, left_open: Sequence[Open]) -> list[Parameter]:
+    """All parameters of geometry, in the order of the error model.
+
+    Args:
+        left_open: those that `openness.open_parameters` finds.
+    """
     # a small deviation tells nothing: of what explains nothing, the prior becomes narrow
     estimate, by_prior = calibration.estimate, calibration.model.deviations <= HELD
-    by_prior[[one.parameter for one in open_parameters(calibration, seen)]] = True
+    by_prior[[one.parameter for one in left_open]] = True
     deviations = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(
@@ -49,14 +52,14 @@ def described(calibration: Calibration, seen: Observations) -> list[Parameter]:
     ]
 
 
-def open_directions(calibration: Calibration, seen: Observations) -> list[tuple[str, bool]]:
+def open_directions(calibration: Calibration, left_open: Sequence[Open]) -> list[tuple[str, bool]]:
     """What was seen leaves open, in words, and whether any other postures could tell it.
 
     Each is a parameter and those that would explain the same.
     """
     names = [name for name, *_ in _names(calibration)]
     told = []
-    for one in open_parameters(calibration, seen):
+    for one in left_open:
         *others, last = (names[number] for number in (one.parameter, *one.partners))
         told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
     return told

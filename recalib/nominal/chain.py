@@ -227,7 +227,7 @@ def _missing(pose, goal, missing):
 
 @compiled
 def _is_half_a_turn(pose, goal):
-    """Whether it is not none that takes a pose to a goal, if one of both is it."""
+    """Whether a turn from pose to goal that is none or half a one is half a one."""
     trace = 0.0
     for row in range(3):
         for column in range(3):

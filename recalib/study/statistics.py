@@ -104,7 +104,7 @@ def ratio(ours: np.ndarray, theirs: np.ndarray, random: np.random.Generator) -> 
     return Estimate(*np.exp(draws.estimate(ours - theirs)))
 
 
-def ratio_of_two(ours: np.ndarray, theirs: np.ndarray) -> tuple[float, float]:
+def ratio_searched_once(ours: np.ndarray, theirs: np.ndarray) -> tuple[float, float]:
     """Where 95 % of studies with a single search for each training would find `ratio`'s number.
 
     Student's interval of a prediction, for logarithms; seeds are as many as here. NaN for a single

@@ -12,7 +12,7 @@ from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims.switches import ask_for, with_and_without
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.statistics import Draws, combined, ratio_of_two
+from recalib.study.statistics import Draws, combined, ratio_searched_once
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -39,7 +39,7 @@ def coverage(evidence: Evidence) -> "pd.DataFrame":
             luck = evidence.rng("coverage", switch.key, label)
             errors = [combined(evidence.errors(each)) for each in pair]
             inside = _inside(*map(np.log, errors), luck).mean()
-            once = dict(zip(("once_low", "once_high"), ratio_of_two(*errors), strict=True))
+            once = dict(zip(("once_low", "once_high"), ratio_searched_once(*errors), strict=True))
             rows.append({"change": switch.label, "effect": label, "inside": inside, **once})
     return pd.DataFrame(rows)
 

@@ -16,7 +16,7 @@ from recalib.study.statistics import (
     first_within,
     geometric,
     ratio,
-    ratio_of_two,
+    ratio_searched_once,
     typical,
 )
 from tests.made_up import OF_SEARCHES, OF_SEEDS, MadeUp
@@ -58,7 +58,8 @@ def test_studies_with_one_search_find_their_number_as_often_as_it_says(searches)
     inside = []
     for number in range(4000):
         random = rng(6, searches, number)
-        low, high = ratio_of_two(6 * training(random, searches), 2 * training(random, searches))
+        scales = 6, 2
+        low, high = ratio_searched_once(*(each * training(random, searches) for each in scales))
         ours, theirs = (np.log(training(random, 1)).mean() for _ in range(2))
         inside.append(low <= 3 * np.exp(ours - theirs) <= high)
     assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 4000))
@@ -80,7 +81,7 @@ def test_of_normal_means_an_interval_is_students_of_the_fewest_searches(searches
 
 
 def test_of_a_single_search_nothing_is_said_of_another():
-    assert np.isnan(ratio_of_two(np.ones((1, SEEDS)), np.ones((2, SEEDS)))).all()
+    assert np.isnan(ratio_searched_once(np.ones((1, SEEDS)), np.ones((2, SEEDS)))).all()
     values = training(rng(2), 1)
     found = estimate(values, rng(1))
     assert found.mean == pytest.approx(values.mean()) and np.isnan(found[1:]).all()
