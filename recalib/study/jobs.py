@@ -49,6 +49,19 @@ class Design(Frozen):
     moved: tuple[Entry, ...]
 
 
+class Efforts(Frozen):
+    """The winners of full and of rough searches for a training, so many seeds for each.
+
+    A rough search has `rough` trials.
+    """
+
+    learner: Learner
+    rough: int
+    seeds: int
+    tests: int
+    seed: int
+
+
 class Scenario(Frozen):
     """A damage to be resolved, and its initial errors."""
 

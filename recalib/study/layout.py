@@ -5,14 +5,23 @@ from pathlib import Path
 
 SHIPPED = "replication"  # the name of the study that writes README, docs and figures/
 RESULTS = "results"
-DESIGN = "workflow/universes/design.csv"  # the factors of each universe
-OUTCOMES = "workflow/universes/outcomes.csv"  # what was measured in each, shipped
+FIRST = "workflow/universes/first"  # the first campaign: its design, and what was measured
+SECOND = "workflow/universes/second"  # the second one, as shipped
+DESIGN = f"{SECOND}/design.csv"  # the factors of each universe
+REFERENCE = f"{SECOND}/reference.csv"  # the reference study, measured like a universe
+EFFORTS = f"{SECOND}/efforts.csv"  # its trainings for the factor of 70, by effort
+POWER = f"{SECOND}/power.csv"  # what the campaign can find
 SEARCHED = "workflow/search"  # samples of the search that are shipped
 
 
 def root_of(study: str) -> str:
     """The folder of the results of the study of this name."""
     return RESULTS if study == SHIPPED else f"{RESULTS}/studies/{study}"
+
+
+def piece(table: str, number: int) -> str:
+    """A shipped piece of the second campaign: outcomes or horizon."""
+    return f"{SECOND}/{table}_{number}.csv"
 
 
 @dataclass(frozen=True)
@@ -80,19 +89,17 @@ class Layout:
         """Errors on the real arm."""
         return f"{self.root}/real.csv"
 
-    @property
-    def design(self) -> str:
-        """The design of the multiverse."""
-        return f"{self.root}/universes/design.csv"
+    def campaign(self, table: str) -> str:
+        """A table of the second campaign before it is shipped: design, power, reference or efforts."""
+        return f"{self.root}/universes/{table}.csv"
 
-    def universe(self, number: str) -> str:
-        """What was measured in a universe."""
-        return f"{self.root}/chunks/universes/{number}.csv"
+    def campaign_chunk(self, table: str, number: str) -> str:
+        """What was measured in a universe, in a replicate of the reference study or a training."""
+        return f"{self.root}/chunks/universes/{table}/{number}.csv"
 
-    @property
-    def outcomes(self) -> str:
-        """What was measured in every universe."""
-        return f"{self.root}/universes/outcomes.csv"
+    def campaign_piece(self, table: str, piece: str) -> str:
+        """Some universes: a piece of work of at most an hour."""
+        return f"{self.root}/universes/{table}_{piece}.csv"
 
     def assignments(self, robot: str, suffix: str = ".parquet") -> str:
         """Initial errors of every assignment of the paper's damage; .json: the one that is used."""

@@ -60,6 +60,17 @@ class Plan:
             moved=study.scenarios["translation_rotation"],
         )
 
+    def efforts(self, learner: str) -> jobs.Efforts:
+        """The winners of full and of rough searches for a training."""
+        study = self.study
+        return jobs.Efforts(
+            learner=rules(study, learner),
+            rough=study.universes.rough_trials,
+            seeds=study.training.seeds,
+            tests=study.training.tests,
+            seed=study.seed,
+        )
+
     def scenario(self, scenario: str) -> jobs.Scenario:
         """The damage of `NAME` or `NAME-ROBOT`."""
         name, robot = scenario_of(self.study, scenario)

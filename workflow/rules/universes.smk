@@ -1,10 +1,14 @@
-"""The multiverse: the replication in many readings of the paper. No part of the default run."""
+"""The second campaign: the replication in many setups. No part of the default run."""
 
 from functools import cache
 
-from recalib.study.layout import DESIGN
-from recalib.study.multiverse.design import read_design
+from recalib.study.layout import DESIGN, piece as shipped_piece
+from recalib.study.multiverse.design import digest, read_design
 from recalib.study.multiverse.universe import universe
+
+PIECES = {"outcomes": 64, "horizon": 16}  # setups: what two cores do in at most an hour
+REPLICATES = 12  # of the reference study
+POWER_OF = 2  # replicates of a setup
 
 
 @cache
@@ -18,9 +22,41 @@ def universe_of(wildcards):
     return universe(study(wildcards), designed()[int(wildcards.number)])
 
 
+def measured_in(table):
+    """The numbers of the universes in which a table is measured."""
+    return len(designed()) if table == "outcomes" else STUDIES[MAIN].universes.horizons
+
+
+def piece_of(wildcards):
+    """The chunks of a piece."""
+    size, first = PIECES[wildcards.table], int(wildcards.piece) * PIECES[wildcards.table]
+    last = min(first + size, measured_in(wildcards.table))
+    return [layout(wildcards).campaign_chunk(wildcards.table, n) for n in range(first, last)]
+
+
+def pieces(table):
+    """All pieces of a table."""
+    count = -(-measured_in(table) // PIECES[table])
+    return [Layout(MAIN).campaign_piece(table, n) for n in range(count)]
+
+
+def effort_trainings():
+    """The trainings whose effort is varied: the ladders, and the improved system's own length."""
+    its, ladders = STUDIES[MAIN], STUDIES[MAIN].experiments.ladder
+    own = its.learners["improved"].iterations
+    rungs = {name: its_rungs for name, its_rungs in ladders.items() if name != "improved"}
+    return [f"improved_{own}", *(f"{name}_{rung}" for name in rungs for rung in rungs[name])]
+
+
+wildcard_constraints:
+    table="outcomes|horizon",
+    piece=r"\d+",
+    number=r"\d+",
+
+
 rule design:
     output:
-        LAYOUT.design,
+        LAYOUT.campaign("design"),
     params:
         code=code("design.py"),
         job=lambda w: as_text(plan(w).design()),
@@ -33,39 +69,131 @@ rule design:
         "../scripts/design.py"
 
 
+rule power:
+    output:
+        LAYOUT.campaign("power"),
+    params:
+        code=code("power.py"),
+        setups=lambda w: study(w).universes.count,
+        replicates=lambda w: study(w).universes.replicates,
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    message:
+        "Try the model of the campaign in worlds whose truth is known"
+    script:
+        "../scripts/power.py"
+
+
 rule universe:
     output:
-        LAYOUT.universe("{number}"),
+        LAYOUT.campaign_chunk("outcomes", "{number}"),
     params:
         code=code("universe.py"),
         job=lambda w: as_text(universe_of(w)),
-    wildcard_constraints:
-        number=r"\d+",
     threads: 1
     resources:
-        **room(mem_mb=2000, runtime=20),
+        **room(mem_mb=2000, runtime=30),
     message:
         "Measure universe {wildcards.number}"
     script:
         "../scripts/universe.py"
 
 
-rule outcomes:
-    input:
-        universes=lambda w: [layout(w).universe(each.universe) for each in designed()],
+rule horizon:
     output:
-        LAYOUT.outcomes,
+        LAYOUT.campaign_chunk("horizon", "{number}"),
     params:
-        code=code("outcomes.py"),
+        code=code("horizon.py"),
+        job=lambda w: as_text(universe_of(w)),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    message:
+        "Seek how long Ritter's takes in universe {wildcards.number}"
+    script:
+        "../scripts/horizon.py"
+
+
+rule piece:
+    input:
+        chunks=piece_of,
+    output:
+        LAYOUT.campaign_piece("{table}", "{piece}"),
+    params:
+        code=code("piece.py"),
+        design=lambda w: digest(ROOT / DESIGN),
     localrule: True
     message:
-        "Put the outcomes of all universes together"
+        "Put piece {wildcards.piece} of the {wildcards.table} together"
     script:
-        "../scripts/outcomes.py"
+        "../scripts/piece.py"
 
 
 rule universes:
     input:
-        Layout(MAIN).outcomes,
+        pieces("outcomes"),
+        pieces("horizon"),
     message:
         "What was measured in every universe: {input}; `make universes` ships it"
+
+
+rule reference_replicate:
+    input:
+        scenario=own_scenario,
+    output:
+        LAYOUT.campaign_chunk("reference", "{number}"),
+    params:
+        code=code("reference.py"),
+        study=lambda w: study(w).model_dump_json(),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=30),
+    message:
+        "Measure replicate {wildcards.number} of the reference study"
+    script:
+        "../scripts/reference.py"
+
+
+rule efforts_of:
+    input:
+        scenario=own_scenario,
+        sample=lambda w: sample_at(w.root, w.training),
+    output:
+        LAYOUT.campaign_chunk("efforts", "{training}"),
+    params:
+        code=code("efforts.py"),
+        job=lambda w: as_text(plan(w).efforts(w.training)),
+    threads: 1
+    resources:
+        **room(mem_mb=4000, runtime=30),
+    message:
+        "Train the winners of full and of rough searches for {wildcards.training}"
+    script:
+        "../scripts/efforts.py"
+
+
+rule reference:
+    input:
+        chunks=[Layout(MAIN).campaign_chunk("reference", n) for n in range(REPLICATES)],
+    output:
+        Layout(MAIN).campaign("reference"),
+    params:
+        code=code("piece.py"),
+        design=lambda w: digest(ROOT / DESIGN),
+    localrule: True
+    script:
+        "../scripts/piece.py"
+
+
+rule efforts:
+    input:
+        chunks=[Layout(MAIN).campaign_chunk("efforts", name) for name in effort_trainings()],
+    output:
+        Layout(MAIN).campaign("efforts"),
+    params:
+        code=code("piece.py"),
+        design=lambda w: digest(ROOT / DESIGN),
+    localrule: True
+    script:
+        "../scripts/piece.py"

@@ -1,13 +1,16 @@
 """Independent searches for the widths and rates of a training, on poses that nothing else uses."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Commandable
-from recalib.learners.hierarchical import HierarchicalLearner, Rules
+from recalib.interfaces import Commandable, Learner
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Budget
@@ -40,48 +43,81 @@ def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
     found = []
     for number in range(job.first + 1, job.last + 1):
         # nothing of a search is that of another one, or of a training
-        luck = f"search {number} for {job.training} on {resolved.scenario}"
+        scope = f"search {number} for {job.training} on {resolved.scenario}"
         rules, iterations = rules_of(job.learner), job.learner.iterations
-        trials = search_once(robots, rules, iterations, job.budget, job.tests, luck)
+        trials = Search(robots, rules, iterations, job.budget, job.tests, scope).all_rounds()
         trials.insert(0, "search", number)
         found.append(trials)
     return pd.concat(found, ignore_index=True)
 
 
-def search_once(
-    robots: Callable[[int], Commandable],
-    rules: Rules,
-    iterations: int,
-    budget: Budget,
-    tests: int,
-    luck: str,
-) -> "pd.DataFrame":
-    """All trials of one search, round after round, a row each.
+@dataclass(frozen=True)
+class Search:
+    """One search: all its trials see the same poses, which nothing else uses.
 
-    Args:
+    Attributes:
         robots: makes as many, for the runs of all seeds of the first trial, then of the next.
+        rules: of the learner.
         iterations: of a training.
+        budget: what it may spend.
         tests: poses on which a trial is measured.
-        luck: the scope of its randomness.
+        scope: of its randomness.
+        fixed: numbers of a trial that are not sought.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+        order: of the poses to learn from; see `desired_poses`.
+        learner: makes one of so many runs, by the rules, with a schedule of each run.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
 
-    seeds = range(budget.seeds)
-    poses = desired_poses(budget.seed, luck, seeds, iterations)
-    tested = test_poses(budget.seed, luck, seeds, tests)
-    rounds: list[pd.DataFrame] = []
-    for round_ in range(1, budget.rounds + 1):
-        so_far = pd.concat(rounds, ignore_index=True) if rounds else None
-        centre = None if so_far is None else so_far.loc[so_far["score"].idxmin()]
-        random = generator(budget.seed, luck, "trials", round_)
-        trials = search.draw(rules, dict(budget.ranges), budget.trials, random, centre)
+    robots: Callable[[int], Commandable]
+    rules: Rules
+    iterations: int
+    budget: Budget
+    tests: int
+    scope: str
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    error: str = "norm"
+    order: str = "random"
+    learner: Callable[[int, Rules, Schedule], Learner] = HierarchicalLearner
+
+    def all_rounds(self) -> "pd.DataFrame":
+        """All trials, round after round, a row each."""
+        import pandas as pd  # a quarter of a second: no start waits for it
+
+        rounds: list[pd.DataFrame] = []
+        for round_ in range(1, self.budget.rounds + 1):
+            centre = best_of(pd.concat(rounds, ignore_index=True)) if rounds else None
+            random = generator(self.budget.seed, self.scope, "trials", round_)
+            trials = self._tried(self._drawn(random, centre))
+            trials.insert(0, "round", round_)
+            rounds.append(trials)
+        return pd.concat(rounds, ignore_index=True)
+
+    def further(self, start: Mapping) -> "pd.DataFrame":
+        """A trial, and others around it: as many as a round has, all in all."""
+        import pandas as pd
+
+        random = generator(self.budget.seed, self.scope, "further trials")
+        around = self._drawn(random, start)
+        first = pd.DataFrame([{column: start[column] for column in around}])
+        return self._tried(pd.concat([first, around.iloc[:-1]], ignore_index=True))
+
+    def _drawn(self, random: np.random.Generator, around: Mapping | None) -> "pd.DataFrame":
+        ranges, count = dict(self.budget.ranges), self.budget.trials
+        return search.draw(self.rules, ranges, count, random, around).assign(**self.fixed)
+
+    def _tried(self, trials: "pd.DataFrame") -> "pd.DataFrame":
+        """The trials with their errors and scores."""
+        seeds = range(self.budget.seeds)
+        poses = desired_poses(self.budget.seed, self.scope, seeds, self.iterations, self.order)
+        tested = test_poses(self.budget.seed, self.scope, seeds, self.tests)
         runs = len(trials) * len(seeds)
         history = train(
-            robots(runs),
-            HierarchicalLearner(runs, rules, search.schedule(trials, rules, len(seeds))),
+            self.robots(runs),
+            self.learner(runs, self.rules, search.schedule(trials, self.rules, len(seeds))),
             np.tile(poses, (len(trials), 1, 1)),
             np.tile(tested, (len(trials), 1, 1)),
-            [iterations],
+            [self.iterations],
+            error=self.error,
         )
         for column, errors in (
             ("position_error_cm", 100 * history.position),
@@ -89,10 +125,13 @@ def search_once(
         ):
             by_trial = np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds))
             trials[column] = _short(np.exp(by_trial.mean(axis=1)))  # geometric, over the seeds
-        trials["score"] = _short(search.scores(trials, budget))
-        trials.insert(0, "round", round_)
-        rounds.append(trials)
-    return pd.concat(rounds, ignore_index=True)
+        trials["score"] = _short(search.scores(trials, self.budget))
+        return trials
+
+
+def best_of(trials: "pd.DataFrame") -> "pd.Series":
+    """The trial of one search that it keeps."""
+    return trials.loc[trials["score"].idxmin()]
 
 
 def _short(values: Iterable[float]) -> list[float]:

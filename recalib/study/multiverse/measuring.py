@@ -1,108 +1,82 @@
-"""What is measured in a universe: all of the claims that can vary, as at home, each by one number.
+"""What one replicate of a setup measures: a number for each claim that a choice can change.
 
-Luck is new in every universe: of the searches, of the poses and of the seeds.
+docs/registration.md says what each number is for. Errors are geometric means over the seeds; a
+comparison is a ratio of errors, or of their geometric mean over position and orientation.
 """
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.damaged.damage import apply
-from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.study.configuration.damages import damages_among
-from recalib.study.configuration.study import Budget
-from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
+from recalib.learners.radial import RadialLearner
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES, Switch
 from recalib.study.evidence.claims import rigid
-from recalib.study.evidence.speedup import iterations_needed
-from recalib.study.experiments import search
-from recalib.study.experiments.campaign import desired_poses, test_poses
-from recalib.study.experiments.trials import search_once
+from recalib.study.experiments.search import NETS
+from recalib.study.experiments.trials import best_of
+from recalib.study.mapping.coupling import coupling
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
-from recalib.study.plants import nominal_controller
+from recalib.study.multiverse.world import World
 from recalib.study.statistics import combined
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
 
-PARTS = (0, 0.1, 0.25, 0.5, 1)  # of a training, after which it is measured
+WORKSPACE = 2.0  # wide: a neighbourhood that is as wide holds all of it
+LATE = 1000  # iterations: after 200, Ritter's has hardly begun, and nothing can be compared
+MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
+POSES = 200  # where the Jacobian of the true mapping is taken
 
 
-class World:
-    """A universe in which learners can be tuned and trained.
+def measure(universe: Universe) -> list[dict[str, float]]:
+    """A row for each replicate of a setup."""
+    return [
+        {"universe": universe.number, "replicate": replicate} | measured(World(universe, replicate))
+        for replicate in range(universe.replicates)
+    ]
 
-    Args:
-        universe: which.
-    """
 
-    def __init__(self, universe: Universe):
-        self.universe = universe
-        self._controller = nominal_controller(universe.nominal)
-
-    def robots(self, scenario: str) -> Callable[[int], Plant]:
-        """Makes as many as there are runs, all with the damage of a scenario."""
-        damages = damages_among(self.universe.scenarios[scenario])
-        arm = apply(self._controller.robot, damages)
-        return lambda runs: Plant(self._controller, [arm])
-
-    def tune(self, learner: str, iterations: int, budget: Budget) -> "pd.DataFrame":
-        """All trials of the search for a learner, on the paper's damage."""
-        rules, robots = rules_in(self.universe, learner), self.robots(self.universe.own)
-        luck = f"search for {learner}_{iterations}"
-        return search_once(robots, rules, iterations, budget, self.universe.tests, luck)
-
-    def train(
-        self, learner: str, iterations: int, trials: "pd.DataFrame", scenario: str = ""
-    ) -> np.ndarray:
-        """Errors (seed, measurement, 2) [cm, degrees] of the best of some trials.
-
-        Args:
-            scenario: the paper's damage unless given.
-        """
-        universe, seeds = self.universe, range(self.universe.seeds)
-        rules = rules_in(universe, learner)
-        best = trials.loc[trials["score"].idxmin()]
-        history = train(
-            self.robots(scenario or universe.own)(len(seeds)),
-            HierarchicalLearner(len(seeds), rules, search.schedule(best, rules)),
-            desired_poses(universe.seed, "universe", seeds, iterations),
-            test_poses(universe.seed, "universe", seeds, universe.tests),
-            sorted({round(part * iterations) for part in PARTS}),
+def measured(world: World) -> dict[str, float]:
+    """The numbers of one replicate, by the columns of the table of outcomes."""
+    iterations = world.universe.learners[IMPROVED].iterations
+    trials = {
+        name: world.search(name, iterations).all_rounds()
+        for name in (
+            IMPROVED,
+            RITTER,
+            *(each.without for each in OTHERS),
+            *(e.added for e in OTHERS),
         )
-        return np.stack(
-            [100 * history.position[..., 0], np.degrees(history.orientation[..., 0])], axis=-1
-        )
-
-
-def measure(universe: Universe) -> dict[str, float]:
-    """A row of the table of outcomes: see the claims for what is compared with what."""
-    world, iterations = World(universe), universe.learners[IMPROVED].iterations
-    trials = {name: world.tune(name, iterations, universe.budget) for name in universe.learners}
-    errors = {name: world.train(name, iterations, its) for name, its in trials.items()}
-
+    }
+    ours, ritters = (world.train(name, iterations, trials[name]) for name in (IMPROVED, RITTER))
     row = {}
     for moment, when in (("initial", 0), ("final", -1)):
-        for error, value in zip(ERRORS, errors[IMPROVED][:, when].mean(axis=0), strict=True):
+        for error, value in zip(ERRORS, ours[:, when].mean(axis=0), strict=True):
             row[f"{moment}_{error}"] = value
-    row["left"] = _left(errors[IMPROVED]).max()
-    row["ritter_left"] = _left(errors[RITTER]).min()
-    for switch in SWITCHES:
-        row[f"{switch.key}_improved"] = _ratio(errors[IMPROVED], errors[switch.without])
-        row[f"{switch.key}_ritter"] = _ratio(errors[switch.added], errors[RITTER])
-    row["factor"] = _factor(world)
+    row["remaining"] = _remaining(ours).max()
+    row["remaining_ritter"] = _remaining(ritters).min()
+    row["remaining_rough"] = _remaining(
+        world.train(IMPROVED, iterations, _few(world, trials))
+    ).max()
+    for switch in OTHERS:
+        row |= _switched(world, switch, iterations, trials, ours[:, -1], ritters[:, -1])
+    row["maps_improved"] = _two_over_one(world, MAPS.without, IMPROVED, iterations)
+    row["maps_ritter"] = _two_over_one(world, RITTER, MAPS.added, iterations)
+    row["maps_ritter_late"] = _two_over_one(world, RITTER, MAPS.added, LATE)
+    row |= width_order(trials[IMPROVED])
+    row |= _cells(world, iterations)
+    row["narrow"] = _narrow(world, iterations, ours[:, -1])
+    row["radial"] = _radial(world, iterations)
     moved = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in rigid.SCENARIOS)
-    row["rigid_left"] = max(_left(each).max() for each in moved)
+    row["rigid"] = max(_remaining(each).max() for each in moved)
     row["intact"] = world.train(IMPROVED, iterations, trials[IMPROVED], "intact").max()
-    row["width_order"] = _width_order(trials[IMPROVED])
+    row["coupling"] = _coupling(world)
     return row
 
 
-def _left(errors: np.ndarray) -> np.ndarray:
-    """What is left of both errors (2,), geometric means over the seeds.
+def _remaining(errors: np.ndarray) -> np.ndarray:
+    """The share that remains of both errors (seed, 2, 2), geometric means over the seeds.
 
     Of an error that is zero to begin with nothing is asked here.
     """
@@ -111,45 +85,109 @@ def _left(errors: np.ndarray) -> np.ndarray:
     return np.exp(np.log(last / first).mean(axis=0))
 
 
-def _ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
-    """Our error over theirs, the geometric mean over the seeds."""
-    logs = (np.log(combined(errors[:, -1])) for errors in (ours, theirs))
-    return float(np.exp(np.subtract(*logs).mean()))
+def ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
+    """Our error over theirs (seed, 2): the geometric mean over kinds and seeds."""
+    return float(np.exp(np.subtract(*(np.log(combined(each)).mean() for each in (ours, theirs)))))
 
 
-def _width_order(trials: "pd.DataFrame") -> float:
-    """Narrow over wide, as section 4 has them, in the map that shows it less.
+def _few(world: World, trials: Mapping[str, "pd.DataFrame"]) -> "pd.DataFrame":
+    """Of the first round for the improved system, as many trials as a rough search has."""
+    return trials[IMPROVED].iloc[: world.universe.rough_trials]
 
-    Of the best tenth of the first round, as in the claim.
+
+def _switched(
+    world: World,
+    switch: Switch,
+    iterations: int,
+    trials: Mapping[str, "pd.DataFrame"],
+    ours: np.ndarray,
+    ritters: np.ndarray,
+) -> dict[str, float]:
+    """A change taken from the improved system and added to Ritter's: error with it over without."""
+    without, added = (
+        world.train(name, iterations, trials[name])[:, -1]
+        for name in (switch.without, switch.added)
+    )
+    return {
+        f"{switch.key}_improved": ratio(ours, without),
+        f"{switch.key}_ritter": ratio(added, ritters),
+    }
+
+
+def one_and_two_maps(
+    world: World, single: str, separate: str, iterations: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Final errors (seed, 2) with one map, and with two.
+
+    One map is two with equal widths. So both searches go on from the winner for one map, with as
+    many further trials: the search for more widths has no disadvantage.
     """
-    first = trials[trials["round"] == 1]
-    best = first.nsmallest(-(-len(first) // 10), "score")
-    ratios = [np.exp(np.log(best[f"{kind}/g_k"] / best[f"{kind}/g_kl"]).mean()) for kind in KINDS]
-    return float(max(ratios[0], 1 / ratios[1]))
+    alone = world.search(single, iterations)
+    winner = best_of(alone.all_rounds())
+    as_two = {f"{kind}/{net}": winner[f"pose/{net}"] for kind in KINDS for net in NETS}
+    start = winner.to_dict() | as_two
+    one = alone.further(winner)
+    two = world.search(separate, iterations, like=single).further(start)
+    return (
+        world.train(single, iterations, one)[:, -1],
+        world.train(separate, iterations, two)[:, -1],
+    )
 
 
-def _factor(world: World) -> float:
-    """How many times as many iterations Ritter's needs as the improved one, both tuned alike.
+def _two_over_one(world: World, single: str, separate: str, iterations: int) -> float:
+    """The error with two maps over that with one."""
+    one, two = one_and_two_maps(world, single, separate, iterations)
+    return ratio(two, one)
 
-    Rungs are tried from the middle one, up to the first that reaches the errors of the improved
-    system, or down to the first that does not. Infinite where none reaches them; where the lowest
-    does, what it says is too much.
+
+def width_order(trials: "pd.DataFrame") -> dict[str, float]:
+    """Do position commands want a narrow g_k and a wide g_kl, orientation commands the reverse?
+
+    Rank correlations over the first round, whose trials choose all widths by themselves: positive
+    where the paper is right.
     """
+    from scipy.stats import spearmanr  # half a second, which only this needs
+
+    first, found = trials[trials["round"] == 1], {}
+    for kind, error, sign in zip(KINDS, ERRORS, (1, -1), strict=True):
+        ratio = np.log(first[f"{kind}/g_k"] / first[f"{kind}/g_kl"])
+        found[f"order_{kind}"] = sign * float(spearmanr(first[error], ratio).statistic)
+    return found
+
+
+def _cells(world: World, iterations: int) -> dict[str, float]:
+    """Fewer cells where the paper says that they are not needed, over fewer in the other net."""
+    final = {
+        net: world.final(name, iterations, world.search(name, iterations).all_rounds())
+        for net, name in (
+            ("supernet", "improved_small_supernet"),
+            ("subnet", "improved_small_subnet"),
+        )
+    }
+    position, orientation = np.log(final["supernet"] / final["subnet"])
+    return {"cells_position": np.exp(position), "cells_orientation": np.exp(-orientation)}
+
+
+def _narrow(world: World, iterations: int, ours: np.ndarray) -> float:
+    """The position error as tuned over that with g_k of its map as wide as the workspace."""
+    wide = world.search(IMPROVED, iterations, fixed={"position/g_k": WORKSPACE}).all_rounds()
+    errors = np.exp(np.log(ours).mean(axis=0)), world.final(IMPROVED, iterations, wide)
+    return float(errors[0][0] / errors[1][0])
+
+
+def _radial(world: World, iterations: int) -> float:
+    """Radial units: the error with increments over that with values."""
+    errors = []
+    for name in (IMPROVED, "improved_theta_values"):
+        trials = world.search(name, iterations, f"radial {name}", kind=RadialLearner).all_rounds()
+        errors.append(world.train(name, iterations, trials, kind=RadialLearner)[:, -1])
+    return ratio(*errors)
+
+
+def _coupling(world: World) -> float:
+    """Off-diagonal blocks of the true mapping over diagonal ones: 95 % of poses, worst scenario."""
     universe = world.universe
-    own = universe.learners[IMPROVED].iterations
-    goal = _tuned(world, IMPROVED, own)
-    rungs, found = universe.rungs, {}
-    rung = len(rungs) // 2
-    while 0 <= rung < len(rungs) and rung not in found:
-        found[rung] = _tuned(world, RITTER, rungs[rung])
-        rung += -1 if (found[rung] <= goal).all() else 1
-    tried = sorted(found)
-    grid, errors = np.array([rungs[rung] for rung in tried]), np.array([found[r] for r in tried])
-    needed = float(iterations_needed(grid, errors, goal))
-    return (rungs[0] if np.isnan(needed) else needed) / own
-
-
-def _tuned(world: World, name: str, iterations: int) -> np.ndarray:
-    """Final errors (2,) of a learner after a rough search: long trainings allow no other."""
-    trials = world.tune(name, iterations, world.universe.rough)
-    return world.train(name, iterations, trials)[:, -1].mean(axis=0)
+    random = np.random.default_rng([universe.seed, world.replicate])
+    desired = world.controller.robot.workspace.sample(random, POSES)
+    tables = (coupling(world.controller, world.arm(name), desired) for name in universe.scenarios)
+    return max(table.quantile(0.95).max() for table in tables)

@@ -1,0 +1,75 @@
+"""What the second campaign can find: its model and its verdicts, in worlds whose truth is known."""
+
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from recalib.study.evidence.verdicts import RATIO, Verdict
+from recalib.study.hierarchy import hierarchy
+from recalib.study.statistics import Estimate
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+STUDIES = 1000
+# Standard deviation of the logarithm of a ratio between two searches, by effort: what the first
+# campaign showed for the small effects (full: in the reference study; rough: over setups).
+LUCK = {"full": 0.13, "rough": 0.39}
+EFFECTS = 1.0, 0.95, 0.94, 0.93, 0.92, 0.9
+HETEROGENEITIES = 0.0, 0.05, 0.1, 0.2
+
+
+def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame":
+    """Shares of simulated campaigns, a row for each true mean effect and heterogeneity.
+
+    Columns: each verdict; `found`, where the interval of the heterogeneity excludes zero; and for
+    each part of the model how often its interval holds the truth.
+
+    Args:
+        setups: half of them of full effort, the others of rough.
+        replicates: of each setup.
+    """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
+    effort = np.array(list(LUCK))[np.arange(setups) % len(LUCK)]
+    spread = np.array([LUCK[each] for each in effort])
+    rows = []
+    for number, (effect, own) in enumerate(product(EFFECTS, HETEROGENEITIES)):
+        random = np.random.default_rng([1996, number])
+        shares = np.mean(
+            [
+                _study(random, effort, spread, replicates, np.log(effect), own)
+                for _ in range(studies)
+            ],
+            axis=0,
+        )
+        rows.append(
+            {"effect": effect, "heterogeneity": own} | dict(zip(COLUMNS, shares, strict=True))
+        )
+    return pd.DataFrame(rows)
+
+
+PARTS = "mean", "heterogeneity", "luck", "another"
+COLUMNS = *(each.value for each in Verdict), "found", *(f"{part}_covered" for part in PARTS)
+
+
+def _study(
+    random: np.random.Generator,
+    effort: np.ndarray,
+    spread: np.ndarray,
+    replicates: int,
+    mean: float,
+    own: float,
+) -> list[bool]:
+    """One campaign: whether each of COLUMNS is true of it."""
+    true = mean + own * random.normal(size=len(effort) + 1)  # the last one is another setup
+    values = true[:-1, None] + spread[:, None] * random.normal(size=(len(effort), replicates))
+    found = hierarchy(values, effort)
+    verdict = RATIO.verdict(Estimate(*np.exp(found.mean)))
+    truths = mean, own, np.sqrt(np.square(spread).mean()), true[-1]
+    intervals = (getattr(found, part) for part in PARTS)
+    covered = [
+        each.low <= truth <= each.high for each, truth in zip(intervals, truths, strict=True)
+    ]
+    return [*(verdict == each for each in Verdict), found.heterogeneity.low > 0, *covered]

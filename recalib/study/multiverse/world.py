@@ -1,0 +1,108 @@
+"""A replicate of an alternative setup: where its learners are tuned, trained and measured.
+
+Nothing of a replicate is that of another one: searches, poses and seeds are its own. Learners that
+are compared in it see the same poses.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from recalib.damaged.damage import apply
+from recalib.damaged.plant import Plant
+from recalib.interfaces import Learner
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
+from recalib.study.configuration.damages import damages_among
+from recalib.study.experiments import search
+from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.trials import Search, best_of
+from recalib.study.multiverse.rules import rules_in
+from recalib.study.multiverse.universe import Universe
+from recalib.study.plants import nominal_controller
+from recalib.training import train
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Kind = Callable[[int, Rules, Schedule], Learner]
+
+
+class World:
+    """A replicate.
+
+    Args:
+        universe: the setup.
+        replicate: which, from 0.
+    """
+
+    def __init__(self, universe: Universe, replicate: int):
+        self.universe, self.replicate = universe, replicate
+        self.controller = nominal_controller(universe.nominal)
+
+    def arm(self, scenario: str):
+        """The arm with the damage of a scenario."""
+        return apply(self.controller.robot, damages_among(self.universe.scenarios[scenario]))
+
+    def search(
+        self,
+        learner: str,
+        iterations: int,
+        like: str = "",
+        fixed: Mapping[str, float] = {},
+        kind: Kind = HierarchicalLearner,
+    ) -> Search:
+        """The search for a learner, on the paper's damage.
+
+        Args:
+            like: learner whose search had the same poses; its own unless given.
+            fixed: numbers of a trial that are not sought.
+            kind: of the learner.
+        """
+        universe, arm = self.universe, self.arm(self.universe.own)
+        return Search(
+            robots=lambda runs: Plant(self.controller, [arm]),
+            rules=rules_in(universe, learner),
+            iterations=iterations,
+            budget=universe.budget,
+            tests=universe.tests,
+            scope=f"search for {like or learner}_{iterations}, replicate {self.replicate}",
+            fixed=fixed,
+            error=universe.error,
+            order=universe.order,
+            learner=kind,
+        )
+
+    def train(
+        self,
+        learner: str,
+        iterations: int,
+        trials: "pd.DataFrame",
+        scenario: str = "",
+        kind: Kind = HierarchicalLearner,
+    ) -> np.ndarray:
+        """First and last errors (seed, 2, 2) [cm, degrees] of the best of some trials.
+
+        Args:
+            scenario: the paper's damage unless given.
+        """
+        universe, seeds = self.universe, range(self.universe.seeds)
+        arm, rules = self.arm(scenario or universe.own), rules_in(universe, learner)
+        scope = f"replicate {self.replicate}"
+        history = train(
+            Plant(self.controller, [arm]),
+            kind(len(seeds), rules, search.schedule(best_of(trials), rules)),
+            desired_poses(universe.seed, scope, seeds, iterations, universe.order),
+            test_poses(universe.seed, scope, seeds, universe.tests),
+            [0, iterations],
+            error=universe.error,
+        )
+        return np.stack(
+            [100 * history.position[..., 0], np.degrees(history.orientation[..., 0])], axis=-1
+        )
+
+    def final(self, learner: str, iterations: int, trials: "pd.DataFrame", **how) -> np.ndarray:
+        """As `train`, geometric means of the last errors (2,) over the seeds."""
+        return np.exp(np.log(self.train(learner, iterations, trials, **how)[:, -1]).mean(axis=0))
