@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Commandable
-from recalib.learners.hierarchical import HierarchicalLearner, Rules
+from recalib.interfaces import Commandable, Learner
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Budget
@@ -55,6 +57,7 @@ def search_once(
     budget: Budget,
     tests: int,
     luck: str,
+    learner: Callable[[int, Rules, Schedule], Learner] = HierarchicalLearner,
 ) -> "pd.DataFrame":
     """All trials of one search, round after round, a row each.
 
@@ -63,6 +66,7 @@ def search_once(
         iterations: of a training.
         tests: poses on which a trial is measured.
         luck: the scope of its randomness.
+        learner: makes one of so many runs, by these rules, with a schedule of each run.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
@@ -78,7 +82,7 @@ def search_once(
         runs = len(trials) * len(seeds)
         history = train(
             robots(runs),
-            HierarchicalLearner(runs, rules, search.schedule(trials, rules, len(seeds))),
+            learner(runs, rules, search.schedule(trials, rules, len(seeds))),
             np.tile(poses, (len(trials), 1, 1)),
             np.tile(tested, (len(trials), 1, 1)),
             [iterations],
