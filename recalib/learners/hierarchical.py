@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from recalib.interfaces import Execute, State
-from recalib.learners import schedules
 from recalib.learners.maps import HierarchicalMap
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
@@ -83,24 +82,12 @@ class HierarchicalLearner:
             new_theta = theta + new_theta
         if not self.rules.jacobian_increments:
             new_jacobian = jacobian + new_jacobian
-        rate = self._rate(fraction)
+        rate = self.rules.learning_rate(self.schedule, fraction)
         for name, each in self.maps.items():
-            near = self.nets.neighbourhood(k, l, *self.widths(name, fraction))
+            widths = self.rules.widths(self.schedule, name, fraction)
+            near = self.nets.neighbourhood(k, l, *widths)
             each.theta.update(rate * learn_theta, *near, new_theta[:, each.outputs])
             each.jacobian.update(rate * learn_jacobian, *near, new_jacobian[:, each.outputs])
-
-    def widths(self, name: str, fraction: float) -> np.ndarray:
-        """Widths (2, run) of g_k and of g_kl after this fraction of the training.
-
-        Args:
-            name: of a map; see `Rules.maps`.
-        """
-        start, ends = self.schedule.initial_width, self.schedule.final_widths[name]
-        if not self.rules.equal_visits:
-            return schedules.exponential(start, ends, fraction)
-        return schedules.equal_visits(
-            start, ends, fraction, self.rules.dimensions, self.rules.spread
-        )
 
     def settings(self) -> dict[str, Any]:
         """The rules and, by run, the schedule."""
@@ -122,11 +109,6 @@ class HierarchicalLearner:
         for name, each in self.maps.items():
             each.theta.all[:] = [state[name]["theta"] for state in states]
             each.jacobian.all[:] = [state[name]["jacobian"] for state in states]
-
-    def _rate(self, fraction: float) -> np.ndarray:
-        """c' (run,)."""
-        weaken = schedules.RATES[self.rules.law_of_rate]
-        return weaken(self.schedule.initial_rate, self.schedule.final_rate, fraction)
 
 
 def applied(jacobian: np.ndarray, offset: np.ndarray) -> np.ndarray:

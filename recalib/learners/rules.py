@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.errors import InvalidSetting, UnknownName
+from recalib.learners import schedules
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import DIMENSIONS, RATES, SPREADS
+from recalib.learners.schedules import DIMENSIONS, RATES, SPREADS, Schedule
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -77,6 +78,22 @@ class Rules:
     def law_of_rate(self) -> str:
         """How the learning rate falls: `rate`, or what goes with how the widths fall."""
         return self.rate or ("linear" if self.equal_visits else "exponential")
+
+    def widths(self, schedule: Schedule, name: str, fraction: float) -> np.ndarray:
+        """Widths (2, run) of g_k and of g_kl after this fraction of the training.
+
+        Args:
+            name: of a map; see `maps`.
+        """
+        start, ends = schedule.initial_width, schedule.final_widths[name]
+        if not self.equal_visits:
+            return schedules.exponential(start, ends, fraction)
+        return schedules.equal_visits(start, ends, fraction, self.dimensions, self.spread)
+
+    def learning_rate(self, schedule: Schedule, fraction: float) -> np.ndarray:
+        """c' (run,) after this fraction of the training."""
+        weaken = RATES[self.law_of_rate]
+        return weaken(schedule.initial_rate, schedule.final_rate, fraction)
 
 
 IMPROVED = Rules(

@@ -5,15 +5,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
+from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
-from recalib.study.experiments import samples, search
+from recalib.study.experiments import campaign, samples, search
 from recalib.study.experiments.settings import best, build_tuned, rules_of
-from recalib.study.experiments.trials import search_for
+from recalib.study.experiments.trials import search_for, search_once
 from recalib.study.layout import SEARCHED
 from recalib.study.plants import resolve
 from recalib.study.trainings import Trainings, ritter_short, rules, switched, training
+from recalib.training import train
 from tests.conftest import ROOT
 
 RANGES = {
@@ -114,6 +117,29 @@ def test_a_search_does_not_depend_on_those_beside_it(searched):
     alone = searched(first=1, last=2)
     beside = searched().query("search == 2").reset_index(drop=True)
     pd.testing.assert_frame_equal(alone, beside)
+
+
+def test_another_learner_is_searched_for_alike(plan, controller, damaged):
+    """The same trials, in the same columns, on the same poses; errors are those of the learner."""
+    given = {"rounds": 1, "trials": 4, "seeds": 2}
+    budget = plan.budget().model_copy(update=given)
+    rules = Rules(False, True, False, True)
+    args = (lambda runs: Plant(controller, [damaged]), rules, 8, budget, 5, "luck")
+    first, other = search_once(*args), search_once(*args, learner=RadialLearner)
+    numbers = search.columns(rules)
+    assert other[numbers].equals(first[numbers]) and list(other) == list(first)
+    assert (other["score"] != first["score"]).all()
+    trial = other.iloc[1]
+    seeds = range(given["seeds"])
+    history = train(
+        Plant(controller, [damaged]),
+        RadialLearner(2, rules, search.schedule(trial, rules)),
+        campaign.desired_poses(budget.seed, "luck", seeds, 8),
+        campaign.test_poses(budget.seed, "luck", seeds, 5),
+        [8],
+    )
+    error = np.exp(np.log(100 * history.position[:, 0, 0]).mean())
+    assert trial["position_error_cm"] == pytest.approx(error, rel=1e-3)
 
 
 def test_a_training_is_a_learner_and_its_iterations(study):

@@ -1,4 +1,8 @@
-"""Is the new mapping nearer to the old one than to a constant (section 5)? E_clas and E_upd."""
+"""Section 5: E_clas and E_upd, and the condition under which the paper has the latter smaller.
+
+"This kind of cooperation works better than Ritter et al.'s when the new function is more similar to
+the original one than to a constant function", and likewise for Jacobians.
+"""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -29,8 +33,18 @@ def ball(generator: np.random.Generator, points: int, dimensions: int, radius: f
 
 def propagation_errors(
     old: Mapping, new: Mapping, centre: np.ndarray, offsets: np.ndarray
-) -> tuple[float, float]:
-    """E_clas and E_upd of section 5, as means over the ball instead of integrals.
+) -> dict[str, float]:
+    """What section 5 compares, as means over the ball instead of integrals.
+
+    With the constants that the rules have, from the centre c,
+
+        classic (E_clas) = mean |f' - k_1|^2,  k_1 = f'(c),
+        updated (E_upd) = mean |f' - f - k_2|^2,  k_2 = f'(c) - f(c),
+
+    and with the best of all constants, which are the means over the ball: to_constant, the least
+    mean |f' - k|^2, and to_original, the least mean |f' - f - k|^2. These say whether f' is more
+    similar to f or to a constant, whatever the rules are: the condition. Where f is a constant
+    itself, as the Jacobian of an intact robot's mapping is, both are equal but for rounding.
 
     Args:
         old, new: f and f', from points (n, 6) to values (n, ...): commands, or Jacobians for the
@@ -41,10 +55,17 @@ def propagation_errors(
     points = centre + offsets
     f, f_new = old(points), new(points)
     f_centre, f_new_centre = old(centre[None]), new(centre[None])
-    axes = tuple(range(1, f.ndim))
-    classic = np.square(f_new_centre - f_new).sum(axis=axes)
-    updated = np.square(f + (f_new_centre - f_centre) - f_new).sum(axis=axes)
-    return float(classic.mean()), float(updated.mean())
+
+    def mean_square(values: np.ndarray) -> float:
+        return float(np.square(values).sum(axis=tuple(range(1, f.ndim))).mean())
+
+    change = f_new - f
+    return {
+        "classic": mean_square(f_new_centre - f_new),
+        "updated": mean_square(f + (f_new_centre - f_centre) - f_new),
+        "to_original": mean_square(change - change.mean(axis=0)),
+        "to_constant": mean_square(f_new - f_new.mean(axis=0)),
+    }
 
 
 def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
@@ -55,14 +76,14 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
 
 
 def propagation(job: jobs.TrueMapping, scenario: str | Path) -> "pd.DataFrame":
-    """Both integrals in balls about random centres, from slight to large damage.
+    """The integrals in balls about random centres, from slight to large damage.
 
     Args:
         job: how many balls, how large, and the scales of the damage.
         scenario: file of the paper's damage as resolved.
 
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
-    kind (theta, jacobian) and ball, with columns classic (E_clas) and updated (E_upd).
+    kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
@@ -79,9 +100,8 @@ def propagation(job: jobs.TrueMapping, scenario: str | Path) -> "pd.DataFrame":
             arms = [apply(robot, each) for each in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):
                 old, new = (partial(mapping, controller, arm) for arm in arms)
-                errors = [propagation_errors(old, new, centre, offsets) for centre in centres]
+                about = {"scale": scale, "start": start, "kind": kind}
                 rows += [
-                    {"scale": scale, "start": start, "kind": kind, "classic": c, "updated": u}
-                    for c, u in errors
+                    about | propagation_errors(old, new, centre, offsets) for centre in centres
                 ]
     return pd.DataFrame(rows)

@@ -59,9 +59,11 @@ class CellWatch:
 
     def _neighbourhood(self, iteration: int) -> np.ndarray:
         """g_k (cell,) in the iteration before; zero where there was none."""
-        nets, last = self._learner.nets, iteration - 1
+        learner, last = self._learner, iteration - 1
+        nets = learner.nets
         if iteration == 0:
             return np.zeros(len(nets.w_k))
         winner = nets.winner(self._desired[[last]])
-        widths = self._learner.widths(self._name, last / len(self._desired))
+        done = last / len(self._desired)
+        widths = learner.rules.widths(learner.schedule, self._name, done)
         return nets.neighbourhood(*winner, *widths)[0][0]

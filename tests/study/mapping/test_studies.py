@@ -41,13 +41,54 @@ def test_the_ball_is_uniform():
 OFFSETS = ball(np.random.default_rng(1), 4000, 6, 0.5)
 
 
+CENTRE = np.full(6, 0.2)
+MOMENT = np.square(OFFSETS).sum(axis=1).mean()  # |w - c|^2 in the ball, on average
+
+
 def test_the_integrals_of_section_5_for_mappings_known_by_heart():
-    centre, second_moment = np.full(6, 0.2), np.square(OFFSETS).sum(axis=1).mean()
     identity, shifted, constant = (lambda w: w), (lambda w: w + 0.3), (lambda w: 0 * w + 0.7)
-    classic, updated = propagation_errors(identity, shifted, centre, OFFSETS)
-    assert classic == pytest.approx(second_moment) and updated == pytest.approx(0, abs=1e-20)
-    classic, updated = propagation_errors(identity, constant, centre, OFFSETS)
-    assert classic == pytest.approx(0, abs=1e-20) and updated == pytest.approx(second_moment)
+    found = propagation_errors(identity, shifted, CENTRE, OFFSETS)
+    assert found["classic"] == pytest.approx(MOMENT)
+    assert found["updated"] == pytest.approx(0, abs=1e-20)
+    found = propagation_errors(identity, constant, CENTRE, OFFSETS)
+    assert found["classic"] == pytest.approx(0, abs=1e-20)
+    assert found["updated"] == pytest.approx(MOMENT)
+
+
+def test_the_condition_of_section_5_takes_the_best_constants_and_not_those_of_the_rules():
+    """Affine f and f', with M and N for Jacobians: spreads about the mean of the ball's points."""
+    rng = np.random.default_rng(4)
+    m, n = rng.normal(size=(2, 6, 6))
+    found = propagation_errors(lambda w: w @ m.T, lambda w: w @ n.T + 5, CENTRE, OFFSETS)
+    for name, matrix in (("to_constant", n), ("to_original", n - m)):
+        assert found[name] == pytest.approx(np.trace(matrix @ np.cov(OFFSETS.T, ddof=0) @ matrix.T))
+    at_centre = OFFSETS.mean(axis=0)  # by how much the mean is not the value at the centre
+    for least, rule, matrix in (
+        ("to_constant", "classic", n),
+        ("to_original", "updated", n - m),
+    ):
+        gap = np.square(matrix @ at_centre).sum()
+        assert found[rule] == pytest.approx(found[least] + gap, rel=1e-10) and gap > 0
+
+
+def test_a_constant_added_or_a_constant_learned_is_no_distance_to_it():
+    bent = lambda w: np.sin(3 * w)  # noqa: E731
+    found = propagation_errors(bent, lambda w: bent(w) + 0.3, CENTRE, OFFSETS)
+    assert found["to_original"] < 1e-20 < found["to_constant"]
+    found = propagation_errors(bent, lambda w: 0 * w + 0.7, CENTRE, OFFSETS)
+    assert found["to_constant"] < 1e-20 < found["to_original"]
+
+
+def test_the_condition_of_jacobians_sums_over_all_that_they_hold():
+    """f' has the Jacobian c w_0 in two of its elements, f half of that: a known spread of w_0."""
+
+    def jacobian(c):
+        return lambda w: np.stack([c * w[:, :1] * [1, 0], c * w[:, :1] * [0, 1]], axis=1)
+
+    spread = OFFSETS[:, 0].var()
+    found = propagation_errors(jacobian(1.0), jacobian(2.0), CENTRE, OFFSETS)
+    assert found["to_constant"] == pytest.approx(2 * 4 * spread)
+    assert found["to_original"] == pytest.approx(2 * spread)
 
 
 def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
@@ -57,10 +98,9 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
         return lambda w: w @ matrix.T
 
     for angle, better in ((59, True), (61, False)):
-        classic, updated = propagation_errors(
-            lambda w: w, turned(np.radians(angle)), np.zeros(6), OFFSETS
-        )
-        assert (updated < classic) == better
+        found = propagation_errors(lambda w: w, turned(np.radians(angle)), np.zeros(6), OFFSETS)
+        assert (found["updated"] < found["classic"]) == better
+        assert (found["to_original"] < found["to_constant"]) == better
 
 
 def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
@@ -97,3 +137,7 @@ def test_both_measurements_see_the_scenarios_as_resolved(study, plan, tmp_path):
     assert table["position"].max() < 1e-6, "a rigid shift does not couple"
     both = propagation(job, path)
     assert len(both) == 2 * 2 * 2 and set(both["start"]) == {"intact", "damaged"}
+    names = ["classic", "updated", "to_original", "to_constant"]
+    assert list(both) == ["scale", "start", "kind", *names]
+    assert (both["to_original"] <= both["updated"] + 1e-20).all()
+    assert (both["to_constant"] <= both["classic"] + 1e-20).all()

@@ -1,0 +1,90 @@
+"""A second kind of local unit: normalised Gaussian radial units, to which the paper's rules apply.
+
+"Other neural network algorithms based on local units can also benefit from these improvements"
+(section 8). A unit holds a command and no Jacobian: nothing is smaller.
+"""
+
+import numpy as np
+from scipy.special import softmax
+
+from recalib.interfaces import Execute
+from recalib.learners.cells import Cells
+from recalib.learners.nets import Nets
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
+from recalib.measurements import check_coordinates
+from recalib.nominal.poses import ORIENTATION, POSITION
+
+SPACING = 2 / 3  # of three cells along a coordinate of the workspace, which is 2 wide
+
+
+class RadialLearner:
+    """Units i that hold commands theta_i at centres w_i; the answer blends what they correct.
+
+    To a desired pose u they command
+
+        u + sum_i phi_i(u) (theta_i - w_i) / sum_i phi_i(u),
+        phi_i(u) = exp(-|u - w_i|^2 / (2 s^2)),
+
+    the identity before learning. An iteration is one move, to u'. Its error is the increment of
+    (6) with the identity for a Jacobian, e = u - u'. With the neighbourhoods g of section 2 about
+    the winner, the unit whose centre is nearest to u, every unit learns by (7) or by (4),
+
+        theta_i += c' g_i e    or    theta_i += c' g_i (theta_winner + e - theta_i).
+
+    Args:
+        runs: how many independent trainings.
+        rules: of the paper's: sizes and centres of the nets, whose pairs of cells (k, l) are the
+            units; one map or two (section 4), increments of theta or values (section 5), and how
+            widths and rates fall (section 6). What is said of Jacobians says nothing here.
+        schedule: how widths and rates fall.
+        field: s, the width of the receptive fields, in workspace coordinates; it stays.
+
+    Attributes:
+        theta: by the name of each map, `Cells` (run, K, L, output).
+    """
+
+    def __init__(self, runs: int, rules: Rules, schedule: Schedule, field: float = SPACING):
+        self.rules, self.schedule = rules, schedule.over(runs)
+        self.nets = Nets(rules.supernet, rules.subnet, rules.centres)
+        self.theta = {
+            name: Cells(runs, self.nets.centres[..., outputs], rules.theta_increments)
+            for name, outputs in rules.maps.items()
+        }
+        self._field = field
+
+    def command(self, desired: np.ndarray) -> np.ndarray:
+        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
+        # phi is a product of one Gaussian in each net, and so is its sum over all units
+        phi_k = self._shares(desired[..., POSITION], self.nets.w_k)
+        phi_kl = self._shares(desired[..., ORIENTATION], self.nets.w_kl)
+        held = np.concatenate([cells.all for cells in self.theta.values()], axis=-1)
+        corrections = held - self.nets.centres  # (run, K, L, 6)
+        runs, supernet = corrections.shape[:2]
+        by_subnet = (phi_k @ corrections.reshape(runs, supernet, -1)).reshape(
+            *phi_kl.shape, corrections.shape[-1]
+        )
+        return desired + (phi_kl[..., None, :] @ by_subnet)[..., 0, :]
+
+    def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
+        """One move, and what all units learn of it; see `Learner.learn`.
+
+        Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
+        number, or grossly off.
+        """
+        outcome = execute(self.command(desired[:, None]))
+        check_coordinates(outcome.achieved)
+        increment = desired - outcome.achieved[:, 0]  # e
+        rate = self.rules.learning_rate(self.schedule, fraction) * outcome.executed[:, 0]
+        k, l = self.nets.winner(desired)
+        for name, outputs in self.rules.maps.items():
+            cells, target = self.theta[name], increment[:, outputs]
+            if not self.rules.theta_increments:
+                target = cells.at(k, l) + target
+            widths = self.rules.widths(self.schedule, name, fraction)
+            cells.update(rate, *self.nets.neighbourhood(k, l, *widths), target)
+
+    def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
+        """phi over its sum (run, pose, cell), in one net, for points (run, pose, 3)."""
+        squares = np.square(points[..., None, :] - centres).sum(axis=-1)
+        return softmax(-squares / (2 * self._field**2), axis=-1)
