@@ -49,20 +49,26 @@ def hierarchy(values: np.ndarray, groups: np.ndarray, draws: int = DRAWS) -> Hie
     _, group = np.unique(groups, return_inverse=True)
     sizes = np.bincount(group)
     by_group = np.bincount(group, within) / sizes
-    between = np.sqrt(numbers.var(ddof=1) / setups)
-    student = t.ppf(TAILS[1], setups - 1)
-    centre = numbers.mean()
+    mean = student(numbers)
     freedom = sizes * (replicates - 1)
     heterogeneity = _heterogeneity(numbers, by_group / replicates, group, freedom, draws)
-    reach = student * np.hypot(between, heterogeneity.mean)
+    error = np.sqrt(numbers.var(ddof=1) / setups)
+    reach = t.ppf(TAILS[1], setups - 1) * np.hypot(error, heterogeneity.mean)
     return Hierarchy(
-        Estimate(centre, centre - student * between, centre + student * between),
+        mean,
         heterogeneity,
         _pooled(by_group, sizes, replicates - 1),
-        Estimate(centre, centre - reach, centre + reach),
+        Estimate(mean.mean, mean.mean - reach, mean.mean + reach),
         numbers,
         np.sqrt(by_group[group] / replicates),
     )
+
+
+def student(values: np.ndarray) -> Estimate:
+    """The mean of values (n,) with Student's interval."""
+    mean, reach = values.mean(), t.ppf(TAILS[1], len(values) - 1) * values.std(ddof=1)
+    reach /= np.sqrt(len(values))
+    return Estimate(float(mean), float(mean - reach), float(mean + reach))
 
 
 def _pooled(variances: np.ndarray, sizes: np.ndarray, freedom: int) -> Estimate:

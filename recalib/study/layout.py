@@ -19,9 +19,12 @@ def root_of(study: str) -> str:
     return RESULTS if study == SHIPPED else f"{RESULTS}/studies/{study}"
 
 
-def piece(table: str, number: int) -> str:
-    """A shipped piece of the second campaign: outcomes or horizon."""
-    return f"{SECOND}/{table}_{number}.csv"
+PIECES = {"outcomes": 64, "horizon": 16}  # setups: what two cores measure in at most an hour
+
+
+def pieces(table: str, setups: int, root: str = SECOND) -> list[str]:
+    """The pieces of a table of the second campaign: outcomes or horizon of so many setups."""
+    return [f"{root}/{table}_{number}.csv" for number in range(-(-setups // PIECES[table]))]
 
 
 @dataclass(frozen=True)
@@ -97,9 +100,9 @@ class Layout:
         """What was measured in a universe, in a replicate of the reference study or a training."""
         return f"{self.root}/chunks/universes/{table}/{number}.csv"
 
-    def campaign_piece(self, table: str, piece: str) -> str:
-        """Some universes: a piece of work of at most an hour."""
-        return f"{self.root}/universes/{table}_{piece}.csv"
+    def campaign_pieces(self, table: str, setups: int) -> list[str]:
+        """All universes, in pieces of work of at most an hour each."""
+        return pieces(table, setups, f"{self.root}/universes")
 
     def assignments(self, robot: str, suffix: str = ".parquet") -> str:
         """Initial errors of every assignment of the paper's damage; .json: the one that is used."""

@@ -2,13 +2,11 @@
 
 from functools import cache
 
-from recalib.study.layout import DESIGN, piece as shipped_piece
+from recalib.study.layout import DESIGN, PIECES
 from recalib.study.multiverse.design import digest, read_design
 from recalib.study.multiverse.universe import universe
 
-PIECES = {"outcomes": 64, "horizon": 16}  # setups: what two cores do in at most an hour
 REPLICATES = 12  # of the reference study
-POWER_OF = 2  # replicates of a setup
 
 
 @cache
@@ -22,22 +20,22 @@ def universe_of(wildcards):
     return universe(study(wildcards), designed()[int(wildcards.number)])
 
 
-def measured_in(table):
-    """The numbers of the universes in which a table is measured."""
-    return len(designed()) if table == "outcomes" else STUDIES[MAIN].universes.horizons
-
-
-def piece_of(wildcards):
-    """The chunks of a piece."""
-    size, first = PIECES[wildcards.table], int(wildcards.piece) * PIECES[wildcards.table]
-    last = min(first + size, measured_in(wildcards.table))
-    return [layout(wildcards).campaign_chunk(wildcards.table, n) for n in range(first, last)]
+def setups(table):
+    """In how many universes a table is measured."""
+    plan = STUDIES[MAIN].universes
+    return {"outcomes": plan.count, "horizon": plan.horizons}[table]
 
 
 def pieces(table):
     """All pieces of a table."""
-    count = -(-measured_in(table) // PIECES[table])
-    return [Layout(MAIN).campaign_piece(table, n) for n in range(count)]
+    return Layout(MAIN).campaign_pieces(table, setups(table))
+
+
+def piece_of(wildcards):
+    """The chunks of a piece."""
+    size, table = PIECES[wildcards.table], wildcards.table
+    numbers = range(setups(table))[int(wildcards.piece) * size :][:size]
+    return [Layout(MAIN).campaign_chunk(table, number) for number in numbers]
 
 
 def effort_trainings():
@@ -119,7 +117,7 @@ rule piece:
     input:
         chunks=piece_of,
     output:
-        LAYOUT.campaign_piece("{table}", "{piece}"),
+        LAYOUT.campaign("{table}_{piece}"),
     params:
         code=code("piece.py"),
         design=lambda w: digest(ROOT / DESIGN),

@@ -14,7 +14,16 @@ from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import (
+    DESIGN,
+    EFFORTS,
+    FIRST,
+    POWER,
+    REFERENCE,
+    SHIPPED,
+    Layout,
+    pieces,
+)
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
@@ -204,17 +213,49 @@ class Request:
         """The judged claims."""
         self._result(self._layout.claims)
 
-    def coverage(self) -> None:
-        """How often intervals held."""
-        self._result(self._layout.coverage)
+    def reference(self) -> None:
+        """The reference study measured as the alternative setups are."""
+        self._shipped("experiments.evidence: true", REFERENCE)
 
-    def outcomes(self) -> bool:
-        """What was measured in each universe, where the study is the one that they vary."""
-        there = self.study.name == SHIPPED and Path(OUTCOMES).exists()
-        if there:
-            self._result(DESIGN)
-            self._result(OUTCOMES)
-        return there
+    def outcomes(self) -> None:
+        """What was measured in each alternative setup, once all of them are in."""
+        if self._is_shipped:
+            self._measured("outcomes", self.study.universes.count)
+
+    def horizon(self) -> None:
+        """Ritter's iterations over the improved system's in setups, once all of them are in."""
+        if self._is_shipped:
+            self._measured("horizon", self.study.universes.horizons)
+
+    def efforts(self) -> None:
+        """The trainings for the factor of 70, by the effort of their searches."""
+        self._shipped("experiments.evidence: true", EFFORTS)
+
+    def power(self) -> None:
+        """What the campaign can find."""
+        self._shipped("experiments.evidence: true", POWER)
+
+    def first_campaign(self) -> None:
+        """The design and the outcomes of the first campaign."""
+        self._shipped("experiments.evidence: true", f"{FIRST}/design.csv", f"{FIRST}/outcomes.csv")
+
+    @property
+    def _is_shipped(self) -> bool:
+        return self.study.name == SHIPPED
+
+    def _shipped(self, key: str, *paths: str) -> None:
+        """Tables that were measured of the shipped study alone, and lie in the project."""
+        self._beyond = True
+        if not self._is_shipped:
+            self.lack(key)
+        for path in paths:
+            self._result(path)
+
+    def _measured(self, table: str, setups: int) -> None:
+        paths = pieces(table, setups)
+        if all(Path(path).exists() for path in paths):
+            for path in (DESIGN, *paths):
+                self._result(path)
 
     def benchmark(self) -> None:
         """Errors of every learner against moves."""

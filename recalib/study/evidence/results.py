@@ -12,7 +12,16 @@ from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.needs import Needs
-from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import (
+    DESIGN,
+    EFFORTS,
+    FIRST,
+    POWER,
+    REFERENCE,
+    SECOND,
+    SHIPPED,
+    Layout,
+)
 from recalib.study.measured import errors_of
 
 if TYPE_CHECKING:
@@ -147,20 +156,42 @@ class Evidence:
         """The first and the last errors of every training."""
         return self._table(self._layout.summary)
 
-    def coverage(self) -> "pd.DataFrame":
-        """How often intervals held."""
-        return self._table(self._layout.coverage)
+    def reference(self) -> "pd.DataFrame":
+        """A row for each replicate of the reference study, measured as the setups are."""
+        return self._table(REFERENCE)
 
     def outcomes(self) -> "pd.DataFrame | None":
-        """A row for each universe; None for a study without any."""
-        return self._table(OUTCOMES) if OUTCOMES in self._needs.files else None
+        """A row for each replicate of each setup; None unless all of them are measured."""
+        return self._pieces("outcomes")
+
+    def horizon(self) -> "pd.DataFrame | None":
+        """The factor of 70 in a row for each replicate of a setup; None unless all are measured."""
+        return self._pieces("horizon")
+
+    def _pieces(self, table: str) -> "pd.DataFrame | None":
+        import pandas as pd
+
+        paths = [path for path in self._needs.files if path.startswith(f"{SECOND}/{table}_")]
+        return pd.concat(map(self._table, paths), ignore_index=True) if paths else None
+
+    def efforts(self) -> "pd.DataFrame":
+        """A row for each training, effort, search, seed and measurement."""
+        return self._table(EFFORTS)
+
+    def power(self) -> "pd.DataFrame":
+        """What the campaign can find, in worlds whose truth is known."""
+        return self._table(POWER)
+
+    def first_campaign(self) -> "tuple[pd.DataFrame, pd.DataFrame]":
+        """Design and outcomes of the first campaign, a row for each setup."""
+        return self._table(f"{FIRST}/design.csv"), self._table(f"{FIRST}/outcomes.csv")
 
     def design(self) -> "pd.DataFrame":
-        """The levels of each universe's factors."""
+        """The levels of each setup's factors."""
         return self.whole_design()[list(Factors.model_fields)]
 
     def whole_design(self) -> "pd.DataFrame":
-        """A row for each universe, as `recalib.study.multiverse.design.Designed` has it."""
+        """A row for each setup, as `recalib.study.multiverse.design.Designed` has it."""
         return self._table(DESIGN)
 
     def benchmark(self) -> "pd.DataFrame":

@@ -1,92 +1,130 @@
-"""Verdicts over all universes: does a claim hold whatever one chooses where the paper is silent?
-
-The rule was written down before the first universe was run.
-"""
+"""A claim over all alternative setups: mean, heterogeneity and luck of its number."""
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from recalib.study.statistics import LEVEL
+import numpy as np
+
+from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
+from recalib.study.hierarchy import Hierarchy, hierarchy, student
+from recalib.study.statistics import Estimate
 
 if TYPE_CHECKING:
     import pandas as pd
 
-MAJORITY = 0.5
-RULE = (
-    "Supported: it holds at home (whole interval), and in more than half of the universes (whole"
-    " interval). Not supported: it is not shown at home, and it holds in less than half of the"
-    " universes (whole interval). Undecided: anything else."
-)
+CLEAR = 3  # times the luck of a setup's number: farther away, a count of setups says something
 
 
 class Across(NamedTuple):
-    """How a claim is measured in a universe: one number, compared with one of its limits.
+    """How a claim is measured in a setup.
 
     Attributes:
-        column: of the table of outcomes.
+        column: of the tables of the campaign.
         number: what is in it, in words.
-        limit: name of the claim's limit.
-        below: whether the claim holds below it; above it otherwise.
+        comparison: what it is compared with.
+        logarithmic: whether it is a ratio, or another number above zero; a correlation otherwise.
     """
 
     column: str
     number: str
-    limit: str = "ratio"
-    below: bool = True
+    comparison: Comparison = RATIO
+    logarithmic: bool = True
 
-    def holds(self, outcomes: "pd.DataFrame", limit: float) -> "pd.Series":
-        """In which universes the claim holds."""
-        values = outcomes[self.column]
-        return values < limit if self.below else values > limit
+    def values(self, table: "pd.DataFrame") -> "pd.Series":
+        """Of a table, in the scale in which they are averaged."""
+        return np.log(table[self.column]) if self.logarithmic else table[self.column]
+
+    def limit(self) -> float:
+        """The limit in that scale."""
+        return float(np.log(self.comparison.limit)) if self.logarithmic else self.comparison.limit
+
+    def back(self, estimate: Estimate) -> Estimate:
+        """An estimate in that scale as a number."""
+        return Estimate(*np.exp(estimate).tolist()) if self.logarithmic else estimate
+
+    def in_reference(self, reference: "pd.DataFrame") -> Estimate:
+        """The mean over the replicates of the reference study, with Student's interval."""
+        return self.back(student(self.values(reference).to_numpy()))
+
+    def over(self, outcomes: "pd.DataFrame", design: "pd.DataFrame") -> "Setups":
+        """What all setups say.
+
+        Args:
+            outcomes: a row for each replicate of each setup.
+            design: (setup, factor) levels.
+        """
+        table = outcomes.assign(value=self.values(outcomes))
+        values = table.pivot(index="universe", columns="replicate", values="value")
+        return Setups(self, hierarchy(values.to_numpy(), design["effort"].to_numpy()))
 
 
-class Share(NamedTuple):
-    """In how many universes a claim holds.
+class Setups(NamedTuple):
+    """A claim in all setups."""
 
-    Attributes:
-        holds, of: so many of so many.
-        strongest: the row of `evidence.effects` for the factor that moves its number most.
-    """
-
-    holds: int
-    of: int
-    strongest: "pd.Series"
+    across: Across
+    model: Hierarchy
 
     @property
-    def interval(self) -> tuple[float, float]:
-        """Of the share among all universes that could have been drawn (Wilson)."""
-        from scipy.stats import binomtest  # half a second, which only judging needs
+    def mean(self) -> Estimate:
+        """Over the setups."""
+        return self.across.back(self.model.mean)
 
-        found = binomtest(self.holds, self.of).proportion_ci(LEVEL, "wilson")
-        return float(found.low), float(found.high)
+    def verdict(self, reference: Estimate) -> Verdict:
+        """Of the mean over the setups, unless the reference study says the opposite."""
+        return self.across.comparison.over_all(self.mean, reference)
 
     @property
-    def said(self) -> dict:
-        """As the contract of claims.json has it."""
-        its = self.strongest
-        return {
-            "holds": self.holds,
-            "of": self.of,
-            "interval": [_rounded(bound) for bound in self.interval],
+    def holds(self) -> tuple[int, float] | None:
+        """In how many setups it holds, and in how many luck alone would let it hold by the mean.
+
+        None where luck is not small beside the distance of the mean from the limit.
+        """
+        from scipy.special import ndtr
+
+        sign = 1 if self.across.comparison.below else -1
+        margins = sign * (self.across.limit() - self.model.numbers)
+        distance = sign * (self.across.limit() - self.model.mean.mean)
+        luck = self.model.luck_of_numbers
+        if abs(distance) <= CLEAR * luck.max():
+            return None
+        with np.errstate(divide="ignore"):
+            return int((margins > 0).sum()), float(ndtr(distance / luck).sum())
+
+    def said(self, strongest: "pd.Series") -> dict:
+        """As the contract of claims.json has it.
+
+        Args:
+            strongest: the row of `evidence.effects` for the choice that moves the number most.
+        """
+        found = {
+            "status": "measured",
+            "setups": len(self.model.numbers),
+            "mean": rounded(self.mean.mean),
+            "mean_interval": [rounded(bound) for bound in self.mean[1:]],
+        }
+        for name in ("heterogeneity", "luck"):
+            estimate = getattr(self.model, name)
+            found[name] = rounded(estimate.mean)
+            found[f"{name}_interval"] = [rounded(bound) for bound in estimate[1:]]
+        another = self.across.back(self.model.another)
+        found["another_setup"] = [rounded(bound) for bound in another[1:]]
+        if (counted := self.holds) is not None:
+            found["holds"], found["holds_by_luck_alone"] = counted[0], rounded(counted[1])
+        return found | {
             "depends_on": {
-                "factor": its["factor"],
-                "from": str(its["least"]),
-                "to": str(its["largest"]),
-                "times": _rounded(its["effect"]),
-                "interval": [_rounded(its["low"]), _rounded(its["high"])],
-                "chance": _rounded(its["chance"]),
+                "factor": strongest["factor"],
+                "from": str(strongest["least"]),
+                "to": str(strongest["largest"]),
+                "effect": rounded(strongest["effect"]),
+                "interval": [rounded(strongest["low"]), rounded(strongest["high"])],
+                "chance": rounded(strongest["chance"]),
             },
         }
 
 
-def _rounded(value: float) -> float:
+CANNOT_VARY = {"status": "cannot vary"}  # no choice of the project reaches it
+NOT_MEASURED = {"status": "not measured"}  # a choice might, and nobody looked
+
+
+def rounded(value: float) -> float:
+    """With as many digits as are worth showing."""
     return float(f"{value:.4g}")
-
-
-def over_all(home: bool | None, share: Share | None) -> bool | None:
-    """Whether a claim holds, by RULE: None where the data do not say."""
-    if share is None:
-        return home
-    low, high = share.interval
-    if home and low > MAJORITY:
-        return True
-    return False if not home and high < MAJORITY else None

@@ -1,17 +1,23 @@
 """What a claim is: one home of all that is said of it, and how it is judged."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from recalib.study.evidence.claims.across import Across, Share, over_all
+from recalib.study.evidence.claims.across import (
+    CANNOT_VARY,
+    NOT_MEASURED,
+    Across,
+    Setups,
+    rounded,
+)
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.verdicts import Verdict
 from recalib.study.statistics import Estimate
 
-SUPPORTED, NOT_SUPPORTED, UNDECIDED = "supported", "not supported", "undecided"
-WORDS = {0.1: "tenth", 0.25: "quarter", 2.0: "twice", 3.0: "three"}
+WORDS = {0.1: "tenth", 0.25: "quarter"}
 
 
 class Limit(float):
@@ -28,79 +34,38 @@ class Limit(float):
         return super().__format__(how or "g")
 
 
-def below(estimate: Estimate, limit: float) -> bool | None:
-    """Whether the whole interval is below the limit; None where the limit is inside of it."""
-    if estimate.high < limit:
-        return True
-    return False if estimate.low > limit else None
-
-
-def above(estimate: Estimate, limit: float) -> bool | None:
-    """Whether the whole interval is above the limit; None where the limit is inside of it."""
-    if estimate.low > limit:
-        return True
-    return False if estimate.high < limit else None
-
-
-def every(judged: Iterable[bool | None]) -> bool | None:
-    """Whether all hold: not where one does not, and nobody knows where one is undecided."""
-    judged = list(judged)
-    if False in judged:
-        return False
-    return None if None in judged else True
-
-
-def somewhere(judged: Iterable[bool | None]) -> bool | None:
-    """Whether it holds somewhere, and nowhere does the reverse; the reverse is judged alike."""
-    judged = set(judged) - {None}
-    return judged.pop() if len(judged) == 1 else None
-
-
-def verdict(holds: bool | None) -> str:
-    """In a word."""
-    return {True: SUPPORTED, False: NOT_SUPPORTED, None: UNDECIDED}[holds]
-
-
 @dataclass
 class Finding:
-    """What was measured.
+    """What was measured in the study itself.
 
     Attributes:
-        holds: whether the criterion does; None where what was measured cannot tell. By system,
-            where a claim is about several.
-        measured: numbers by label.
-        interval: of those that have one.
+        estimates: numbers with their intervals, by label.
+        verdict: of what is no matter of `Across`; None where the setups judge.
+        numbers: others, by label.
         note: what else there is to say.
     """
 
-    holds: bool | dict[str, bool | None] | None
-    measured: dict[str, float]
-    interval: dict[str, tuple[float, float]] = field(default_factory=dict)
+    estimates: Mapping[str, Estimate] = field(default_factory=dict)
+    verdict: Verdict | None = None
+    numbers: Mapping[str, float] = field(default_factory=dict)
     note: str = ""
 
-    @classmethod
-    def of(
-        cls,
-        holds: bool | dict[str, bool | None] | None,
-        estimates: Mapping[str, Estimate],
-        note: str = "",
-        **others: float,
-    ) -> "Finding":
-        """A finding of estimates, and of numbers without an interval."""
-        means = {label: estimate.mean for label, estimate in estimates.items()}
-        intervals = {label: (each.low, each.high) for label, each in estimates.items()}
-        return cls(holds, means | others, intervals, note)
+    def said(self) -> dict:
+        """As the contract of claims.json has it: a bound is marked, and its number is the bound.
 
-    @property
-    def systems(self) -> dict[str, bool | None]:
-        """Whether the criterion holds, by system; that of a claim about a single one has no name.
-
-        Undecided where a number is missing: a comparison with NaN is false, and says nothing.
+        An interval that is not known, as that of a single search, is left out.
         """
-        numbers = [*self.measured.values(), *sum(self.interval.values(), start=())]
-        known = not np.isnan(numbers).any()
-        by_system = self.holds if isinstance(self.holds, dict) else {"": self.holds}
-        return {system: holds if known else None for system, holds in by_system.items()}
+        measured = {label: each.mean for label, each in self.estimates.items()} | self.numbers
+        known = {
+            label: [each.low, each.high]
+            for label, each in self.estimates.items()
+            if not np.isnan(each).any()
+        }
+        return {
+            "measured": {label: rounded(value) for label, value in measured.items()},
+            "interval": {label: list(map(rounded, bounds)) for label, bounds in known.items()},
+            "note": self.note,
+        }
 
 
 @dataclass(frozen=True)
@@ -110,38 +75,58 @@ class Claim:
     Attributes:
         id: its name.
         section: of the paper.
-        statement: what the paper says.
-        short: the same in a line, with a place for the first of the numbers measured.
-        published: its number, if any.
-        limits: the numbers that decide; figures draw them, too.
+        quotation: the paper's own words.
+        statement: what they say, in a sentence.
+        short: the number in words, with a place for it.
+        published: the paper's number, if any.
         criterion: what would support the claim.
-        reason: why just that would; it may name limits alone.
+        reason: why just that would.
+        limits: the numbers that decide; figures draw them, too.
+        across: how it is measured in a setup, by system: first the one on which the paper makes it.
         needs: asks for what `measure` reads.
-        measure: from evidence and limits to what was found.
-        across: how it is measured in a universe, by system; empty where nothing can vary it.
+        measure: from evidence and limits to what was found in the study itself. Estimates by the
+            names of the systems are compared as the setups are.
         figures: that show it.
     """
 
     id: str
     section: str
+    quotation: str
     statement: str
     short: str
-    published: str
-    limits: Mapping[str, Limit]
     criterion: str
     reason: str
-    needs: Callable[[Request], None]
-    measure: Callable[[Evidence, Mapping[str, Limit]], Finding]
+    published: str = "no number"
+    limits: Mapping[str, Limit] = field(default_factory=dict)
     across: Mapping[str, Across] = field(default_factory=dict)
+    needs: Callable[[Request], None] = lambda ask: None
+    measure: Callable[[Evidence, Mapping[str, Limit]], Finding] | None = None
     figures: tuple[str, ...] = ()
+
+    def ask(self, request: Request) -> None:
+        """Ask for all that judging it reads."""
+        self.needs(request)
+        if not self.across:
+            return
+        request.fact("seed")
+        if self.measure is None:
+            request.reference()
+        request.outcomes()
 
     def judge(self, evidence: Evidence) -> dict:
         """What was measured and the verdict, as the contract of claims.json has them."""
-        finding = self.measure(evidence, self.limits)
-        shares = self.shares(evidence)
-        judged = {
-            system: over_all(home, shares.get(system)) for system, home in finding.systems.items()
+        finding = self.measure(evidence, self.limits) if self.measure else self._from(evidence)
+        setups = self.setups(evidence)
+        systems = {
+            system: {
+                "verdict": str(self._verdict(system, finding, setups)),
+                "universes": self._said(system, setups, evidence),
+            }
+            for system in self.across
         }
+        judged = next(iter(systems.values()), {"verdict": "", "universes": CANNOT_VARY})
+        if finding.verdict is not None:
+            judged = judged | {"verdict": str(finding.verdict)}
 
         def said(text: str) -> str:
             return text.format(**self.limits, **evidence.facts)
@@ -149,49 +134,39 @@ class Claim:
         return {
             "id": self.id,
             "section": self.section,
+            "quotation": self.quotation,
             "statement": said(self.statement),
             "published": said(self.published),
-            "measured": {label: _number(value) for label, value in finding.measured.items()},
-            "interval": {
-                label: [_number(low), _number(high)]
-                for label, (low, high) in finding.interval.items()
-                if not np.isnan([low, high]).any()  # that of a single search
-            },
             "criterion": said(self.criterion),
-            "verdict": verdict(somewhere(judged.values())),
-            "note": finding.note,
-            "universes": next((share.said for share in shares.values()), None),
-            "systems": {
-                system: {
-                    "verdict": verdict(each),
-                    "universes": shares[system].said if shares else None,
-                }
-                for system, each in judged.items()
-                if system
-            },
+            **finding.said(),
+            **judged,
+            "systems": systems,
         }
 
-    def ask(self, request: Request) -> None:
-        """Ask for all that judging it reads."""
-        self.needs(request)
-        if self.across and request.outcomes():
-            request.fact("seed")
-
-    def shares(self, evidence: Evidence) -> dict[str, Share]:
-        """In how many universes it holds, by system; empty for a study without universes."""
+    def setups(self, evidence: Evidence) -> dict[str, Setups]:
+        """The claim in all alternative setups, by system; empty where they are not measured."""
         outcomes = evidence.outcomes() if self.across else None
         if outcomes is None:
             return {}
+        design = evidence.design()
+        return {system: across.over(outcomes, design) for system, across in self.across.items()}
+
+    def _from(self, evidence: Evidence) -> Finding:
+        reference = evidence.reference()
+        return Finding({name: its.in_reference(reference) for name, its in self.across.items()})
+
+    def _verdict(self, system: str, finding: Finding, setups: Mapping[str, Setups]) -> Verdict:
+        """Of a system: by the setups, or by the study itself where they are not measured."""
+        estimate = finding.estimates.get(system, Estimate(np.nan, np.nan, np.nan))
+        if system in setups:
+            return setups[system].verdict(estimate)
+        return self.across[system].comparison.verdict(estimate)
+
+    def _said(self, system: str, setups: Mapping[str, Setups], evidence: Evidence) -> dict:
+        if system not in setups:
+            return NOT_MEASURED
         from recalib.study.evidence.effects import effects
 
-        found = {}
-        for system, across in self.across.items():
-            holds = across.holds(outcomes, self.limits[across.limit])
-            luck = evidence.rng("effects", self.id, system)
-            strongest = effects(outcomes[across.column], evidence.design(), luck).iloc[0]
-            found[system] = Share(int(holds.sum()), len(holds), strongest)
-        return found
-
-
-def _number(value: float) -> float | None:
-    return float(f"{value:.4g}") if np.isfinite(value) else None
+        its = setups[system]
+        luck = evidence.rng("effects", self.id, system)
+        return its.said(effects(its.model.numbers, evidence.design(), luck).iloc[0])

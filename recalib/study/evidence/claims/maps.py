@@ -1,0 +1,98 @@
+"""Section 4: two maps in place of one, and what each of them wants."""
+
+from recalib.study.evidence.claims.across import Across
+from recalib.study.evidence.claims.claim import Claim
+from recalib.study.evidence.verdicts import CORRELATION
+
+RATIO_OF = "error with two maps / with one"
+EQUIVALENT = "An effect below a tenth would not be worth a change of the algorithm."
+
+SEPARATE = Claim(
+    id="separate-maps",
+    section="4",
+    quotation="This modification leads to a significant increase in learning speed.",
+    statement="Two maps, one for position and one for orientation commands, learn faster than one.",
+    short="With two maps the error is {} times that with one.",
+    criterion="Ritter's error after 1,000 iterations with two maps over that with one is below 1."
+    " Both searches go on from the same winner with as many trials.",
+    reason="The paper makes it within Ritter's framework. After 200 iterations most of Ritter's"
+    " error remains, and nothing can be seen. One map is two with equal widths, so a search from"
+    " nothing would measure itself.",
+    across={
+        "Ritter's, 1,000 iterations": Across("maps_ritter_late", RATIO_OF),
+        "Ritter's, 200 iterations": Across("maps_ritter", RATIO_OF),
+        "improved system, 200 iterations": Across("maps_improved", RATIO_OF),
+    },
+    figures=("figure4", "figure5"),
+)
+
+ORDER = (
+    "Rank correlation over all trials of the first round, each of which chooses all widths by"
+    " itself: what lowers the error needs no winner to be seen."
+)
+WIDTHS = {
+    kind: Claim(
+        id=f"widths-{kind}",
+        section="4",
+        quotation=words,
+        statement=f"The {kind} map wants {wanted}.",
+        short=f"The {kind} error correlates by {{}} with how far the widths are from that order.",
+        criterion=f"The rank correlation of the {kind} error with log({over}) is above 0.",
+        reason=ORDER,
+        across={"improved system": Across(f"order_{kind}", "rank correlation", CORRELATION, False)},
+        figures=("figure6",),
+    )
+    for kind, words, wanted, over in (
+        (
+            "position",
+            "one with a narrow g_k and a wide g_kl to compute only position commands",
+            "a narrow g_k and a wide g_kl",
+            "g_k / g_kl",
+        ),
+        (
+            "orientation",
+            "another with a wide g_k and a narrow g_kl to compute only orientation commands",
+            "a wide g_k and a narrow g_kl",
+            "g_kl / g_k",
+        ),
+    )
+}
+
+LARGE = Claim(
+    id="large-neighbourhoods",
+    section="4",
+    quotation="too large neighborhoods in the position coordinates space are counterproductive to"
+    " learn position commands",
+    statement="Too large neighbourhoods of positions hurt position commands.",
+    short="As tuned, the position error is {} times that with g_k as wide as the workspace.",
+    criterion="The position error as tuned is below that with the position map's g_k kept as wide as"
+    " the workspace, and all else tuned anew.",
+    reason="No neighbourhood is larger than the workspace. " + EQUIVALENT,
+    across={"improved system": Across("narrow", "position error as tuned / with a wide g_k")},
+)
+
+CELLS = {
+    kind: Claim(
+        id=f"cells-{kind}",
+        section="4",
+        quotation=words,
+        statement=f"The {kind} map needs fewer cells in the {spared}.",
+        short=f"With fewer cells in the {spared} the {kind} error is {{}} times that with fewer in"
+        f" the {other}.",
+        criterion=f"The {kind} error with 2 x 2 x 2 cells in the {spared} over that with 2 x 2 x 2 in"
+        f" the {other} is below 1, both tuned.",
+        reason="What needs fewer cells loses less by having fewer. " + EQUIVALENT,
+        across={
+            "improved system": Across(f"cells_{kind}", f"error, fewer in the {spared} / in the {other}")
+        },
+    )
+    for kind, spared, other, words in (
+        ("position", "supernet", "subnets", "the position network needs less units in the supernet"),
+        (
+            "orientation",
+            "subnets",
+            "supernet",
+            "the orientation network saves neurons at the subnet level",
+        ),
+    )
+}
