@@ -137,7 +137,7 @@ class TrueMapping(Frozen):
 
 
 class Visits(Frozen):
-    """The Monte Carlo of the expected learning."""
+    """The Monte Carlo of the expected learning and of the quantisation error: no robot."""
 
     seed: int
 

@@ -22,7 +22,8 @@ rule study_mapping:
 
 rule study_visits:
     output:
-        LAYOUT.mapping("visits"),
+        visits=LAYOUT.mapping("visits"),
+        quantisation=LAYOUT.mapping("quantisation"),
     params:
         code=code("study_visits.py"),
         job=lambda w: as_text(plan(w).visits()),
@@ -30,7 +31,7 @@ rule study_visits:
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
-        "Measure the expected learning of section 6"
+        "Measure the quantisation of section 3 and the expected learning of section 6"
     script:
         "../scripts/study_visits.py"
 

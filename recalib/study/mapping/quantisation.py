@@ -1,0 +1,117 @@
+"""Section 3: how far poses are from the nearest cell, by how the cells were placed.
+
+"We can directly place the centers of the cells in a regular grid covering it, in order to minimize
+the quantization error. These centers do not need to move".
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from recalib.learners.nets import CENTRES, nearest, regular_grid
+from recalib.learners.schedules import exponential
+from recalib.randomness import generator
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+SHAPE = (3, 3, 3)  # of a supernet and of a subnet (section 7)
+ITERATIONS = (200, 10_000)  # of the Kohonen rule: the paper's two trainings
+SEEDS = 10
+PLACING, EVALUATING = 10_000, 20_000  # poses for k-means, and poses for each measurement
+STARTS = 5  # of k-means, with each seed
+
+# From where to where the Kohonen rule falls: half the map is moved at first, one cell alone at the
+# end. Widths are in cells of the map.
+WIDTHS, RATES = (1.5, 0.2), (0.5, 0.02)
+
+
+def quantisation_error(poses: np.ndarray, centres: np.ndarray) -> float:
+    """Root mean square distance of poses (n, d) to the nearest of the centres (cells, d)."""
+    offsets = poses - centres[nearest(poses, centres)]
+    return float(np.sqrt(np.square(offsets).sum(axis=1).mean()))
+
+
+def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.ndarray:
+    """Centres (run, cells, d) after the first step of section 2, the classical Kohonen rule.
+
+    In iteration t of T, with the winner k, the nearest to the pose u, every cell i moves by
+
+        w_i += c(t) exp(-|m_i - m_k|^2 / (2 s(t)^2)) (u - w_i),
+
+    where m are the places of cells in the map; c and s fall exponentially over T.
+
+    Args:
+        starts: (run, cells, d) centres before.
+        poses: (run, T, d).
+        shape: of the map, cells along each of its axes; the last axis is the fastest.
+    """
+    places = np.indices(shape).reshape(len(shape), -1).T
+    near = -0.5 * np.square(places[:, None] - places).sum(axis=-1)
+    centres, iterations = starts.copy(), poses.shape[1]
+    for t in range(iterations):
+        width, rate = (exponential(*ends, t / iterations) for ends in (WIDTHS, RATES))
+        offsets = poses[:, [t]] - centres
+        winner = np.square(offsets).sum(axis=-1).argmin(axis=1)
+        centres += rate * np.exp(near[winner] / width**2)[..., None] * offsets
+    return centres
+
+
+def k_means(poses: np.ndarray, cells: int, random: np.random.Generator) -> np.ndarray:
+    """The best centres (cells, d) for poses (n, d) that k-means finds from `STARTS` starts."""
+    from sklearn.cluster import KMeans  # half a second: no start waits for it
+
+    state = int(random.integers(2**31))
+    return KMeans(cells, n_init=STARTS, random_state=state).fit(poses).cluster_centers_
+
+
+def quantisation(
+    seed: int,
+    shape: Sequence[int] = SHAPE,
+    iterations: Sequence[int] = ITERATIONS,
+    seeds: int = SEEDS,
+) -> "pd.DataFrame":
+    """The quantisation error of each placement of cells in [-1, 1]^d, for uniform poses.
+
+    Args:
+        seed: of the study.
+        shape: cells along each axis of the grid, and of the Kohonen map.
+        iterations: of the Kohonen rule, a placement each.
+        seeds: repetitions, each with poses of its own.
+
+    Returns a row for each placement and seed, with columns placement, seed and distance, in
+    workspace coordinates. Placements: the grids "boxes" and "faces" (`CENTRES`); "kohonen_T", from
+    uniform random starts; "kmeans", a bound for the best there is. Those of a seed are measured on
+    the same poses, and placed by others.
+    """
+    import pandas as pd  # a quarter of a second: no start waits for it
+
+    cells, dimensions = int(np.prod(shape)), len(shape)
+    randoms = {
+        name: [generator(seed, "quantisation", name, number) for number in range(seeds)]
+        for name in ("evaluating", "kmeans", *(f"kohonen_{count}" for count in iterations))
+    }
+
+    def drawn(name: str, count: int) -> np.ndarray:
+        return np.stack([each.uniform(-1, 1, (count, dimensions)) for each in randoms[name]])
+
+    placed = {name: [regular_grid(shape, name)] * seeds for name in CENTRES}
+    for count in iterations:
+        name = f"kohonen_{count}"
+        placed[name] = kohonen(drawn(name, cells), drawn(name, count), shape)
+    placed["kmeans"] = [
+        k_means(poses, cells, random)
+        for poses, random in zip(drawn("kmeans", PLACING), randoms["kmeans"], strict=True)
+    ]
+    evaluating = drawn("evaluating", EVALUATING)
+    rows = [
+        {
+            "placement": name,
+            "seed": number,
+            "distance": quantisation_error(evaluating[number], centres),
+        }
+        for name, its in placed.items()
+        for number, centres in enumerate(its)
+    ]
+    return pd.DataFrame(rows)
