@@ -46,7 +46,7 @@ class RadialLearner:
 
     def __init__(self, runs: int, rules: Rules, schedule: Schedule, field: float = SPACING):
         self.rules, self.schedule = rules, schedule.over(runs)
-        self.nets = Nets(rules.supernet, rules.subnet, rules.centres)
+        self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
         self.theta = {
             name: Cells(runs, self.nets.centres[..., outputs], rules.theta_increments)
             for name, outputs in rules.maps.items()

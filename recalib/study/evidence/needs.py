@@ -56,6 +56,7 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "ladder": lambda study, trainings: {
         each: list(map(list, trainings.ladder(each).items())) for each in study.experiments.ladder
     },
+    "rough_trials": lambda study, _: study.universes.rough_trials,
     "coupling_poses": lambda study, _: study.mapping.poses,
     "balls": lambda study, _: study.mapping.balls,
     "points": lambda study, _: study.mapping.points,

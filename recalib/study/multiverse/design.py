@@ -4,6 +4,7 @@ It is made before the first universe is run, and kept in a file that people can 
 """
 
 import csv
+import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
@@ -12,7 +13,6 @@ import yaml
 
 from recalib.study.configuration.damages import Entry, describe
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.universes import Factors
 
 LISTS = "moved", "damage"  # columns of entries
 LINE = 1000  # characters: no list is longer
@@ -54,8 +54,8 @@ class Designed(Frozen):
 
     @classmethod
     def from_row(cls, row: Mapping[str, str]) -> Self:
-        """What a row of the file says."""
-        levels = {name: row[name] for name in Factors.model_fields}
+        """What a row of the file says. A file may have other factors than a new one would."""
+        levels = {name: text for name, text in row.items() if name not in cls.model_fields}
         rest = {name: text for name, text in row.items() if name not in levels}
         rest["home_deg"] = rest["home_deg"].split()
         rest |= {name: yaml.safe_load(rest[name]) for name in LISTS}
@@ -75,6 +75,11 @@ def write_design(path: str | Path, universes: Iterable[Designed]) -> None:
         writer = csv.DictWriter(file, rows[0], lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def digest(path: str | Path) -> str:
+    """Of a file, so that what is measured can say which design it follows."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
 
 
 def read_design(path: str | Path) -> list[Designed]:

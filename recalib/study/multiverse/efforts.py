@@ -53,9 +53,7 @@ def rough(trials: "pd.DataFrame", size: int) -> "pd.DataFrame":
     return first.loc[first.groupby(groups)["score"].idxmin()]
 
 
-def _trained(
-    job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame"
-) -> "pd.DataFrame":
+def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -> "pd.DataFrame":
     """Winners (a row each) trained with `job.seeds` seeds each; all see the same poses by seed."""
     import pandas as pd
 

@@ -8,13 +8,10 @@ from recalib.study.multiverse.universe import Universe
 
 
 def rules_in(universe: Universe, learner: str) -> Rules:
-    """The rules of one of its learners.
-
-    The rate of the improved system is linear (section 7), and so is any with equal visits.
-    """
+    """The rules of one of its learners; how its rate falls goes with how its widths fall."""
     rules, conventions = rules_of(universe.learners[learner]), universe.conventions
     return replace(
         rules,
         **conventions.model_dump(),
-        rate="linear" if rules.equal_visits else universe.ritters_rate,
+        rate=universe.rate_of_visits if rules.equal_visits else universe.ritters_rate,
     )

@@ -99,7 +99,8 @@ SCHEDULE = claim(
     " fact.",
     statement="A schedule with equal visits at every width is better than Ritter's.",
     short="Equal visits at every width make the error {} times that of Ritter's schedule.",
-    reason=ON_TWO_MAPS.format(6) + " The input space of f has n = 6 dimensions, that of each net n ="
+    reason=ON_TWO_MAPS.format(6)
+    + " The input space of f has n = 6 dimensions, that of each net n ="
     " 3; the rate may fall by two laws: both are choices of the setups, and told apart in the"
     " reference study.",
     figures=("figure4", "figure8"),

@@ -1,6 +1,7 @@
 """Section 8: nothing but the controller's commands and poses."""
 
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.verdicts import Verdict
 
 
 def needs(ask):
@@ -10,18 +11,20 @@ def needs(ask):
 def measure(evidence, limits):
     table = evidence.mapping("replay")
     difference = float(table["difference"].max())
-    note = f"{len(table)} arrays compared."
     return Finding(
-        difference <= limits["difference"], {"largest difference": difference}, note=note
+        verdict=Verdict.SUPPORTED if difference <= limits["difference"] else Verdict.CONTRADICTED,
+        numbers={"largest difference": difference},
+        note=f"{len(table)} arrays compared.",
     )
 
 
 CLAIM = Claim(
     id="controller-kept",
     section="8",
+    quotation="the system can work without substituting the original controller in commercial"
+    " robots",
     statement="The method works on top of the controller, which is not substituted.",
-    short="It works on top of a controller that nobody changes: difference {}",
-    published="no number",
+    short="Learning from a table of commands and poses differs by {}.",
     limits={"difference": Limit(0.0)},
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"
     " learns bit for bit the same.",

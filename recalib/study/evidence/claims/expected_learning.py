@@ -1,6 +1,7 @@
 """Section 6: the expected learning (10)."""
 
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.verdicts import Verdict
 
 SMALL = 0.3  # widths up to this one see one face of the workspace only
 
@@ -19,15 +20,21 @@ def measure(evidence, limits):
         f"{len(away)} combinations of width and distance; on a face of the workspace,"
         f" {border:.2f} of the formula."
     )
-    return Finding(bool(agrees.all()), {"largest deviation": deviation.max()}, note=note)
+    return Finding(
+        verdict=Verdict.SUPPORTED if agrees.all() else Verdict.CONTRADICTED,
+        numbers={"largest deviation": deviation.max()},
+        note=note,
+    )
 
 
 CLAIM = Claim(
     id="expected-learning",
     section="6",
+    quotation="The second equality results from assuming Gaussian neighborhoods and a uniform p(w),"
+    " and it is valid for w_r's not too close to the border",
     statement="The expected learning of a cell in one iteration is sigma^n (2 pi)^(n/2) / volume,"
     " not too close to the border.",
-    short="A cell's expected learning is sigma^n (2 pi)^(n/2) / volume: off by {}",
+    short="Away from the border, the expected learning of a cell differs from (10) by at most {}.",
     published="equation (10)",
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
     criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"

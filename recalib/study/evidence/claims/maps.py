@@ -83,11 +83,18 @@ CELLS = {
         f" the {other} is below 1, both tuned.",
         reason="What needs fewer cells loses less by having fewer. " + EQUIVALENT,
         across={
-            "improved system": Across(f"cells_{kind}", f"error, fewer in the {spared} / in the {other}")
+            "improved system": Across(
+                f"cells_{kind}", f"error, fewer in the {spared} / in the {other}"
+            )
         },
     )
     for kind, spared, other, words in (
-        ("position", "supernet", "subnets", "the position network needs less units in the supernet"),
+        (
+            "position",
+            "supernet",
+            "subnets",
+            "the position network needs less units in the supernet",
+        ),
         (
             "orientation",
             "subnets",

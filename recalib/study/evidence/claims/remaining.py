@@ -5,9 +5,7 @@ from recalib.study.measured import KINDS
 from recalib.study.statistics import Estimate, geometric
 
 
-def remaining(
-    evidence: Evidence, learner: str, kind: int, scenario: str | None = None
-) -> Estimate:
+def remaining(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
     """The share of the position error (kind 0) or of the orientation error (1) that remains."""
     first, last = (
         evidence.errors(learner, scenario, moment)[..., kind] for moment in ("first", "last")
