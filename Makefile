@@ -105,12 +105,12 @@ tune: setup ## repeat all searches for widths and rates, and ship what is found
 
 design: setup ## draw the universes anew, and ship them
 	$(SNAKEMAKE) --forcerun design -- results/universes/design.csv
-	mkdir -p workflow/universes
-	cp results/universes/design.csv workflow/universes/
+	mkdir -p workflow/universes/second
+	cp results/universes/design.csv workflow/universes/second/
 
 universes: setup ## measure every universe of the design, and ship what was measured
 	$(SNAKEMAKE) universes
-	cp results/universes/outcomes.csv workflow/universes/
+	cp results/universes/outcomes.csv workflow/universes/second/
 
 ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.interfaces import Commandable, Learner
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import pose_errors
 
 SUMMARIES = {
     "": lambda errors: errors.mean(axis=-1),
@@ -51,17 +51,19 @@ class History:
 
 
 def measure(
-    plant: Commandable, learner: Learner, tests: np.ndarray
+    plant: Commandable, learner: Learner, tests: np.ndarray, error: str = "norm"
 ) -> tuple[np.ndarray, np.ndarray]:
     """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
 
     Measuring is no learning: its moves are not counted.
+
+    Args:
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
     """
     achieved, _ = plant.achieve(learner.command(tests))
-    desired = plant.workspace.to_poses(tests)
-    errors = position_error(achieved, desired), orientation_error(achieved, desired)
+    errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
     return tuple(
-        np.stack([summary(error) for summary in SUMMARIES.values()], axis=-1) for error in errors
+        np.stack([summary(its) for summary in SUMMARIES.values()], axis=-1) for its in errors
     )
 
 
@@ -83,6 +85,7 @@ def train(
     tests: np.ndarray,
     measure_at: Sequence[int],
     progress: Callable[[int, float, float], None] = lambda *_: None,
+    error: str = "norm",
 ) -> History:
     """Train a learner, and measure it now and then.
 
@@ -95,12 +98,13 @@ def train(
             is before the first.
         progress: called after each measurement with the iteration and the mean errors over runs in
             cm and degrees.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
     """
     iterations = desired.shape[1]
     position, orientation, moves, refused = [], [], [], []
     for iteration in range(iterations + 1):
         if iteration in measure_at:
-            errors = measure(plant, learner, tests)
+            errors = measure(plant, learner, tests, error)
             position.append(errors[0])
             orientation.append(errors[1])
             moves.append(plant.moves)

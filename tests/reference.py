@@ -9,12 +9,15 @@ from scipy.stats import chi2
 
 
 class SlowMap:
-    """One hierarchical map that computes the coordinates `rows` of the command."""
+    """One hierarchical map that computes the coordinates `rows` of the command.
 
-    def __init__(self, w_k, w_kl, rows):
+    `start`: theta of each cell (k, l) instead of its centre, all six coordinates.
+    """
+
+    def __init__(self, w_k, w_kl, rows, start=None):
         self.w_k, self.w_kl = w_k, w_kl
         self.theta = {
-            (k, l): np.concatenate([w_k[k], w_kl[l]])[rows]
+            (k, l): (np.concatenate([w_k[k], w_kl[l]]) if start is None else start[k, l])[rows]
             for k in range(len(w_k))
             for l in range(len(w_kl))
         }
@@ -31,10 +34,13 @@ class SlowMap:
         )  # (1)
 
 
-def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments, units):
+def cycle(
+    maps, u, execute, rate, widths, theta_increments, jacobian_increments, units, width_units
+):
     """One iteration of every map for the desired pose u; `widths`: of g_k and g_kl for each map.
 
-    Poses are measured in coordinates; (3) and (8) are taken where `units` of them are one.
+    Poses are measured in coordinates; (3) and (8) are taken where `units` of them are one, widths
+    are given where `width_units` are.
     """
     winners = [(m.winner(u), m.theta[m.winner(u)].copy(), m.A[m.winner(u)].copy()) for m in maps]
     command = np.concatenate([m.output(u) for m in maps])
@@ -51,8 +57,10 @@ def cycle(maps, u, execute, rate, widths, theta_increments, jacobian_increments,
         theta_star = d_theta if theta_increments else theta + d_theta  # (6) or (2)
         A_star = error if jacobian_increments else A + error  # (8) or (3)
         for i, j in m.theta:
-            g_k = np.exp(-(np.linalg.norm(m.w_k[i] - m.w_k[cell[0]]) ** 2) / (2 * width_k**2))
-            g_kl = np.exp(-(np.linalg.norm(m.w_kl[j] - m.w_kl[cell[1]]) ** 2) / (2 * width_kl**2))
+            far_k = (m.w_k[i] - m.w_k[cell[0]]) * width_units[:3]
+            far_kl = (m.w_kl[j] - m.w_kl[cell[1]]) * width_units[3:]
+            g_k = np.exp(-(np.linalg.norm(far_k) ** 2) / (2 * width_k**2))
+            g_kl = np.exp(-(np.linalg.norm(far_kl) ** 2) / (2 * width_kl**2))
             c = rate * g_k * g_kl
             m.theta[i, j] = m.theta[i, j] + c * (
                 theta_star if theta_increments else theta_star - m.theta[i, j]

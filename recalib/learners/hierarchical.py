@@ -34,7 +34,7 @@ class HierarchicalLearner:
 
     def __init__(self, runs: int, rules: Rules, schedule: Schedule):
         self.rules, self.schedule = rules, schedule.over(runs)
-        self.nets = Nets(rules.supernet, rules.subnet, rules.centres)
+        self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
         self.maps = {
             name: HierarchicalMap(runs, self.nets, rules, outputs)
             for name, outputs in rules.maps.items()

@@ -14,7 +14,9 @@ from recalib.learners.rules import Rules
 class HierarchicalMap:
     """Maps, one for each run, from desired poses to (part of) the pose commands.
 
-    They start as the identity, which is right for the intact robot (section 3).
+    They start as the identity, which is right for the intact robot (section 3). Values of theta may
+    start at random, as Ritter's do: new values replace them. Increments of theta never replace
+    their start, nor does anything where the Jacobian is random or zero: both start as the identity.
 
     Args:
         runs: how many independent maps.
@@ -29,6 +31,9 @@ class HierarchicalMap:
 
     def __init__(self, runs: int, nets: Nets, rules: Rules, outputs: slice):
         self.outputs = outputs
-        self.theta = Cells(runs, nets.centres[..., outputs], rules.theta_increments)
+        start = nets.centres
+        if rules.initial is not None and not rules.theta_increments:
+            start = np.random.default_rng(rules.initial).uniform(-1, 1, start.shape)
+        self.theta = Cells(runs, start[..., outputs], rules.theta_increments)
         identity = np.broadcast_to(np.eye(6), (*nets.centres.shape, 6))
         self.jacobian = Cells(runs, identity[..., outputs, :], rules.jacobian_increments)

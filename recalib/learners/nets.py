@@ -42,18 +42,26 @@ class Nets:
     Args:
         supernet, subnet: cells along each position and each orientation coordinate.
         centres: where, of `CENTRES`.
+        units: six factors that turn workspace coordinates into the units of widths.
 
     Attributes:
         w_k (K, 3), w_kl (L, 3): centres of the supernet's cells, and of the cells of each subnet.
         centres: (K, L, 6) both, as poses.
     """
 
-    def __init__(self, supernet: Sequence[int], subnet: Sequence[int], centres: str = "boxes"):
+    def __init__(
+        self,
+        supernet: Sequence[int],
+        subnet: Sequence[int],
+        centres: str = "boxes",
+        units: Sequence[float] = (1.0,) * 6,
+    ):
         self.w_k, self.w_kl = regular_grid(supernet, centres), regular_grid(subnet, centres)
         k, l = np.indices((len(self.w_k), len(self.w_kl)))
         self.centres = np.concatenate([self.w_k[k], self.w_kl[l]], axis=-1)
         self._near_k, self._near_kl = (
-            -0.5 * ((w[:, None] - w[None]) ** 2).sum(axis=-1) for w in (self.w_k, self.w_kl)
+            -0.5 * (((w[:, None] - w[None]) * units[own]) ** 2).sum(axis=-1)
+            for w, own in ((self.w_k, POSITION), (self.w_kl, ORIENTATION))
         )
 
     def winner(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -68,7 +76,7 @@ class Nets:
     ) -> tuple[np.ndarray, np.ndarray]:
         """g_k (run, K) and g_kl (run, L) about the winning cells (k, l), each (run,).
 
-        Gaussians of these widths, each (run,).
+        Gaussians of these widths, each (run,), in their units.
         """
         return (
             np.exp(self._near_k[k] / np.square(width_k)[:, None]),

@@ -35,10 +35,15 @@ class Rules:
         metric: six factors that turn workspace coordinates into the units in which the norm in (3)
             and (8) is taken; by their ratios alone. All 1: half-ranges of the workspace.
             The half-ranges in m and rad: metres with radians.
+        width_units: six factors that turn workspace coordinates into the units of widths, in which
+            distances between centres are measured. All 1: half-ranges of the workspace.
         dimensions: n in (10), for equal visits: 3, those of each net, or 6, those of both.
         spread: what equal visits are spread over evenly: "widths", or their "logarithms".
         rate: how the learning rate falls, "linear" (section 7) or "exponential" (Ritter); None:
             linear with equal visits, exponential without.
+        initial: None: theta starts as the identity; a seed: where values of theta are propagated,
+            each cell's is drawn uniformly from the workspace, once for all runs. Increments of
+            theta start as the identity anyway: they never forget their start.
 
     Raises UnknownName and InvalidSetting.
     """
@@ -54,6 +59,8 @@ class Rules:
     dimensions: int = DIMENSIONS
     spread: str = "widths"
     rate: str | None = None
+    width_units: tuple[float, ...] = (1.0,) * 6
+    initial: int | None = None
 
     def __post_init__(self):
         for kind, name, valid in (
@@ -65,8 +72,10 @@ class Rules:
                 raise UnknownName(kind, name, valid)
         if self.dimensions not in (3, 6):
             raise InvalidSetting("dimensions", self.dimensions, "3 or 6")
-        if np.shape(self.metric) != (6,) or not np.all(np.greater(self.metric, 0)):
-            raise InvalidSetting("metric", self.metric, "six numbers above 0")
+        for key in ("metric", "width_units"):
+            factors = getattr(self, key)
+            if np.shape(factors) != (6,) or not np.all(np.greater(factors, 0)):
+                raise InvalidSetting(key, factors, "six numbers above 0")
 
     @property
     def maps(self) -> Mapping[str, slice]:

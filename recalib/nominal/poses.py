@@ -17,6 +17,7 @@ from recalib.compiled import compiled
 from recalib.errors import UnknownName
 
 COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
+ERRORS = "norm", "coordinates"  # of a pose
 POSITION, ORIENTATION = slice(0, 3), slice(3, 6)
 
 
@@ -177,3 +178,25 @@ def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
     between = np.swapaxes(desired[..., :3, :3], -1, -2) @ achieved[..., :3, :3]
     angles = Rotation.from_matrix(between.reshape(-1, 3, 3), assume_valid=True).magnitude()
     return angles.reshape(between.shape[:-2])
+
+
+def pose_errors(
+    workspace: Workspace, achieved: np.ndarray, desired: np.ndarray, error: str = "norm"
+) -> tuple[np.ndarray, np.ndarray]:
+    """Position [m] and orientation errors [rad], each (...), of poses (..., 4, 4).
+
+    Args:
+        error: "norm": Euclidean distance, and angle of the turn; "coordinates": means of the
+            absolute errors of the three coordinates of each.
+
+    Raises UnknownName.
+    """
+    if error not in ERRORS:
+        raise UnknownName("error of a pose", error, ERRORS)
+    if error == "norm":
+        return position_error(achieved, desired), orientation_error(achieved, desired)
+    offsets = workspace.to_coordinates(achieved) - workspace.to_coordinates(desired)
+    offsets = np.abs(offsets) * workspace.half_ranges
+    turns = offsets[..., ORIENTATION]
+    turns = np.minimum(turns, 2 * np.pi - turns)  # the shorter way round
+    return offsets[..., POSITION].mean(axis=-1), turns.mean(axis=-1)

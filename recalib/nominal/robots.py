@@ -70,6 +70,12 @@ def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
     return model.frames[tool_frame(model, tool)].placement.translation
 
 
+def _lengthen(arm: Arm, beyond: float) -> None:
+    """Move the tool's frame outwards along the last joint's axis: its own axes differ by URDF."""
+    end, axis = link_end(arm.model, arm.tool, arm.model.njoints - 1), arm.axes[-1]
+    end += math.copysign(beyond, end @ axis) * axis
+
+
 def load_robot(
     urdf: str | PathLike,
     tool: str,
@@ -79,6 +85,7 @@ def load_robot(
     limits: Mapping[str, tuple[float, float]] | None = None,
     name: str | None = None,
     coordinates: str = "roll_pitch_yaw",
+    beyond: float = 0.0,
 ) -> Robot:
     """The robot that a URDF describes, with a workspace about its home.
 
@@ -91,6 +98,8 @@ def load_robot(
         limits: lowest and highest angle [rad] (or length [m]) by joint, in place of the URDF's.
         name: what people call it; the file's name unless given.
         coordinates: of orientations; see `Workspace`.
+        beyond: m, by which a rigid tool goes on outwards from the tool link, along the last joint's
+            axis.
 
     Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot (see `load_arm`), and
     InvalidSetting (a joint without a home, a home beyond a joint's limits, a workspace without
@@ -98,6 +107,7 @@ def load_robot(
     """
     path, limits = find_urdf(urdf), limits or {}
     arm = load_arm(path, tool)
+    _lengthen(arm, beyond)
     joints = arm.joints
     if len(joints) < 6:
         raise UnsuitableRobot(

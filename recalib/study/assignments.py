@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import pose_errors
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.damages import Entry
@@ -75,12 +75,13 @@ class Ways:
 
 
 def initial_errors(
-    controller: Controller, ways: Ways, coordinates: np.ndarray
+    controller: Controller, ways: Ways, coordinates: np.ndarray, error: str = "norm"
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Mean position [m] and orientation errors [rad] of the uncorrected robot.
 
     Args:
         coordinates: (n, 6) desired poses over which the errors are averaged.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
 
     Yields both (shift,) for each of the shortenings.
     """
@@ -92,7 +93,7 @@ def initial_errors(
     for shortening in ways.short:
         achieved = apply(robot, shortening).arm.forward(believed)
         achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
-        errors = position_error(achieved, desired), orientation_error(achieved, desired)
+        errors = pose_errors(robot.workspace, achieved, desired, error)
         yield errors[0].mean(axis=1), errors[1].mean(axis=1)
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 SHIPPED = "replication"  # the name of the study that writes README, docs and figures/
 RESULTS = "results"
-DESIGN = "workflow/universes/design.csv"  # the factors of each universe
-OUTCOMES = "workflow/universes/outcomes.csv"  # what was measured in each, shipped
+DESIGN = "workflow/universes/second/design.csv"  # the factors of each universe
+OUTCOMES = "workflow/universes/second/outcomes.csv"  # what was measured in each, shipped
 SEARCHED = "workflow/search"  # samples of the search that are shipped
 
 

@@ -33,6 +33,7 @@ def nominal_robot(nominal: jobs.Nominal) -> Robot:
         limits=entry.limits,
         name=nominal.name,
         coordinates=entry.workspace.coordinates,
+        beyond=entry.beyond,
     )
 
 

@@ -35,6 +35,8 @@ CONVENTIONS = [
     {"rate": "exponential"},
     {"dimensions": 6},
     {"spread": "logarithms"},
+    {"width_units": (0.9, 1.1, 0.9, 0.7, 0.8, 0.6)},
+    {"initial": 3},
 ]
 CASES = [(switches, {}) for switches in SWITCHES]
 CASES += [(switches, each) for each in CONVENTIONS for switches in (SWITCHES[0], SWITCHES[-1])]
@@ -45,9 +47,13 @@ def written_out(learner, desired, start, rates):
     rules, widths = learner.rules, WIDTHS[learner.rules.separate_maps]
     grids = [regular_grid(SIZES[net], rules.centres) for net in ("supernet", "subnet")]
     power = (1 if rules.spread == "widths" else 0) - rules.dimensions
+    start_theta = None
+    if rules.initial is not None and not rules.theta_increments:
+        shape = (*map(len, grids), 6)
+        start_theta = np.random.default_rng(rules.initial).uniform(-1, 1, shape)
     every = []
     for poses in desired:
-        maps = [SlowMap(*grids, outputs) for outputs in rules.maps.values()]
+        maps = [SlowMap(*grids, outputs, start_theta) for outputs in rules.maps.values()]
         for t, u in enumerate(poses):
             f = t / len(poses)
             if rules.equal_visits:
@@ -72,6 +78,7 @@ def written_out(learner, desired, start, rates):
                 rules.theta_increments,
                 rules.jacobian_increments,
                 np.array(rules.metric),
+                np.array(rules.width_units),
             )
         every.append(maps)
     return every
@@ -121,6 +128,7 @@ def test_a_metric_matters_by_the_ratios_of_its_units():
         ({"dimensions": 4}, "dimensions is 4; valid: 3 or 6"),
         ({"metric": (1, 1, 1)}, "metric is .*; valid: six numbers above 0"),
         ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; valid: six numbers above 0"),
+        ({"width_units": (1, 1, 1)}, "width_units is .*; valid: six numbers above 0"),
     ],
 )
 def test_an_impossible_convention_is_refused(convention, message):
@@ -200,6 +208,20 @@ def test_a_new_learner_commands_what_is_desired(sizes, separate):
     )
     u = np.random.default_rng(0).uniform(-1.5, 1.5, (2, 30, 6))
     assert np.allclose(fresh.command(u), u, atol=1e-14)
+
+
+def test_random_values_of_theta_are_the_same_for_all_runs_and_for_one_map_as_for_two():
+    def started(runs, separate, theta_increments, initial):
+        rules = Rules(separate, theta_increments, False, False, **SIZES, initial=initial)
+        learner = HierarchicalLearner(runs, rules, Schedule(1.5, WIDTHS[separate], 0.9, 0.3))
+        return np.concatenate([each.theta.all for each in learner.maps.values()], axis=-1)
+
+    one, two, other = (
+        started(2, separate, False, seed) for separate, seed in ((False, 3), (True, 3), (True, 4))
+    )
+    assert np.array_equal(one, two) and np.array_equal(one[0], one[1])
+    assert not np.isclose(two, other).any() and np.abs(two).max() <= 1
+    assert np.array_equal(started(1, True, True, 3), started(1, True, True, None)), "increments"
 
 
 def test_an_intact_robot_is_left_alone(controller, robot):

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.arms import load_arm
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
+from recalib.study.plants import nominal_robot
 
 # Universal Robots' own table of the UR5 (support article on DH parameters), standard: d, a, alpha.
 UR5 = (
@@ -31,6 +32,17 @@ def slide(axis: int, length: float) -> np.ndarray:
     matrix = np.eye(4)
     matrix[axis, 3] = length
     return matrix
+
+
+# Of the PUMA 560 (Corke, Armstrong-Helouvry 1994), with its flange: d, a, alpha.
+PUMA = (
+    (0.0, 0.0, np.pi / 2),
+    (0.0, 0.4318, 0.0),
+    (0.15005, 0.0203, -np.pi / 2),
+    (0.4318, 0.0, np.pi / 2),
+    (0.0, 0.0, -np.pi / 2),
+    (0.05625, 0.0, 0.0),
+)
 
 
 NUMBERS = st.floats(-2, 2)
@@ -99,3 +111,12 @@ def test_a_stanford_arm_is_its_closed_form():
 def test_a_table_that_makes_no_arm_is_refused(rows, convention, error, message):
     with pytest.raises(error, match=message):
         arm_of_table(rows, convention)
+
+
+def test_the_puma_moves_as_its_published_table_says_and_has_a_spherical_wrist(plan):
+    arm = nominal_robot(plan.nominal("puma560")).arm
+    rows = [Row(str(n), a=a, alpha=alpha, d=d) for n, (d, a, alpha) in enumerate(PUMA)]
+    angles = np.random.default_rng(0).uniform(-3, 3, (20, 6))
+    assert np.allclose(arm.forward(angles), arm_of_table(rows).forward(angles), atol=1e-12)
+    wrist = arm.skeleton(angles)[:, 4:7]
+    assert np.allclose(wrist, wrist[:, :1], atol=1e-12)

@@ -6,7 +6,13 @@ from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import UnknownName
-from recalib.nominal.poses import COORDINATES, Workspace, orientation_error, position_error
+from recalib.nominal.poses import (
+    COORDINATES,
+    Workspace,
+    orientation_error,
+    pose_errors,
+    position_error,
+)
 
 CENTRE = np.eye(4)
 CENTRE[:3, :3] = Rotation.from_euler("xyz", [2.0, -0.7, 1.1]).as_matrix()
@@ -96,3 +102,24 @@ def test_samples_fill_the_box():
     sample = WORKSPACE.sample(np.random.default_rng(0), 1000)
     assert sample.shape == (1000, 6)
     assert sample.min() >= -1 and sample.max() <= 1 and np.ptp(sample, axis=0).min() > 1.9
+
+
+def test_an_error_is_a_distance_and_a_turn_or_a_mean_over_coordinates():
+    desired = np.array([[0.1, -0.2, 0.3, 0.4, 0.5, 0.6]])
+    off = np.array([[0.03, -0.04, 0.0, 0.02, -0.01, 0.06]])  # m and rad
+    poses = [WORKSPACE.to_poses(u) for u in (desired + off / HALF_RANGES, desired)]
+    position, orientation = pose_errors(WORKSPACE, *poses)
+    assert position == pytest.approx(0.05)
+    assert np.array_equal(orientation, orientation_error(*poses))
+    position, orientation = pose_errors(WORKSPACE, *poses, error="coordinates")
+    assert position == pytest.approx(0.07 / 3) and orientation == pytest.approx(0.09 / 3)
+    with pytest.raises(UnknownName, match="error of a pose 'median'"):
+        pose_errors(WORKSPACE, *poses, error="median")
+
+
+def test_errors_of_angles_are_taken_the_shorter_way_round():
+    yaw = np.zeros((2, 6))
+    yaw[:, 5] = np.array([-3.1, 3.1]) / HALF_RANGES[5]
+    poses = [WORKSPACE.to_poses(u[None]) for u in yaw]
+    _, orientation = pose_errors(WORKSPACE, *poses, error="coordinates")
+    assert orientation == pytest.approx((2 * np.pi - 6.2) / 3)

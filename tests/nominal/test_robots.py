@@ -9,7 +9,7 @@ from recalib.study.plants import nominal_robot
 from tests.conftest import changed
 
 
-@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
+@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1", "puma560"])
 def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, plan):
     robot = nominal_robot(plan.nominal(name))
     step = 1e-6
@@ -20,6 +20,19 @@ def test_the_jacobian_is_the_derivative_of_the_forward_kinematics(name, plan):
         pin.log3(a[:3, :3] @ b[:3, :3].T) / (2 * step) for a, b in zip(ahead, behind, strict=True)
     ]
     assert np.allclose(jacobian[0], np.concatenate([linear.T, np.transpose(angular)]), atol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["ur10", "z1", "jaco", "puma560"])
+def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, plan):
+    nominal = plan.nominal(name)
+    short, long = (nominal_robot(changed(nominal, beyond=beyond)) for beyond in (0.0, 0.12))
+    _, jacobian = short.arm.forward_and_jacobian(short.home[None])
+    moved = (long.workspace.centre - short.workspace.centre)[:3]
+    assert np.allclose(moved[:, :3], 0, atol=1e-12), "it does not turn"
+    assert np.allclose(np.abs(moved[:, 3] @ jacobian[0, 3:, -1]), 0.12)
+    wrist = short.arm.skeleton(short.home[None])[0, -2]
+    ends = [np.linalg.norm(each.workspace.centre[:3, 3] - wrist) for each in (short, long)]
+    assert ends[1] - ends[0] == pytest.approx(0.12)
 
 
 def test_the_workspace_is_centred_on_home(robot):

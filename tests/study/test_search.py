@@ -5,12 +5,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.damaged.damage import EncoderShift, apply
+from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
 from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
 from recalib.study.experiments.settings import best, build_tuned, rules_of
-from recalib.study.experiments.trials import search_for
+from recalib.study.experiments.trials import search_for, search_once
 from recalib.study.layout import SEARCHED
 from recalib.study.plants import resolve
 from recalib.study.trainings import Trainings, ritter_short, rules, switched, training
@@ -77,6 +79,30 @@ def test_the_score_is_the_part_left_of_the_initial_errors(study, score, expected
     published = study.search.initial.model_copy(update=initial)
     budget = study.search.model_copy(update={"score": score, "initial": published})
     assert search.scores(errors, budget).tolist() == expected
+
+
+def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, controller, robot):
+    whole = plan.search("improved_200", 0)
+    budget = whole.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
+    arm = apply(robot, [EncoderShift("elbow_joint", 0.05)])
+
+    def found(**told):
+        trials = search_once(
+            lambda runs: Plant(controller, [arm]),
+            rules_of(whole.learner),
+            8,
+            budget,
+            20,
+            "luck",
+            **told,
+        )
+        return trials["position_error_cm"], trials["orientation_error_deg"], trials["score"]
+
+    usual, coordinates, even = found(), found(error="coordinates"), found(order="even")
+    assert all((one == other).all() for one, other in zip(usual, found(error="norm"), strict=True))
+    for one, other in zip(usual, coordinates, strict=True):
+        assert (other < 0.7 * one).all(), "a mean of three is less than the root of their squares"
+    assert all((one != other).all() for one, other in zip(usual, even, strict=True))
 
 
 @pytest.fixture

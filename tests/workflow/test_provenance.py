@@ -47,6 +47,7 @@ DEPENDS = {
     "robots.ur5.*": f"{NOMINAL} design real_run real_twin",
     "robots.ur3.*": NOMINAL,
     "robots.jaco.*": "design",
+    "robots.puma560.*": "design",
     "robots.*": f"{NOMINAL} design",
     "controller.*": f"{NOMINAL} design ensemble_chunk real_run real_twin",
     "paper_damage.published.*": f"assignments design recording {EVIDENCE}",

@@ -15,6 +15,7 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Part
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.configuration.units import (
+    Amount,
     Angle,
     Checksum,
     Count,
@@ -62,9 +63,11 @@ class Robot(Part):
     """A nominal robot."""
 
     urdf: Text
-    """File name of a URDF of example-robot-data."""
+    """File name of a URDF of example-robot-data, or a path from the project's folder."""
     tool: Text
     """Link whose frame is the pose."""
+    beyond: Amount = 0.0
+    """By which a rigid tool goes on outwards from there, along the last joint's axis."""
     home: Annotated[dict[str, Angle], Filled]
     """Joint angles at the centre of the workspace."""
     limits: dict[str, Ordered[Angle]] = Field(default={})

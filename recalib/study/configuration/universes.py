@@ -6,7 +6,7 @@ A level's reason stands beside it in config.yaml.
 from typing import Literal
 
 from recalib.study.configuration.part import Part
-from recalib.study.configuration.units import Count, Name, Seed, SomeDistinct, Times, Turn
+from recalib.study.configuration.units import Count, Name, Seed, Size, SomeDistinct, Times, Turn
 
 
 class Factors(Part):
@@ -38,8 +38,20 @@ class Factors(Part):
     """Whether each map has the cells of the nets, or all maps of a learner as a whole."""
     score: SomeDistinct[Literal["worse", "geometric_mean"]]
     """What the search minimises."""
-    budget: SomeDistinct[Literal["ours", "rough"]]
+    effort: SomeDistinct[Literal["full", "rough"]]
     """Of a search."""
+    ranges: SomeDistinct[Literal["ours", "wider"]]
+    """Of a search."""
+    initial: SomeDistinct[Literal["identity", "random"]]
+    """What theta starts from where its values are propagated."""
+    error: SomeDistinct[Literal["norm", "coordinates"]]
+    """The error of a pose."""
+    widths: SomeDistinct[Literal["half_ranges", "centimetres_degrees"]]
+    """The units of the widths of neighbourhoods."""
+    order: SomeDistinct[Literal["random", "even"]]
+    """Of the poses to learn from."""
+    tool: SomeDistinct[Literal["flange", "longer"]]
+    """Where the tool ends."""
 
 
 class Universes(Part):
@@ -53,6 +65,8 @@ class Universes(Part):
     """What the paper leaves open."""
     home_spread: Turn
     """How far from the configured home each joint of a random one may be."""
+    longer: Size
+    """By which a longer tool goes on, on the study's own robot."""
     assignment_poses: Times
     """Random poses over which initial errors are averaged to find the nearest assignment."""
     rough_trials: Times

@@ -55,6 +55,8 @@ def search_once(
     budget: Budget,
     tests: int,
     luck: str,
+    error: str = "norm",
+    order: str = "random",
 ) -> "pd.DataFrame":
     """All trials of one search, round after round, a row each.
 
@@ -63,11 +65,13 @@ def search_once(
         iterations: of a training.
         tests: poses on which a trial is measured.
         luck: the scope of its randomness.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+        order: of the poses; see `desired_poses`.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
     seeds = range(budget.seeds)
-    poses = desired_poses(budget.seed, luck, seeds, iterations)
+    poses = desired_poses(budget.seed, luck, seeds, iterations, order)
     tested = test_poses(budget.seed, luck, seeds, tests)
     rounds: list[pd.DataFrame] = []
     for round_ in range(1, budget.rounds + 1):
@@ -82,6 +86,7 @@ def search_once(
             np.tile(poses, (len(trials), 1, 1)),
             np.tile(tested, (len(trials), 1, 1)),
             [iterations],
+            error=error,
         )
         for column, errors in (
             ("position_error_cm", 100 * history.position),

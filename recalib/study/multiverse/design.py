@@ -12,7 +12,6 @@ import yaml
 
 from recalib.study.configuration.damages import Entry, describe
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.universes import Factors
 
 LISTS = "moved", "damage"  # columns of entries
 LINE = 1000  # characters: no list is longer
@@ -54,8 +53,8 @@ class Designed(Frozen):
 
     @classmethod
     def from_row(cls, row: Mapping[str, str]) -> Self:
-        """What a row of the file says."""
-        levels = {name: row[name] for name in Factors.model_fields}
+        """What a row of the file says. A file may have other factors than a new one would."""
+        levels = {name: text for name, text in row.items() if name not in cls.model_fields}
         rest = {name: text for name, text in row.items() if name not in levels}
         rest["home_deg"] = rest["home_deg"].split()
         rest |= {name: yaml.safe_load(rest[name]) for name in LISTS}

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.errors import RecalibError
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import pose_errors
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.assignments import TIE, Ways, distance_to, initial_errors
@@ -17,9 +17,8 @@ from recalib.study.configuration.study import Published
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
+from recalib.study.multiverse.universe import DIGITS, robot_in
 from recalib.study.plants import nominal_robot
-
-DIGITS = 4  # of a length in m
 
 
 def draw_design(job: jobs.Design) -> Iterator[Designed]:
@@ -47,7 +46,9 @@ def draw(job: jobs.Design, universe: int, row: Row) -> Designed:
     random = generator(plan.seed, "universe", row.number)
     seed = int(random.integers(2**32))
     nominal = next(each for each in job.robots if each.name == levels["robot"])
-    scale = nominal.robot.workspace.scale_to(job.robots[0].robot.workspace)
+    own = job.robots[0].robot.workspace
+    nominal = robot_in(nominal, levels, own, plan.longer)
+    scale = nominal.robot.workspace.scale_to(own)
     controller, refused = _controller(nominal, row, plan.home_spread, random)
     robot, joints = controller.robot, list(nominal.robot.home)
     tests = robot.workspace.sample(random, job.damage.poses)
@@ -61,10 +62,9 @@ def draw(job: jobs.Design, universe: int, row: Row) -> Designed:
     if levels["assignment"] == "any":
         damage = ways[int(row.share * len(ways))]
     else:
-        damage = _nearest(
-            controller, ways, job.damage.published, scale, tests[: plan.assignment_poses]
-        )
-    position, orientation = _initial_errors(controller, damage, tests)
+        few, error = tests[: plan.assignment_poses], levels["error"]
+        damage = _nearest(controller, ways, job.damage.published, scale, few, error)
+    position, orientation = _initial_errors(controller, damage, tests, levels["error"])
     return Designed(
         universe=universe,
         row=row.number,
@@ -107,11 +107,7 @@ def _controller(
     nominal: jobs.Nominal, row: Row, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
     """The controller at its home, and how many homes it refused before."""
-    workspace = nominal.robot.workspace.model_copy(
-        update={"coordinates": row.levels["coordinates"]}
-    )
-    entry = nominal.robot.model_copy(update={"workspace": workspace})
-    robot = nominal_robot(nominal.model_copy(update={"robot": entry}))
+    robot = nominal_robot(nominal)
     greatest = nominal.controller.greatest_condition
     if row.levels["home"] == "configured":
         return Controller(robot, greatest), 0
@@ -119,11 +115,16 @@ def _controller(
 
 
 def _nearest(
-    controller: Controller, ways: Ways, published: Published, scale: float, tests: np.ndarray
+    controller: Controller,
+    ways: Ways,
+    published: Published,
+    scale: float,
+    tests: np.ndarray,
+    error: str,
 ) -> tuple[Damage, ...]:
     """The assignment whose initial errors are nearest to the published ones, of the same scale."""
     position, orientation = map(
-        np.concatenate, zip(*initial_errors(controller, ways, tests), strict=True)
+        np.concatenate, zip(*initial_errors(controller, ways, tests, error), strict=True)
     )
     errors = {
         "position_error_cm": 100 * position / scale,
@@ -133,9 +134,11 @@ def _nearest(
 
 
 def _initial_errors(
-    controller: Controller, damage: Sequence[Damage], tests: np.ndarray
+    controller: Controller, damage: Sequence[Damage], tests: np.ndarray, error: str
 ) -> tuple[float, float]:
     """Mean errors [m, rad] of the uncorrected robot."""
-    desired = controller.robot.workspace.to_poses(tests)
+    workspace = controller.robot.workspace
+    desired = workspace.to_poses(tests)
     achieved = apply(controller.robot, damage).forward(controller.inverse(desired))
-    return position_error(achieved, desired).mean(), orientation_error(achieved, desired).mean()
+    position, orientation = pose_errors(workspace, achieved, desired, error)
+    return position.mean(), orientation.mean()

@@ -11,7 +11,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
-CANDIDATES = 3000  # the pickiest arm accepts one in two hundred
+CANDIDATES = 30000  # the pickiest arm, with a longer tool, accepts one in ten thousand
 
 
 def random_home(

@@ -2,15 +2,18 @@
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from recalib.study import jobs
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, Learner, Study, Workspace
+from recalib.study.configuration.study import Budget, Learner, Ranges, Study, Workspace
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.multiverse.design import Designed
 from recalib.study.plan import Plan
 from recalib.study.trainings import switched
+
+DIGITS = 4  # of a length in m
 
 
 class Conventions(Frozen):
@@ -20,6 +23,8 @@ class Conventions(Frozen):
     metric: tuple[float, ...]
     dimensions: int
     spread: str
+    width_units: tuple[float, ...]
+    initial: int | None
 
 
 class Universe(Frozen):
@@ -31,6 +36,8 @@ class Universe(Frozen):
         learners: the two systems, and each with one switch changed, by name.
         ritters_rate: how the rate of learners with exponential widths falls.
         budget: of a search, and what it minimises; its seed is the universe's.
+        error: of a pose, in searches and trainings.
+        order: of the poses to learn from.
         rough: budget of a rough one, with which the horizon of Ritter's is sought.
         rungs: numbers of iterations at which it is.
         tests: random poses for a measurement.
@@ -47,6 +54,8 @@ class Universe(Frozen):
     ritters_rate: str
     budget: Budget
     rough: Budget
+    error: str
+    order: str
     rungs: tuple[int, ...]
     tests: int
     seeds: int
@@ -57,14 +66,14 @@ class Universe(Frozen):
 def universe(study: Study, designed: Designed) -> Universe:
     """The universe that the design describes."""
     levels, plan = designed.levels, Plan(study)
-    nominal = plan.nominal(levels["robot"])
-    entry, own = nominal.robot, study.robots[study.robot]
-    workspace = entry.workspace.model_copy(update={"coordinates": levels["coordinates"]})
-    home = dict(zip(entry.home, map(math.radians, designed.home_deg), strict=True))
-    robot = entry.model_copy(update={"workspace": workspace, "home": home})
+    own = study.robots[study.robot]
+    nominal = robot_in(plan.nominal(levels["robot"]), levels, own.workspace, study.universes.longer)
+    workspace = nominal.robot.workspace
+    home = dict(zip(nominal.robot.home, map(math.radians, designed.home_deg), strict=True))
+    robot = nominal.robot.model_copy(update={"home": home})
     translation, rotation = designed.moved
-    scale = entry.workspace.scale_to(own.workspace)
-    budget = _budget(plan.budget(), levels["score"], designed.seed, scale)
+    scale = workspace.scale_to(own.workspace)
+    budget = _budget(plan.budget(), levels, designed.seed, scale)
     rough = budget.model_copy(update={"rounds": 1, "trials": study.universes.rough_trials})
     return Universe(
         number=designed.universe,
@@ -85,16 +94,48 @@ def universe(study: Study, designed: Designed) -> Universe:
             metric=metric(levels["norm"], workspace),
             dimensions=int(levels["dimensions"]),
             spread=levels["spread"],
+            width_units=width_units(levels["widths"], own.workspace),
+            initial=designed.seed if levels["initial"] == "random" else None,
         ),
         ritters_rate=levels["rate"],
-        budget=budget if levels["budget"] == "ours" else rough,
+        budget=budget if levels["effort"] == "full" else rough,
         rough=rough,
+        error=levels["error"],
+        order=levels["order"],
         rungs=study.universes.rungs,
         tests=study.training.tests,
         seeds=study.universes.seeds,
         seed=designed.seed,
         own=study.scenario,
     )
+
+
+def robot_in(
+    nominal: jobs.Nominal, levels: Mapping[str, Any], own: Workspace, longer: float
+) -> jobs.Nominal:
+    """The robot with the pose coordinates and the tool of its levels.
+
+    Args:
+        own: the workspace of the study's own robot, on which a longer tool is `longer` [m].
+    """
+    entry = nominal.robot
+    workspace = entry.workspace.model_copy(update={"coordinates": levels["coordinates"]})
+    more = round(workspace.scale_to(own) * longer, DIGITS) if levels["tool"] == "longer" else 0.0
+    update = {"workspace": workspace, "beyond": entry.beyond + more}
+    return nominal.model_copy(update={"robot": entry.model_copy(update=update)})
+
+
+def width_units(widths: str, own: Workspace) -> tuple[float, ...]:
+    """Six factors that turn workspace coordinates into the units of widths.
+
+    One width is as many cm as degrees on the study's own robot, whose workspace is given: on
+    smaller ones, as all lengths, the centimetres shrink. The unit is the mean half-range of
+    position, so that ranges of widths mean what they do in half-ranges of the workspace.
+    """
+    if widths == "half_ranges":
+        return (1.0,) * 6
+    factors = metric("centimetres_degrees", own)
+    return tuple(factor / (sum(factors[:3]) / 3) for factor in factors)
 
 
 def metric(norm: str, workspace: Workspace) -> tuple[float, ...]:
@@ -120,8 +161,21 @@ def _with_cells(learner: Learner, cells: str, workspace: Workspace) -> Learner:
     return learner.model_copy(update={"supernet": tuple(doubled)})
 
 
-def _budget(own: Budget, score: str, seed: int, scale: float) -> Budget:
+def _budget(own: Budget, levels: Mapping[str, str], seed: int, scale: float) -> Budget:
     """What a search may spend, and what it minimises; all lengths are `scale` times the study's."""
     length = scale * own.initial.position_error_cm
     initial = own.initial.model_copy(update={"position_error_cm": length})
-    return own.model_copy(update={"seed": seed, "score": score, "initial": initial})
+    update = {"seed": seed, "score": levels["score"], "initial": initial}
+    if levels["ranges"] == "wider":
+        update["ranges"] = wider(own.ranges)
+    return own.model_copy(update=update)
+
+
+def wider(ranges: Ranges) -> Ranges:
+    """Twice as wide in logarithms about their middles; rates and fractions stay at most 1."""
+    found = {}
+    for name, (low, high) in ranges:
+        part = math.sqrt(high / low)  # by which a range grows at either end
+        most = math.inf if name == "initial_width" else 1.0
+        found[name] = float(f"{low / part:.4g}"), min(float(f"{high * part:.4g}"), most)
+    return ranges.model_copy(update=found)

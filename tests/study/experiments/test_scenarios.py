@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
+from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.experiments import campaign
 from recalib.study.plants import resolve
@@ -28,6 +30,19 @@ def test_compared_learners_see_the_same_poses_and_never_the_tests():
     assert not np.isclose(tests, short).any()
     assert not np.isclose(short, campaign.desired_poses(1, "encoders", range(3), 20)).any()
     assert not np.isclose(short[0], short[1]).any()
+
+
+def test_poses_are_independent_by_default_or_spread_evenly():
+    same = generator(1, "links", 2, "desired").uniform(-1, 1, (20, 6))
+    assert np.array_equal(campaign.desired_poses(1, "links", [2], 20)[0], same)
+    short, long = (campaign.desired_poses(1, "links", [2, 3], n, "even") for n in (20, 200))
+    assert np.array_equal(short, long[:, :20])
+    assert (
+        not np.isclose(long[0], long[1]).any() and -1 < long.min() < -0.98 < 0.98 < long.max() < 1
+    )
+    random = campaign.desired_poses(1, "links", [2, 3], 200)
+    for one, other in zip(long, random, strict=True):
+        assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
 
 
 def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):

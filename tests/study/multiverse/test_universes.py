@@ -1,5 +1,6 @@
 """The design of the multiverse, and the universes that it describes."""
 
+from dataclasses import replace
 from itertools import combinations, islice
 
 import numpy as np
@@ -9,23 +10,25 @@ from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, apply
 from recalib.errors import RecalibError, UnfitWorkspace
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import pose_errors
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.experiments.settings import rules_of
 from recalib.study.layout import DESIGN
 from recalib.study.multiverse import homes, measuring
 from recalib.study.multiverse.design import read_design, write_design
 from recalib.study.multiverse.drawing import draw, draw_design, moved
-from recalib.study.multiverse.factors import rows
+from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.measuring import World, measure
 from recalib.study.multiverse.rules import rules_in
-from recalib.study.multiverse.universe import metric, universe
+from recalib.study.multiverse.universe import metric, universe, wider, width_units
 from recalib.study.plants import nominal_controller, nominal_robot
 from tests.conftest import ROOT, changed
 
 FACTORS = list(Factors.model_fields)
+SAME = (0.9375, 1.125, 0.9375, 0.75, 0.75, 0.75)  # half-ranges in cm and degrees, over 26.7
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +46,12 @@ def test_levels_have_equal_shares_and_so_have_their_pairs(study, design):
     for factor in FACTORS:
         shares = table[factor].value_counts()
         assert len(shares) == len(getattr(study.universes.factors, factor)) >= 2
-        assert np.ptp(shares) <= 1, factor
+        assert np.ptp(shares) <= (0 if len(shares) == 2 else 1), factor
     for pair in combinations(FACTORS, 2):
         counts = pd.crosstab(*(table[factor] for factor in pair)).to_numpy()
-        assert np.abs(counts * counts.size / len(table) - 1).max() < 0.2, pair
+        # three and five levels divide no power of two
+        most = 0 if counts.size == 4 else 0.3
+        assert np.abs(counts * counts.size / len(table) - 1).max() <= most, pair
 
 
 def test_no_factor_passes_for_two_others(design):
@@ -130,7 +135,7 @@ def test_a_universe_has_the_initial_errors_of_its_design(study, design, universe
         desired = robot.workspace.to_poses(robot.workspace.sample(np.random.default_rng(0), 300))
         arm = apply(robot, damages_among(its.scenarios[study.scenario]))
         achieved = arm.forward(controller.inverse(desired))
-        errors = position_error(achieved, desired), orientation_error(achieved, desired)
+        errors = pose_errors(robot.workspace, achieved, desired, its.error)
         assert 100 * errors[0].mean() == pytest.approx(each.position_error_cm, rel=0.1)
         assert np.degrees(errors[1].mean()) == pytest.approx(each.orientation_error_deg, rel=0.1)
 
@@ -139,7 +144,9 @@ def test_a_universe_is_what_its_levels_say(study, design, universes):
     for each, its in zip(design, universes, strict=True):
         levels, workspace = each.levels, its.nominal.robot.workspace
         assert (its.nominal.name, workspace.coordinates) == (levels["robot"], levels["coordinates"])
-        scale = {"ur10": 1, "ur5": 0.7, "z1": 0.3, "jaco": 0.4}[levels["robot"]]
+        scale = {"ur10": 1, "ur5": 0.7, "z1": 0.3, "jaco": 0.4, "puma560": 0.5}[levels["robot"]]
+        longer = scale * 0.07 if levels["tool"] == "longer" else 0
+        assert its.nominal.robot.beyond == pytest.approx(longer)
         initial = its.budget.initial
         assert initial.position_error_cm == pytest.approx(8.3 * scale)
         assert initial.orientation_error_deg == 4.7
@@ -154,7 +161,11 @@ def test_a_universe_is_what_its_levels_say(study, design, universes):
         for learner in its.learners.values():
             assert list(learner.supernet) == ([3, 3, 3] if learner.maps == "separate" else single)
         trials = its.budget.rounds * its.budget.trials
-        assert trials == (16 if levels["budget"] == "rough" else 192)
+        assert trials == (16 if levels["effort"] == "rough" else 192)
+        wide = levels["ranges"] == "wider"
+        assert its.budget.ranges == its.rough.ranges
+        assert its.budget.ranges == (wider if wide else lambda same: same)(study.search.ranges)
+        assert (its.error, its.order) == (levels["error"], levels["order"])
         assert its.budget.seed == its.seed == each.seed
         assert its.conventions.dimensions == int(levels["dimensions"])
 
@@ -168,6 +179,51 @@ def test_learners_learn_by_the_conventions_of_their_universe(design, universes):
             assert (rules.centres, rules.spread) == (levels["centres"], levels["spread"])
             assert rules.metric == its.conventions.metric
             assert rules.dimensions == int(levels["dimensions"])
+            half_ranges = levels["widths"] == "half_ranges"
+            assert rules.width_units == ((1,) * 6 if half_ranges else pytest.approx(SAME))
+            assert rules.initial == (each.seed if levels["initial"] == "random" else None)
+
+
+def test_wider_ranges_are_twice_as_wide_in_logarithms(study):
+    ranges = wider(study.search.ranges)
+    assert ranges.initial_width == pytest.approx((0.04, 25))
+    assert ranges.final_width == (pytest.approx(0.1**1.5, rel=1e-3), 1)
+    assert ranges.initial_rate == (pytest.approx(0.2**1.5, rel=1e-3), 1)
+    assert ranges.final_rate == (pytest.approx(0.05**1.5, rel=1e-3), 1)
+
+
+def test_a_width_in_centimetres_and_degrees_means_as_much_as_one_in_half_ranges(study):
+    own = study.robots["ur10"].workspace
+    units = width_units("centimetres_degrees", own)
+    assert units == pytest.approx(SAME) and np.mean(units[:3]) == pytest.approx(1)
+    assert width_units("half_ranges", own) == (1,) * 6
+
+
+def test_the_first_levels_are_what_the_reference_study_does(study, plan, design):
+    first = {name: str(levels[0]) for name, levels in study.universes.factors}
+    its = universe(study, design[0].model_copy(update={"levels": first}))
+    nominal = plan.nominal(study.robot)
+    assert its.nominal.robot.model_copy(update={"home": nominal.robot.home}) == nominal.robot
+    assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
+    assert its.budget.model_copy(update={"seed": study.search.seed}) == plan.budget()
+    for name in ("improved", "ritter"):
+        rules = rules_of(study.learners[name])
+        assert rules_in(its, name) == replace(rules, rate=rules.law_of_rate)
+
+
+def test_the_first_campaign_is_still_read_and_drawn_the_same(plan):
+    """Its factors are fewer: the others had their first levels."""
+    path = ROOT / "workflow" / "universes" / "first" / "design.csv"
+    first = read_design(path)
+    assert len(first) == len(pd.read_csv(path.with_name("outcomes.csv"))) == 128
+    assert set(first[0].levels) - {"budget"} < set(FACTORS)
+    job = plan.design()
+    job = job.model_copy(update={"plan": job.plan.model_copy(update={"seed": 1})})
+    new = {name: str(levels[0]) for name, levels in job.plan.factors}
+    for each in [its for its in first if its.levels["assignment"] == "nearest"][::29]:
+        levels = each.levels | {name: new[name] for name in set(FACTORS) - {*each.levels}}
+        again = draw(job, each.universe, Row(each.row, levels, 0.0))
+        assert again.model_copy(update={"levels": each.levels}) == each
 
 
 @pytest.fixture

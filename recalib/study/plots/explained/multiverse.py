@@ -16,7 +16,7 @@ SHOWN = {  # of all factors, and what they are about
     "assignment": "which links\nand encoders?",
     "norm": "how far is\na pose?",
     "cells": "how many\ncells?",
-    "budget": "how hard\na search?",
+    "effort": "how hard\na search?",
 }
 
 
