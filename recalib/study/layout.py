@@ -93,7 +93,7 @@ class Layout:
         return f"{self.root}/real.csv"
 
     def campaign(self, table: str) -> str:
-        """A table of the second campaign before it is shipped: design, power, reference or efforts."""
+        """A table of the second campaign before it is shipped."""
         return f"{self.root}/universes/{table}.csv"
 
     def campaign_chunk(self, table: str, number: str) -> str:
@@ -141,7 +141,7 @@ class Layout:
         return f"{self.root}/ensemble/{series}.{learner}.parquet"
 
     def mapping(self, study: str) -> str:
-        """A measurement of the true mapping: coupling, propagation, quantisation, visits, replay."""
+        """A measurement without a learner: coupling, propagation, quantisation, visits, replay."""
         return f"{self.root}/mapping/{study}.parquet"
 
     def benchmark_batch(self, learner: str, batch: str) -> str:

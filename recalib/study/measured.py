@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 ERRORS = ("position_error_cm", "orientation_error_deg")
 KINDS = ("position", "orientation")
 UNITS = ("cm", "degrees")
+RIGID = ("translation", "rotation", "translation_rotation")  # scenarios of the whole robot moved
+NONE = 1e-6  # cm and degrees: an initial error below it is rounding
 
 
 def errors_of(history: "pd.DataFrame", moment: str = "last") -> np.ndarray:

@@ -89,7 +89,7 @@ def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, c
     arm = apply(robot, [EncoderShift("elbow_joint", 0.05)])
 
     def found(**told):
-        trials = search_once(
+        trials = Search(
             lambda runs: Plant(controller, [arm]),
             rules_of(whole.learner),
             8,
@@ -97,7 +97,7 @@ def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, c
             20,
             "luck",
             **told,
-        )
+        ).all_rounds()
         return trials["position_error_cm"], trials["orientation_error_deg"], trials["score"]
 
     usual, coordinates, even = found(), found(error="coordinates"), found(order="even")
@@ -150,7 +150,7 @@ def test_another_learner_is_searched_for_alike(plan, controller, damaged):
     budget = plan.budget().model_copy(update=given)
     rules = Rules(False, True, False, True)
     args = (lambda runs: Plant(controller, [damaged]), rules, 8, budget, 5, "luck")
-    first, other = search_once(*args), search_once(*args, learner=RadialLearner)
+    first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
     numbers = search.columns(rules)
     assert other[numbers].equals(first[numbers]) and list(other) == list(first)
     assert (other["score"] != first["score"]).all()

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from recalib.storage import whole
-from recalib.study.evidence.claims.rigid import NONE
+from recalib.study.measured import NONE
 from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:

@@ -11,54 +11,52 @@ from recalib.study.statistics import LEVEL
 RESAMPLES = 2000
 
 
-def effects(values: pd.Series, design: pd.DataFrame, random: np.random.Generator) -> pd.DataFrame:
-    """How much each factor moves a positive number, first the one that most exceeds chance.
+def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generator) -> pd.DataFrame:
+    """How much each choice moves a number, first the one that most exceeds chance.
 
     Args:
-        values: (universe,) what was measured; infinity stands for twice the largest of the others.
-        design: (universe, factor) levels.
+        numbers: (setup,) in the scale in which they are averaged.
+        design: (setup, factor) levels.
         random: of intervals and permutations.
 
-    Returns a row for each factor: the level with the least and that with the largest geometric
-    mean, `effect`, the largest over the least, with its bootstrap interval, and `chance`: in 95 %
-    of cases no factor without any effect exceeds its own (Bonferroni).
+    Returns a row for each factor: the level with the least and that with the largest mean,
+    `effect`, the largest less the least, with its bootstrap interval, and `chance`: in 95 % of
+    cases no factor without any effect exceeds its own (Bonferroni).
     """
-    finite = values[np.isfinite(values)]
-    logs = np.log(values.clip(upper=2 * finite.max())).to_numpy()
     rows, rarely = [], (1 - LEVEL) / design.shape[1]
     for factor, levels in design.items():
         codes, names = pd.factorize(levels, sort=True)
         one_hot = np.eye(len(names))[codes]
-        means = _means(logs[None], one_hot)[0]
-        drawn = random.integers(len(logs), size=(RESAMPLES, len(logs)))
-        resampled = _spread(_means_of(logs[drawn], one_hot[drawn]))
-        shuffled = random.permuted(np.tile(logs, (RESAMPLES, 1)), axis=1)
+        means = _means(numbers[None], one_hot)[0]
+        drawn = random.integers(len(numbers), size=(RESAMPLES, len(numbers)))
+        resampled = _spread(_means_of(numbers[drawn], one_hot[drawn]))
+        shuffled = random.permuted(np.tile(numbers, (RESAMPLES, 1)), axis=1)
         low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
         rows.append(
             {
                 "factor": factor,
                 "least": names[means.argmin()],
                 "largest": names[means.argmax()],
-                "effect": np.exp(np.ptp(means)),
-                "low": np.exp(low),
-                "high": np.exp(high),
-                "chance": np.exp(np.quantile(_spread(_means(shuffled, one_hot)), 1 - rarely)),
+                "effect": np.ptp(means),
+                "low": low,
+                "high": high,
+                "chance": np.quantile(_spread(_means(shuffled, one_hot)), 1 - rarely),
             }
         )
     table = pd.DataFrame(rows)
-    clearest = np.argsort(-table["effect"] / table["chance"], kind="stable")
+    clearest = np.argsort(table["chance"] - table["effect"], kind="stable")
     return table.iloc[clearest].reset_index(drop=True)
 
 
-def _means(logs: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
+def _means(numbers: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
     """Means (n, level) of (n, universe), by level."""
-    return logs @ one_hot / one_hot.sum(axis=0)
+    return numbers @ one_hot / one_hot.sum(axis=0)
 
 
-def _means_of(logs: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
+def _means_of(numbers: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
     """Means (n, level) of (n, universe), each with levels (n, universe, level) of its own."""
     counts = np.maximum(one_hot.sum(axis=1), 1)
-    return np.einsum("nu,nul->nl", logs, one_hot) / counts
+    return np.einsum("nu,nul->nl", numbers, one_hot) / counts
 
 
 def _spread(means: np.ndarray) -> np.ndarray:

@@ -185,7 +185,7 @@ class Request:
         self._result(self._layout.ensemble(series, learner))
 
     def mapping(self, name: str) -> None:
-        """A measurement of the true mapping: coupling, propagation, quantisation, visits, replay."""
+        """A measurement without a learner: coupling, propagation, quantisation, visits, replay."""
         self._beyond = True
         self._result(self._layout.mapping(name))
 
@@ -218,15 +218,17 @@ class Request:
         """The reference study measured as the alternative setups are."""
         self._shipped("experiments.evidence: true", REFERENCE)
 
-    def outcomes(self) -> None:
-        """What was measured in each alternative setup, once all of them are in."""
-        if self._is_shipped:
-            self._measured("outcomes", self.study.universes.count)
+    def setups(self, table: str) -> None:
+        """What was measured in each alternative setup, once all of them are in.
 
-    def horizon(self) -> None:
-        """Ritter's iterations over the improved system's in setups, once all of them are in."""
-        if self._is_shipped:
-            self._measured("horizon", self.study.universes.horizons)
+        Args:
+            table: outcomes; or horizon, how long Ritter's takes.
+        """
+        plan = self.study.universes
+        count = {"outcomes": plan.count, "horizon": plan.horizons}[table]
+        if self._is_shipped and all(Path(path).exists() for path in pieces(table, count)):
+            for path in (DESIGN, *pieces(table, count)):
+                self._result(path)
 
     def efforts(self) -> None:
         """The trainings for the factor of 70, by the effort of their searches."""
@@ -251,12 +253,6 @@ class Request:
             self.lack(key)
         for path in paths:
             self._result(path)
-
-    def _measured(self, table: str, setups: int) -> None:
-        paths = pieces(table, setups)
-        if all(Path(path).exists() for path in paths):
-            for path in (DESIGN, *paths):
-                self._result(path)
 
     def benchmark(self) -> None:
         """Errors of every learner against moves."""

@@ -160,15 +160,12 @@ class Evidence:
         """A row for each replicate of the reference study, measured as the setups are."""
         return self._table(REFERENCE)
 
-    def outcomes(self) -> "pd.DataFrame | None":
-        """A row for each replicate of each setup; None unless all of them are measured."""
-        return self._pieces("outcomes")
+    def setups(self, table: str) -> "pd.DataFrame | None":
+        """A row for each replicate of each alternative setup; None unless all are measured.
 
-    def horizon(self) -> "pd.DataFrame | None":
-        """The factor of 70 in a row for each replicate of a setup; None unless all are measured."""
-        return self._pieces("horizon")
-
-    def _pieces(self, table: str) -> "pd.DataFrame | None":
+        Args:
+            table: outcomes; or horizon, how long Ritter's takes.
+        """
         import pandas as pd
 
         paths = [path for path in self._needs.files if path.startswith(f"{SECOND}/{table}_")]

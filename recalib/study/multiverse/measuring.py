@@ -11,11 +11,10 @@ import numpy as np
 
 from recalib.learners.radial import RadialLearner
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES, Switch
-from recalib.study.evidence.claims import rigid
 from recalib.study.experiments.search import NETS
 from recalib.study.experiments.trials import best_of
 from recalib.study.mapping.coupling import coupling
-from recalib.study.measured import ERRORS, KINDS
+from recalib.study.measured import ERRORS, KINDS, NONE, RIGID
 from recalib.study.multiverse.universe import Universe
 from recalib.study.multiverse.world import World
 from recalib.study.statistics import combined
@@ -68,7 +67,7 @@ def measured(world: World) -> dict[str, float]:
     row |= _cells(world, iterations)
     row["narrow"] = _narrow(world, iterations, ours[:, -1])
     row["radial"] = _radial(world, iterations)
-    moved = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in rigid.SCENARIOS)
+    moved = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in RIGID)
     row["rigid"] = max(_remaining(each).max() for each in moved)
     row["intact"] = world.train(IMPROVED, iterations, trials[IMPROVED], "intact").max()
     row["coupling"] = _coupling(world)
@@ -80,7 +79,7 @@ def _remaining(errors: np.ndarray) -> np.ndarray:
 
     Of an error that is zero to begin with nothing is asked here.
     """
-    there = errors[:, 0].min(axis=0) > rigid.NONE
+    there = errors[:, 0].min(axis=0) > NONE
     first, last = errors[:, 0, there], errors[:, -1, there]
     return np.exp(np.log(last / first).mean(axis=0))
 

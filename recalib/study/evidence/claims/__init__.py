@@ -8,19 +8,21 @@ from collections.abc import Callable
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.evidence.claims import (
+    changes,
     controller_kept,
+    coupling,
     expected_learning,
     figure_1,
+    grid,
     identity,
     initial_error,
-    integrals,
+    local_units,
+    maps,
+    reasons,
     rigid,
     ritter_slow,
     rough_search,
     speed_up,
-    switches,
-    weak_coupling,
-    width_order,
 )
 from recalib.study.evidence.needs import Needs, Request
 from recalib.study.evidence.results import Evidence
@@ -29,22 +31,26 @@ from recalib.study.trainings import Trainings
 
 CLAIMS = (
     identity.CLAIM,
+    grid.CLAIM,
     ritter_slow.CLAIM,
-    weak_coupling.CLAIM,
-    switches.SEPARATE_MAPS,
-    width_order.CLAIM,
-    switches.THETA_INCREMENTS,
-    integrals.THETA,
-    switches.JACOBIAN_INCREMENTS,
-    integrals.JACOBIAN,
+    coupling.CLAIM,
+    maps.LARGE,
+    maps.SEPARATE,
+    *maps.WIDTHS.values(),
+    *maps.CELLS.values(),
+    changes.THETA,
+    reasons.THETA,
+    changes.JACOBIAN,
+    reasons.JACOBIAN,
     expected_learning.CLAIM,
-    switches.SCHEDULE,
+    changes.SCHEDULE,
     rigid.CLAIM,
     initial_error.CLAIM,
     figure_1.CLAIM,
     speed_up.CLAIM,
     rough_search.CLAIM,
     controller_kept.CLAIM,
+    local_units.CLAIM,
 )
 
 

@@ -22,12 +22,14 @@ class Across(NamedTuple):
         number: what is in it, in words.
         comparison: what it is compared with.
         logarithmic: whether it is a ratio, or another number above zero; a correlation otherwise.
+        table: of the campaign, in which the column is.
     """
 
     column: str
     number: str
     comparison: Comparison = RATIO
     logarithmic: bool = True
+    table: str = "outcomes"
 
     def values(self, table: "pd.DataFrame") -> "pd.Series":
         """Of a table, in the scale in which they are averaged."""
@@ -46,22 +48,26 @@ class Across(NamedTuple):
         return self.back(student(self.values(reference).to_numpy()))
 
     def over(self, outcomes: "pd.DataFrame", design: "pd.DataFrame") -> "Setups":
-        """What all setups say.
+        """What all setups say, but for those with a bound in place of a number.
 
         Args:
             outcomes: a row for each replicate of each setup.
             design: (setup, factor) levels.
         """
         table = outcomes.assign(value=self.values(outcomes))
-        values = table.pivot(index="universe", columns="replicate", values="value")
-        return Setups(self, hierarchy(values.to_numpy(), design["effort"].to_numpy()))
+        if "bound" in table:
+            table["value"] = table["value"].where(table["bound"] == 0)
+        values = table.pivot(index="universe", columns="replicate", values="value").dropna()
+        levels = design.loc[values.index]
+        return Setups(self, hierarchy(values.to_numpy(), levels["effort"].to_numpy()), levels)
 
 
 class Setups(NamedTuple):
-    """A claim in all setups."""
+    """A claim in all setups, with the levels (setup, factor) of their choices."""
 
     across: Across
     model: Hierarchy
+    levels: "pd.DataFrame"
 
     @property
     def mean(self) -> Estimate:
@@ -89,12 +95,23 @@ class Setups(NamedTuple):
         with np.errstate(divide="ignore"):
             return int((margins > 0).sum()), float(ndtr(distance / luck).sum())
 
-    def said(self, strongest: "pd.Series") -> dict:
+    def effects(self, random: np.random.Generator) -> "pd.DataFrame":
+        """How much each choice moves the number: see `recalib.study.evidence.effects`."""
+        from recalib.study.evidence.effects import effects
+
+        table = effects(self.model.numbers, self.levels, random)
+        if self.across.logarithmic:
+            numbers = ["effect", "low", "high", "chance"]
+            table[numbers] = np.exp(table[numbers])
+        return table
+
+    def said(self, random: np.random.Generator) -> dict:
         """As the contract of claims.json has it.
 
         Args:
-            strongest: the row of `evidence.effects` for the choice that moves the number most.
+            random: of what choices do.
         """
+        strongest = self.effects(random).iloc[0]
         found = {
             "status": "measured",
             "setups": len(self.model.numbers),

@@ -95,8 +95,8 @@ SCHEDULE = claim(
     "schedule",
     id="schedule",
     section="6",
-    quotation="The neighborhood scheduling proposed by Ritter et al. does not take into account this"
-    " fact.",
+    quotation="The neighborhood scheduling proposed by Ritter et al. does not take into account"
+    " this fact.",
     statement="A schedule with equal visits at every width is better than Ritter's.",
     short="Equal visits at every width make the error {} times that of Ritter's schedule.",
     reason=ON_TWO_MAPS.format(6)

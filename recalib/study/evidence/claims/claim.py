@@ -43,27 +43,42 @@ class Finding:
         verdict: of what is no matter of `Across`; None where the setups judge.
         numbers: others, by label.
         note: what else there is to say.
+        ends: of what could be measured, by label: below and above stand bounds.
     """
 
     estimates: Mapping[str, Estimate] = field(default_factory=dict)
     verdict: Verdict | None = None
     numbers: Mapping[str, float] = field(default_factory=dict)
     note: str = ""
+    ends: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def said(self) -> dict:
-        """As the contract of claims.json has it: a bound is marked, and its number is the bound.
+        """As the contract of claims.json has it.
 
-        An interval that is not known, as that of a single search, is left out.
+        A bound is the end of what could be measured, and `bounds` says which numbers are bounds. An
+        interval that is not known, as that of a single search, is left out.
         """
-        measured = {label: each.mean for label, each in self.estimates.items()} | self.numbers
-        known = {
-            label: [each.low, each.high]
-            for label, each in self.estimates.items()
-            if not np.isnan(each).any()
-        }
+        measured, interval, bounds = dict(self.numbers), {}, {}
+        for label, estimate in self.estimates.items():
+            least, most = self.ends.get(label, (-np.inf, np.inf))
+            within = [
+                least if np.isnan(each) or each < least else min(each, most) for each in estimate
+            ]
+            known = label in self.ends or not np.isnan(estimate[1:]).any()
+            measured[label] = within[0]
+            if known:
+                interval[label] = [rounded(each) for each in within[1:]]
+            parts = [
+                name
+                for name, number in zip(estimate._fields, within, strict=True)
+                if number in (least, most)
+            ]
+            if parts:
+                bounds[label] = parts
         return {
             "measured": {label: rounded(value) for label, value in measured.items()},
-            "interval": {label: list(map(rounded, bounds)) for label, bounds in known.items()},
+            "interval": interval,
+            "bounds": bounds,
             "note": self.note,
         }
 
@@ -111,7 +126,8 @@ class Claim:
         request.fact("seed")
         if self.measure is None:
             request.reference()
-        request.outcomes()
+        for table in {across.table for across in self.across.values()}:
+            request.setups(table)
 
     def judge(self, evidence: Evidence) -> dict:
         """What was measured and the verdict, as the contract of claims.json has them."""
@@ -145,11 +161,12 @@ class Claim:
 
     def setups(self, evidence: Evidence) -> dict[str, Setups]:
         """The claim in all alternative setups, by system; empty where they are not measured."""
-        outcomes = evidence.outcomes() if self.across else None
-        if outcomes is None:
-            return {}
-        design = evidence.design()
-        return {system: across.over(outcomes, design) for system, across in self.across.items()}
+        found = {}
+        for system, across in self.across.items():
+            outcomes = evidence.setups(across.table)
+            if outcomes is not None:
+                found[system] = across.over(outcomes, evidence.design())
+        return found
 
     def _from(self, evidence: Evidence) -> Finding:
         reference = evidence.reference()
@@ -165,8 +182,4 @@ class Claim:
     def _said(self, system: str, setups: Mapping[str, Setups], evidence: Evidence) -> dict:
         if system not in setups:
             return NOT_MEASURED
-        from recalib.study.evidence.effects import effects
-
-        its = setups[system]
-        luck = evidence.rng("effects", self.id, system)
-        return its.said(effects(its.model.numbers, evidence.design(), luck).iloc[0])
+        return setups[system].said(evidence.rng("effects", self.id, system))

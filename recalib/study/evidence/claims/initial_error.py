@@ -35,8 +35,8 @@ def measure(evidence, limits):
 CLAIM = Claim(
     id="initial-error",
     section="7",
-    quotation="the initial mean average position and orientation error, when executing (1), was 8.3 cm"
-    " and 4.7 degrees, respectively",
+    quotation="the initial mean average position and orientation error, when executing (1), was 8.3"
+    " cm and 4.7 degrees, respectively",
     statement="This damage gives initial errors of {published[position_error_cm]} cm and"
     " {published[orientation_error_deg]} degrees.",
     short="Of all assignments of the damage, {} have a smaller position error than the published"

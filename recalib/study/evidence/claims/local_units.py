@@ -9,10 +9,10 @@ CLAIM = Claim(
     quotation="other neural network algorithms based on local units can also benefit from these"
     " improvements",
     statement="Other networks of local units benefit from increments, too.",
-    short="Radial units that share increments end at {} times the error of those that share values.",
-    criterion="The error of radial units that share increments of their commands over that of those"
-    " that share values is below 1, both tuned.",
-    reason="Radial units without Jacobians are the smallest other kind of local unit. Increments are"
-    " the improvement that carries the paper's own system.",
+    short="Radial units that share increments end at {} times the error of those with values.",
+    criterion="The error of radial units that share increments of their commands over that of"
+    " those that share values is below 1, both tuned.",
+    reason="Radial units without Jacobians are the smallest other kind of local unit. Increments"
+    " are the improvement that carries the paper's own system.",
     across={"radial units": Across("radial", "error with increments / with values")},
 )

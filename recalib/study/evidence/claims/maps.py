@@ -65,8 +65,8 @@ LARGE = Claim(
     " learn position commands",
     statement="Too large neighbourhoods of positions hurt position commands.",
     short="As tuned, the position error is {} times that with g_k as wide as the workspace.",
-    criterion="The position error as tuned is below that with the position map's g_k kept as wide as"
-    " the workspace, and all else tuned anew.",
+    criterion="The position error as tuned is below that with the position map's g_k kept as wide"
+    " as the workspace, and all else tuned anew.",
     reason="No neighbourhood is larger than the workspace. " + EQUIVALENT,
     across={"improved system": Across("narrow", "position error as tuned / with a wide g_k")},
 )
@@ -79,8 +79,8 @@ CELLS = {
         statement=f"The {kind} map needs fewer cells in the {spared}.",
         short=f"With fewer cells in the {spared} the {kind} error is {{}} times that with fewer in"
         f" the {other}.",
-        criterion=f"The {kind} error with 2 x 2 x 2 cells in the {spared} over that with 2 x 2 x 2 in"
-        f" the {other} is below 1, both tuned.",
+        criterion=f"The {kind} error with 2 x 2 x 2 cells in the {spared} over that with 2 x 2 x 2"
+        f" in the {other} is below 1, both tuned.",
         reason="What needs fewer cells loses less by having fewer. " + EQUIVALENT,
         across={
             "improved system": Across(

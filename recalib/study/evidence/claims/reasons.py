@@ -90,8 +90,8 @@ THETA = claim(
 JACOBIAN = claim(
     "jacobian",
     id="jacobian-reason",
-    quotation="The new update version is better than the classical one when the Jacobian function of"
-    " f' is more similar to df/dw than to a constant matrix.",
+    quotation="The new update version is better than the classical one when the Jacobian function"
+    " of f' is more similar to df/dw than to a constant matrix.",
     statement="Increments are better when the new Jacobian is nearer to the old one than to a"
     " constant.",
     short="The new update is better in a share of {} of the balls with that condition.",

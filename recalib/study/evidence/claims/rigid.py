@@ -1,18 +1,13 @@
 """Section 7: the whole robot moved."""
 
-import numpy as np
-
 from recalib.study.evidence.claims.claim import Claim, Finding
 from recalib.study.evidence.claims.remaining import remaining
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.measured import ERRORS, KINDS
-
-SCENARIOS = "translation", "rotation", "translation_rotation"
-NONE = 1e-6  # cm and degrees: an initial error below it is rounding
+from recalib.study.measured import ERRORS, KINDS, NONE, RIGID
 
 
 def needs(ask):
-    for scenario in SCENARIOS:
+    for scenario in RIGID:
         ask.history(ask.fact("improved"), scenario)
     for fact in ("iterations", "seed"):
         ask.fact(fact)
@@ -20,7 +15,7 @@ def needs(ask):
 
 def measure(evidence, limits):
     estimates, largest, improved = {}, {}, evidence.fact("improved")
-    for scenario in SCENARIOS:
+    for scenario in RIGID:
         for kind, name in enumerate(KINDS):
             label = f"{scenario.replace('_', ' and ')}, {name} error"
             if evidence.errors(improved, scenario, "first")[..., kind].max() < NONE:
