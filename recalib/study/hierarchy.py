@@ -8,6 +8,7 @@ search. This is a meta-analysis in which every setup is a study (Viechtbauer 200
 from typing import NamedTuple
 
 import numpy as np
+from scipy.special import ndtri
 from scipy.stats import chi2, t
 from scipy.stats.qmc import Sobol
 
@@ -26,7 +27,7 @@ class Hierarchy(NamedTuple):
         heterogeneity: standard deviation between setups without luck (Paule and Mandel), with the
             interval of a generalised Q.
         luck: standard deviation between replicates of a setup, with its chi-squared interval.
-        another: where 95 % of other setups would lie, without luck, about the mean.
+        another: the mean, and where another setup would lie in 95 % of cases, without luck.
         numbers: (setup,) the mean of each setup's replicates.
         luck_of_numbers: (setup,) standard deviation that luck gives each of them.
     """
@@ -39,10 +40,10 @@ class Hierarchy(NamedTuple):
     luck_of_numbers: np.ndarray
 
 
-def hierarchy(values: np.ndarray, groups: np.ndarray, draws: int = DRAWS) -> Hierarchy:
+def hierarchy(values: np.ndarray, groups: np.ndarray) -> Hierarchy:
     """The model fitted to values (setup, replicate), with luck of its own in each group (setup,).
 
-    At least three setups, and two replicates. `draws` is a power of two.
+    At least three setups, and two replicates.
     """
     setups, replicates = values.shape
     numbers, within = values.mean(axis=1), values.var(axis=1, ddof=1)
@@ -51,14 +52,13 @@ def hierarchy(values: np.ndarray, groups: np.ndarray, draws: int = DRAWS) -> Hie
     by_group = np.bincount(group, within) / sizes
     mean = student(numbers)
     freedom = sizes * (replicates - 1)
-    heterogeneity = _heterogeneity(numbers, by_group / replicates, group, freedom, draws)
-    error = np.sqrt(numbers.var(ddof=1) / setups)
-    reach = t.ppf(TAILS[1], setups - 1) * np.hypot(error, heterogeneity.mean)
+    own, draws = _own_variances(numbers, by_group / replicates, group, freedom)
+    heterogeneity = Estimate(*np.sqrt([own, *np.quantile(draws, TAILS)]).tolist())
     return Hierarchy(
         mean,
         heterogeneity,
         _pooled(by_group, sizes, replicates - 1),
-        Estimate(mean.mean, mean.mean - reach, mean.mean + reach),
+        _another(numbers, draws),
         numbers,
         np.sqrt(by_group[group] / replicates),
     )
@@ -84,25 +84,38 @@ def _pooled(variances: np.ndarray, sizes: np.ndarray, freedom: int) -> Estimate:
     return Estimate(float(np.sqrt(variance)), float(low), float(high))
 
 
-def _heterogeneity(
-    numbers: np.ndarray, by_group: np.ndarray, group: np.ndarray, freedom: np.ndarray, draws: int
-) -> Estimate:
-    """Standard deviation of what is a setup's own, from numbers (setup,) that have luck besides.
+def _own_variances(
+    numbers: np.ndarray, by_group: np.ndarray, group: np.ndarray, freedom: np.ndarray
+) -> tuple[float, np.ndarray]:
+    """Variance of what is a setup's own: the estimate, and draws of a generalised pivot.
 
-    The generalised Q falls with it, and is distributed as chi-squared at the true one. The interval
-    holds what is not known of luck, too: it is that of a generalised pivot, whose draws are spread
-    evenly instead of at random (Weerahandi 1993).
+    The generalised Q of numbers (setup,) falls with it, and is distributed as chi-squared at the
+    true one. The draws hold what is not known of luck, too; they are spread evenly instead of at
+    random (Weerahandi 1993).
 
     Args:
         by_group: (group,) variance that luck gives a number, with so many degrees of `freedom`.
         group: (setup,) of each number.
     """
-    evenly = Sobol(1 + len(by_group), rng=np.random.default_rng(0)).random(draws)
+    evenly = _evenly(1 + len(by_group), 0)
     targets = chi2.ppf(evenly[:, 0], len(numbers) - 1)
     luck = by_group * freedom / chi2.ppf(evenly[:, 1:], freedom)
-    (middle,) = _own_variance(numbers, by_group[None, group], np.array([len(numbers) - 1.0]))
-    low, high = np.quantile(_own_variance(numbers, luck[:, group], targets), TAILS)
-    return Estimate(*(float(np.sqrt(each)) for each in (middle, low, high)))
+    (estimate,) = _own_variance(numbers, by_group[None, group], np.array([len(numbers) - 1.0]))
+    return estimate, _own_variance(numbers, luck[:, group], targets)
+
+
+def _another(numbers: np.ndarray, own: np.ndarray) -> Estimate:
+    """Another setup, given draws (draw,) of the variance between setups."""
+    mean, degrees = numbers.mean(), len(numbers) - 1
+    error = np.sqrt(numbers.var(ddof=1) / len(numbers))
+    evenly = _evenly(2, 1)
+    drawn = mean + error * t.ppf(evenly[:, 0], degrees) + np.sqrt(own) * ndtri(evenly[:, 1])
+    return Estimate(float(mean), *np.quantile(drawn, TAILS).tolist())
+
+
+def _evenly(dimensions: int, seed: int) -> np.ndarray:
+    """Points (DRAWS, dimensions) of a scrambled Sobol sequence in the unit cube."""
+    return Sobol(dimensions, rng=np.random.default_rng(seed)).random(DRAWS)
 
 
 def _own_variance(numbers: np.ndarray, luck: np.ndarray, targets: np.ndarray) -> np.ndarray:

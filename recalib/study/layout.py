@@ -53,11 +53,6 @@ class Layout:
         return f"{self.root}/outcome.txt"
 
     @property
-    def coverage(self) -> str:
-        """How often intervals held, when the study was repeated within itself."""
-        return f"{self.root}/coverage.csv"
-
-    @property
     def check(self) -> str:
         """The check of the final errors."""
         return f"{self.root}/check.txt"

@@ -104,23 +104,6 @@ def ratio(ours: np.ndarray, theirs: np.ndarray, random: np.random.Generator) -> 
     return Estimate(*np.exp(draws.estimate(ours - theirs)))
 
 
-def ratio_searched_once(ours: np.ndarray, theirs: np.ndarray) -> tuple[float, float]:
-    """Where 95 % of studies with a single search for each training would find `ratio`'s number.
-
-    Student's interval of a prediction, for logarithms; seeds are as many as here. NaN for a single
-    search.
-    """
-    from scipy.special import stdtrit
-
-    by_search = [np.log(values).mean(axis=1) for values in (ours, theirs)]
-    if min(map(len, by_search)) < 2:
-        return np.nan, np.nan
-    luck = sum(each.var(ddof=1) * (1 + 1 / len(each)) for each in by_search)
-    student = stdtrit(sum(len(each) - 1 for each in by_search), (1 + LEVEL) / 2)
-    middle, half = by_search[0].mean() - by_search[1].mean(), student * np.sqrt(luck)
-    return float(np.exp(middle - half)), float(np.exp(middle + half))
-
-
 def combined(errors: np.ndarray) -> np.ndarray:
     """Geometric mean (...) of both errors (..., 2), by which learners are compared."""
     return np.sqrt(errors.prod(axis=-1))

@@ -3,7 +3,6 @@
 from functools import partial
 
 from recalib.study.evidence.claims import judging
-from recalib.study.evidence.coverage import needs as needs_of_coverage
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.outcome import needs as needs_of_outcome
 from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
@@ -71,27 +70,6 @@ rule outcome:
         "Say what came out"
     script:
         "../scripts/outcome.py"
-
-
-def coverage_needs(wildcards):
-    return asked(wildcards.root, needs_of_coverage)
-
-
-rule coverage:
-    input:
-        evidence=lambda w: coverage_needs(w).inputs,
-    output:
-        LAYOUT.coverage,
-    params:
-        code=code("study_coverage.py"),
-        job=lambda w: as_text(coverage_needs(w)),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=60),
-    message:
-        "Repeat the study in small, within itself: do its intervals hold?"
-    script:
-        "../scripts/study_coverage.py"
 
 
 def page_needs(wildcards):

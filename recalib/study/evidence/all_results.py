@@ -3,7 +3,7 @@
 import numpy as np
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.evidence.claims.speed_up import READINGS
+from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import brief, in_universes, n, pair, typical_errors, verdicts
@@ -48,7 +48,7 @@ def context(evidence: Evidence) -> dict:
     summary, claims = evidence.summary().to_dict("records"), evidence.claims()
     rows = {(row["scenario"], row["learner"]): row for row in summary}
     by_id = {claim["id"]: claim for claim in claims}
-    factor = by_id["speed-up"]["measured"][f"factor, {READINGS[RITTER]}"]
+    factor = by_id["speed-up"]["measured"][f"factor, {CELLS[RITTER]}"]
     return {
         "n": n,
         "pair": pair,

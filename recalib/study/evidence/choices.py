@@ -7,7 +7,7 @@ from recalib.study.evidence.words import amounts
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.outcomes()
+    ask.setups("outcomes")
     ask.assignments()
     for scenario in (None, "translation", "rotation"):
         ask.scenario(scenario)
@@ -18,7 +18,7 @@ def needs(ask: Request) -> None:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    improved, outcomes = evidence.fact("improved"), evidence.outcomes()
+    improved, outcomes = evidence.fact("improved"), evidence.setups("outcomes")
     searches = evidence.searched_for(improved).searches
     return {
         "universes": 0 if outcomes is None else len(outcomes),

@@ -6,7 +6,6 @@ import numpy as np
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS, speed_up
-from recalib.study.evidence.claims.across import RULE
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import depends, in_universes, measured, n, verdicts

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.speed_up import CLAIM, FACTOR
+from recalib.study.evidence.factor import PUBLISHED
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import n, one, typical_errors
@@ -37,6 +37,6 @@ def context(evidence: Evidence) -> dict:
         "claims": claims,
         "in_a_line": _in_a_line(claims),
         "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims.values()),
-        "published": FACTOR,
+        "published": PUBLISHED,
         "enough": f"{CLAIM.limits['factor']:g}",
     }

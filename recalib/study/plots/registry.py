@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
-from recalib.study.evidence.claims.speed_up import READINGS
-from recalib.study.evidence.claims.switches import ask_for
+from recalib.study.evidence.claims.changes import ask_for
+from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Needs, Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.layout import SHIPPED
@@ -89,7 +89,7 @@ def _figure8(ask: Request) -> None:
 
 
 def _figure9(ask: Request) -> None:
-    for learner in (IMPROVED, *READINGS):
+    for learner in (IMPROVED, *CELLS):
         ask.ladder(learner)
     ask.history(ask.fact("improved"))
     ask.fact("seed")
@@ -123,8 +123,7 @@ def _figure13(ask: Request) -> None:
 
 
 def _universes(ask: Request) -> None:
-    if not ask.outcomes():
-        ask.lack(f"name: {SHIPPED}")
+    ask.setups("outcomes")
     ask.fact("seed")
 
 
