@@ -7,6 +7,7 @@ SHIPPED = "replication"  # the name of the study that writes README, docs and fi
 RESULTS = "results"
 DESIGN = "workflow/universes/design.csv"  # the factors of each universe
 OUTCOMES = "workflow/universes/outcomes.csv"  # what was measured in each, shipped
+DEVIATIONS = "workflow/deviations.yaml"  # what changed after a result had been seen
 SEARCHED = "workflow/search"  # samples of the search that are shipped
 
 

@@ -14,7 +14,7 @@ from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import DESIGN, DEVIATIONS, OUTCOMES, SHIPPED, Layout
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
@@ -203,6 +203,10 @@ class Request:
     def claims(self) -> None:
         """The judged claims."""
         self._result(self._layout.claims)
+
+    def deviations(self) -> None:
+        """What changed after a result had been seen."""
+        self._result(DEVIATIONS)
 
     def coverage(self) -> None:
         """How often intervals held."""

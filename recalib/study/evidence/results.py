@@ -12,7 +12,7 @@ from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.needs import Needs
-from recalib.study.layout import DESIGN, OUTCOMES, SHIPPED, Layout
+from recalib.study.layout import DESIGN, DEVIATIONS, OUTCOMES, SHIPPED, Layout
 from recalib.study.measured import errors_of
 
 if TYPE_CHECKING:
@@ -142,6 +142,10 @@ class Evidence:
     def _read(self, path: str):
         with open(self._declared(path), encoding="utf-8") as text:
             return json.load(text)
+
+    def deviations(self) -> str:
+        """The path of what changed after a result had been seen."""
+        return self._declared(DEVIATIONS)
 
     def summary(self) -> "pd.DataFrame":
         """The first and the last errors of every training."""
