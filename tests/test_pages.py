@@ -141,7 +141,11 @@ def test_the_readme_is_read_in_a_few_minutes():
 
 @needs_results
 @pytest.mark.parametrize(
-    "page", ["README.md", "docs/results.md", "docs/findings.md", "docs/choices.md"]
+    "page",
+    [
+        "README.md",
+        *(f"docs/{name}.md" for name in ("results", "findings", "choices", "deviations")),
+    ],
 )
 def test_the_committed_pages_are_those_of_the_results(page):
     made = RESULTS / "pages" / page.split("/")[-1]

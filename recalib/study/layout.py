@@ -11,6 +11,7 @@ DESIGN = f"{SECOND}/design.csv"  # the factors of each universe
 REFERENCE = f"{SECOND}/reference.csv"  # the reference study, measured like a universe
 EFFORTS = f"{SECOND}/efforts.csv"  # its trainings for the factor of 70, by effort
 POWER = f"{SECOND}/power.csv"  # what the campaign can find
+DEVIATIONS = "workflow/deviations.yaml"  # what changed after a result had been seen
 SEARCHED = "workflow/search"  # samples of the search that are shipped
 
 

@@ -16,6 +16,7 @@ SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
 EXECUTED = {  # by a test, or by the check of a change
     "make": ".ci/run",
     "make quick": ".ci/run",
+    "make test": ".ci/run",
     "cat results/check.txt": ".ci/run",
     "cp workflow/studies/bent.yaml my_arm.yaml": ".ci/run",
     "make study STUDY=my_arm": ".ci/run",

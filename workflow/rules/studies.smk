@@ -46,6 +46,8 @@ def everything(root):
         wanted.append(its.check)
     if STUDIES[root].experiments.evidence:
         wanted += with_copies(root, pages=PAGES_BY_DEFAULT)
+    if root == RESULTS:
+        wanted += with_copies(root, pages=["deviations.md"])
     drawn_ = [Path(path).stem for path in figures_of(root)]
     drawn_ += IDEAS if root == RESULTS else []
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]

@@ -16,6 +16,7 @@ from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.layout import (
     DESIGN,
+    DEVIATIONS,
     EFFORTS,
     FIRST,
     POWER,
@@ -213,6 +214,10 @@ class Request:
     def claims(self) -> None:
         """The judged claims."""
         self._result(self._layout.claims)
+
+    def deviations(self) -> None:
+        """What changed after a result had been seen."""
+        self._result(DEVIATIONS)
 
     def reference(self) -> None:
         """The reference study measured as the alternative setups are."""

@@ -4,7 +4,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from recalib.study.evidence import all_results, choices, findings, guidance, readme, real_arm
+from recalib.study.evidence import (
+    all_results,
+    choices,
+    deviations,
+    findings,
+    guidance,
+    readme,
+    real_arm,
+)
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 
@@ -20,6 +28,7 @@ PAGES: Mapping[str, Page] = {
     "README.md": Page(readme.needs, readme.context),
     "results.md": Page(all_results.needs, all_results.context),
     "choices.md": Page(choices.needs, choices.context),
+    "deviations.md": Page(deviations.needs, deviations.context),
     "findings.md": Page(findings.needs, findings.context),
     "guidance.md": Page(guidance.needs, guidance.context),
     "real_arm.md": Page(real_arm.needs, real_arm.context),

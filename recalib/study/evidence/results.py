@@ -14,6 +14,7 @@ from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.needs import Needs
 from recalib.study.layout import (
     DESIGN,
+    DEVIATIONS,
     EFFORTS,
     FIRST,
     POWER,
@@ -151,6 +152,10 @@ class Evidence:
     def _read(self, path: str):
         with open(self._declared(path), encoding="utf-8") as text:
             return json.load(text)
+
+    def deviations(self) -> str:
+        """The path of what changed after a result had been seen."""
+        return self._declared(DEVIATIONS)
 
     def summary(self) -> "pd.DataFrame":
         """The first and the last errors of every training."""

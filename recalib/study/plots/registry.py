@@ -12,7 +12,6 @@ from recalib.study.evidence.claims.changes import ask_for
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Needs, Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.layout import SHIPPED
 
 if TYPE_CHECKING:
     import matplotlib.figure

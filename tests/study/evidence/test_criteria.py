@@ -1,4 +1,4 @@
-"""Criteria are those that were written before the first run: to change one is to change it here."""
+"""Limits are those that were written: to change one is to change it here."""
 
 import numpy as np
 import pandas as pd

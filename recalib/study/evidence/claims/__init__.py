@@ -1,6 +1,6 @@
 """The paper's claims, in its order: a file for each, or for those that are measured alike.
 
-Criteria were written before the first full run; what was changed after it says so.
+What changed in them after a result had been seen stands in `workflow/deviations.yaml`.
 """
 
 from collections.abc import Callable

@@ -1,0 +1,133 @@
+"""What changed after a result had been seen has a line, and the line says what git says."""
+
+import json
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import pytest
+
+from recalib.study.evidence import deviations
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.deviations import REMOVED, Deviations, context, digests, needs
+from recalib.study.evidence.pages import render
+from recalib.study.evidence.results import Evidence
+from tests.conftest import ROOT
+
+FILE = ROOT / "workflow" / "deviations.yaml"
+READ_AGAIN = "34056fe"  # the commit before the re-reading
+
+
+@pytest.fixture(scope="module")
+def told() -> Deviations:
+    return Deviations.read(FILE)
+
+
+def git(*arguments: str) -> str:
+    ran = subprocess.run(["git", *arguments], cwd=ROOT, text=True, capture_output=True, check=False)
+    if ran.returncode:
+        pytest.skip(f"needs the project's history: git {' '.join(arguments)}")
+    return ran.stdout.strip()
+
+
+def test_each_criterion_choice_and_design_is_the_one_named_last(told):
+    unnamed = told.unnamed(digests(ROOT))
+    assert not unnamed, (
+        f"{', '.join(unnamed)}: not as workflow/deviations.yaml names it last. Try: add an entry to"
+        " `deviations` there that says what changed, why, what it did to the verdicts and which"
+        " results had been seen; below its `digests`, put what"
+        " `python -m recalib.study.evidence.deviations` prints."
+    )
+
+
+def test_digests_are_of_criteria_of_the_rule_of_choices_and_of_designs(tmp_path, monkeypatch):
+    (tmp_path / "workflow" / "universes" / "second").mkdir(parents=True)
+    shipped = {"search": "a" * 16, "benchmark": "b" * 16}
+    (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped))
+    for name in ("design.csv", "outcomes.csv", "second/power.yaml", "second/outcomes_1.csv"):
+        (tmp_path / "workflow" / "universes" / name).write_text(name)
+    before = digests(tmp_path)
+    designs = {f"workflow/universes/{name}" for name in ("design.csv", "second/power.yaml")}
+    names = {claim.id for claim in CLAIMS} | {"rule of verdicts", "config.yaml: search"} | designs
+    assert set(before) == names and len(set(before.values())) == len(names)
+
+    monkeypatch.setattr(deviations, "RULE", "As one likes.")
+    (tmp_path / "workflow" / "universes" / "design.csv").write_text("drawn anew")
+    (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped | {"search": "c"}))
+    changed = {"rule of verdicts", "config.yaml: search", "workflow/universes/design.csv"}
+    now = digests(tmp_path)
+    assert {name for name in now if now[name] != before[name]} == changed
+
+
+@pytest.mark.parametrize("part", ["statement", "criterion", "limits"])
+def test_a_claim_has_another_digest_if_any_part_of_its_criterion_changes(part, monkeypatch):
+    first, *others = CLAIMS
+    other = {"limits": {name: 2 * its for name, its in first.limits.items()}}.get(part, "other")
+    monkeypatch.setattr(deviations, "CLAIMS", (replace(first, **{part: other}), *others))
+    assert [*Deviations.read(FILE).unnamed(digests(ROOT))] == [first.id]
+
+
+def test_what_an_entry_names_replaces_what_was_registered(told):
+    entry = told.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
+    its = Deviations(registered={"a": "1", "b": "1", "c": "1"}, deviations=(entry,), reread=())
+    assert its.unnamed({"a": "1", "b": "2"}) == {}
+    found = its.unnamed({"b": "1", "c": "1", "d": "1"})
+    assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
+
+
+def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
+    (tmp_path / "workflow" / "universes").mkdir(parents=True)
+    for name in ("shipped.json", "deviations.yaml"):
+        (tmp_path / "workflow" / name).write_bytes((ROOT / "workflow" / name).read_bytes())
+    ran = subprocess.run(
+        [sys.executable, "-m", "recalib.study.evidence.deviations"],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(ROOT)},
+        text=True,
+        capture_output=True,
+        check=True,
+    )
+    assert '"workflow/universes/design.csv": "removed"\n' in ran.stdout
+
+
+def test_entries_are_in_the_order_of_time_and_only_the_last_is_without_a_commit(told):
+    days = [each.day for each in told.deviations]
+    assert days == sorted(days)
+    assert all(each.commit for each in told.deviations if isinstance(each.when, datetime))
+
+
+def test_commits_are_of_the_time_that_is_told(told):
+    days = [(each.commit, each.day) for each in told.deviations if each.commit]
+    commits = [*dict(days)]
+    seconds = map(int, git("show", "--no-patch", "--format=%ct", *commits).splitlines())
+    at = [f"{datetime.fromtimestamp(each, UTC):%Y-%m-%d %H:%M}" for each in seconds]
+    assert set(days) == {*zip(commits, at, strict=True)}
+
+
+def test_verdicts_before_the_re_reading_are_those_of_its_commit(told):
+    page = git("show", f"{READ_AGAIN}:docs/results.md").split("## Claims\n")[1].split("\n## ")[0]
+    rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| ")][2:]
+    before = {name: its for each in told.reread for name, its in each.before.items()}
+    assert [cells[2].replace("**", "") for cells in rows] == [*before.values()]
+    assert set(before) <= set(told.registered)
+
+
+def test_every_claim_of_today_stands_for_a_claim_before_or_is_new(told):
+    now = [name for each in told.reread for name in each.now]
+    assert sorted(now) == sorted(claim.id for claim in CLAIMS), "in `reread` of deviations.yaml"
+
+
+def test_the_page_has_each_change_and_each_verdict_before_and_now(made_up, told):
+    said = context(Evidence(made_up.needs(needs)))
+    page = render(ROOT / "workflow" / "templates" / "deviations.md.j2", said)
+    assert re.findall(r"^## (.+)$", page, re.MULTILINE)[:-1] == [
+        each.what for each in told.deviations
+    ]
+    for each in told.deviations:
+        told_here = page.split(f"\n## {each.what}\n", 1)[1].split("\n## ")[0]
+        assert all(text in told_here for text in (each.before, each.after, each.why, each.verdict))
+    rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| separate-maps")]
+    before = "not supported (not supported for the improved system, undecided for Ritter's)"
+    assert [cells[1:4] for cells in rows] == [[before, "separate-maps", "**supported**"]]
