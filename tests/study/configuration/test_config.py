@@ -22,6 +22,7 @@ MISTAKES = yaml.safe_load((ROOT / "tests" / "mistakes.yaml").read_text(encoding=
 @pytest.fixture(autouse=True)
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "workflow").symlink_to(ROOT / "workflow")  # with the URDF of a robot
     return tmp_path
 
 
