@@ -131,7 +131,7 @@ class Layout:
         return f"{self.root}/ensemble/{series}.{learner}.parquet"
 
     def mapping(self, study: str) -> str:
-        """A measurement of the true mapping: coupling, propagation, quantisation, visits, replay."""
+        """A measurement of mapping: coupling, propagation, quantisation, visits, replay."""
         return f"{self.root}/mapping/{study}.parquet"
 
     def benchmark_batch(self, learner: str, batch: str) -> str:

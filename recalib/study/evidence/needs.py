@@ -175,7 +175,7 @@ class Request:
         self._result(self._layout.ensemble(series, learner))
 
     def mapping(self, name: str) -> None:
-        """A measurement of the true mapping: coupling, propagation, quantisation, visits, replay."""
+        """A measurement of mapping: coupling, propagation, quantisation, visits, replay."""
         self._beyond = True
         self._result(self._layout.mapping(name))
 
