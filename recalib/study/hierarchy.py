@@ -45,7 +45,7 @@ def hierarchy(values: np.ndarray, groups: np.ndarray) -> Hierarchy:
 
     At least three setups, and two replicates.
     """
-    setups, replicates = values.shape
+    replicates = values.shape[1]
     numbers, within = values.mean(axis=1), values.var(axis=1, ddof=1)
     _, group = np.unique(groups, return_inverse=True)
     sizes = np.bincount(group)

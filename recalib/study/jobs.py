@@ -130,14 +130,14 @@ class Draws(Frozen):
 
 
 class TrueMapping(Frozen):
-    """Measurements of the true mapping."""
+    """Measurements of the true mapping, and of the cells that cover it."""
 
     plan: Mapping
     seed: int
 
 
 class Visits(Frozen):
-    """The Monte Carlo of the expected learning and of the quantisation error: no robot."""
+    """The Monte Carlo of the expected learning."""
 
     seed: int
 

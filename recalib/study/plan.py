@@ -178,7 +178,7 @@ class Plan:
         return jobs.TrueMapping(plan=self.study.mapping, seed=self.study.seed)
 
     def visits(self) -> jobs.Visits:
-        """The Monte Carlo of the expected learning and of the quantisation error."""
+        """The Monte Carlo of the expected learning."""
         return jobs.Visits(seed=self.study.seed)
 
     def replay(self) -> jobs.Replay:

@@ -8,6 +8,7 @@ rule study_mapping:
     output:
         coupling=LAYOUT.mapping("coupling"),
         propagation=LAYOUT.mapping("propagation"),
+        quantisation=LAYOUT.mapping("quantisation"),
     params:
         code=code("study_mapping.py"),
         job=lambda w: as_text(plan(w).true_mapping()),
@@ -15,15 +16,14 @@ rule study_mapping:
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
-        "Measure what sections 4 and 5 say of the true mapping"
+        "Measure what section 3 says of the cells, and sections 4 and 5 of the true mapping"
     script:
         "../scripts/study_mapping.py"
 
 
 rule study_visits:
     output:
-        visits=LAYOUT.mapping("visits"),
-        quantisation=LAYOUT.mapping("quantisation"),
+        LAYOUT.mapping("visits"),
     params:
         code=code("study_visits.py"),
         job=lambda w: as_text(plan(w).visits()),
@@ -31,7 +31,7 @@ rule study_visits:
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
-        "Measure the quantisation of section 3 and the expected learning of section 6"
+        "Measure the expected learning of section 6"
     script:
         "../scripts/study_visits.py"
 
