@@ -20,7 +20,7 @@ def root_of(study: str) -> str:
     return RESULTS if study == SHIPPED else f"{RESULTS}/studies/{study}"
 
 
-PIECES = {"outcomes": 64, "horizon": 16}  # setups: what two cores measure in at most an hour
+PIECES = {"outcomes": 32, "horizon": 8}  # setups: what two cores measure in at most an hour
 
 
 def pieces(table: str, setups: int, root: str = SECOND) -> list[str]:

@@ -1,8 +1,11 @@
 """Numbers and results in words, for pages."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+import numpy as np
 
 from recalib.study.measured import ERRORS, UNITS
+from recalib.study.statistics import Estimate
 
 
 def n(value: float, digits: int = 2) -> str:
@@ -14,7 +17,36 @@ def n(value: float, digits: int = 2) -> str:
 
 def _rounding(value: float) -> str:
     """Says of a number that it is what the arithmetic leaves: each machine's differs."""
-    return "below 1e-6" if 0 < abs(value) < 1e-6 else ""
+    return "below 1e-6" if 0 < abs(value) <= 1e-6 else ""
+
+
+def short(value: float) -> str:
+    """A number with three digits."""
+    return _rounding(value) or f"{value:.3g}"
+
+
+def percent(value: float) -> str:
+    """A share."""
+    return _rounding(value) or f"{100 * value:.2g} %"
+
+
+def ranged(middle: float, bounds: Sequence[float], said=short) -> str:
+    """A number with its interval."""
+    low, high = map(said, bounds)
+    return f"{said(middle)} ({low} to {high})"
+
+
+def estimated(estimate: Estimate, longest: float = np.inf) -> str:
+    """An estimate with its interval; beyond the end of what was tried stand bounds."""
+
+    def number(value: float) -> str:
+        return f"more than {longest:g}" if value > longest else short(value)
+
+    if np.isnan(estimate.mean):
+        return "not known"
+    if np.isnan(estimate[1:]).any():
+        return number(estimate.mean)
+    return ranged(estimate.mean, estimate[1:], number)
 
 
 def pair(row: Mapping, moment: str) -> str:
@@ -23,74 +55,69 @@ def pair(row: Mapping, moment: str) -> str:
     return ", ".join(f"{n(error)} {unit}" for error, unit in zip(errors, UNITS, strict=True))
 
 
-def one(claim: Mapping, label: str) -> str:
-    """One of the numbers measured for a claim, with its interval."""
+def one(claim: Mapping, label: str, said=short) -> str:
+    """One of the numbers measured for a claim, with its interval; bounds are called so."""
+    bounds = claim["bounds"].get(label, ())
 
-    def number(value) -> str:
-        return "more" if value is None else _rounding(value) or f"{value:.3g}"
+    def number(value: float, part: str) -> str:
+        text = said(value)
+        return f"{'at least' if value > 1 else 'at most'} {text}" if part in bounds else text
 
-    text = number(claim["measured"][label])
+    text = number(claim["measured"][label], "mean")
     if label in claim["interval"]:
-        low, high = map(number, claim["interval"][label])
-        text += f" ({low} to {high})"
+        low, high = claim["interval"][label]
+        text += f" ({number(low, 'low')} to {number(high, 'high')})"
     return text
 
 
 def measured(claim: Mapping) -> str:
-    """What was measured for a claim, with intervals."""
+    """What was measured for a claim in the reference study, with intervals."""
     return "; ".join(f"{label}: {one(claim, label)}" for label in claim["measured"])
 
 
-def brief(claim: Mapping) -> str:
-    """What was measured first for a claim, with its interval."""
-    label = next(iter(claim["measured"]))
-    return f"{label}: {one(claim, label)}"
+def headline(claim: Mapping, said=short) -> str:
+    """The number that judges a claim, with its interval: over the setups where they judge it."""
+    its = claim["universes"]
+    if its["status"] == "measured" and claim["id"] != "speed-up":
+        return ranged(its["mean"], its["mean_interval"], said)
+    return one(claim, next(iter(claim["measured"])), said)
 
 
 def typical_errors(claim: Mapping) -> str:
     """Where the typical search ends, as the claim about Figure 1 has it."""
-    return " and ".join(f"{n(claim['measured'][f'final {unit}'])} {unit}" for unit in UNITS)
+    errors = (claim["measured"][f"final error [{unit}]"] for unit in UNITS)
+    return " and ".join(f"{n(error)} {unit}" for error, unit in zip(errors, UNITS, strict=True))
 
 
 def verdicts(claim: Mapping) -> str:
-    """The verdict on a claim; of one about several systems, that on each of them as well."""
+    """The verdict on a claim, and that on each other system beside it."""
+    first, *others = claim["systems"] or [""]
     text = f"**{claim['verdict']}**"
-    by_system = {system: its["verdict"] for system, its in claim["systems"].items()}
-    if set(by_system.values()) <= {claim["verdict"]}:
-        return text
-    return f"{text} ({', '.join(f'{verdict} for {its}' for its, verdict in by_system.items())})"
+    different = [
+        f"{system}: {claim['systems'][system]['verdict']}"
+        for system in others
+        if claim["systems"][system]["verdict"] != claim["verdict"]
+    ]
+    judged = f" ({first})" if others else ""
+    return f"{text}{judged}" + "".join(f"; {each}" for each in different)
 
 
-def in_universes(claim: Mapping) -> str:
-    """In how many universes a claim holds."""
-    systems = {system: its["universes"] for system, its in claim["systems"].items()}
-    found = systems or {"": claim["universes"]}
-    counts = (
-        f"{share['holds']} of {share['of']}{f' ({system})' if system else ''}"
-        for system, share in found.items()
-        if share
+def over_setups(its: Mapping) -> str:
+    """Mean, heterogeneity and luck over the alternative setups."""
+    if its["status"] != "measured":
+        return its["status"]
+    low, high = map(short, its["another_setup"])
+    text = (
+        f"mean {ranged(its['mean'], its['mean_interval'])},"
+        f" heterogeneity {ranged(its['heterogeneity'], its['heterogeneity_interval'])},"
+        f" luck {ranged(its['luck'], its['luck_interval'])}; another setup: {low} to {high}"
     )
-    return ", ".join(counts) or "cannot vary"
-
-
-def depends(claim: Mapping) -> str:
-    """The choice that moves a claim's number most, and by how much."""
-    shares = [its["universes"] for its in claim["systems"].values()] or [claim["universes"]]
-    texts = []
-    for system, share in zip(claim["systems"] or [""], shares, strict=True):
-        its = share["depends_on"]
-        if its["times"] == 1:
-            text = "none, it is the same in all"
-        elif its["times"] <= its["chance"]:
-            text = "no choice, by more than chance would show"
-        else:
-            low, high = its["interval"]
-            text = (
-                f"{its['factor'].replace('_', ' ')}, {its['times']:.3g} times"
-                f" ({low:.3g} to {high:.3g}) as large for {its['to']} as for {its['from']}"
-            )
-        texts.append(f"{system}: {text}" if system else text)
-    return "; ".join(texts)
+    if "holds" in its:
+        text += (
+            f"; holds in {its['holds']} of {its['setups']}, by luck alone in"
+            f" {its['holds_by_luck_alone']:.1f}"
+        )
+    return text
 
 
 def amounts(entry: Mapping) -> str:

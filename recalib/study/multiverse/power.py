@@ -16,8 +16,8 @@ STUDIES = 1000
 # Standard deviation of the logarithm of a ratio between two searches, by effort: what the first
 # campaign showed for the small effects (full: in the reference study; rough: over setups).
 LUCK = {"full": 0.13, "rough": 0.39}
-EFFECTS = 1.0, 0.95, 0.94, 0.93, 0.92, 0.9
-HETEROGENEITIES = 0.0, 0.05, 0.1, 0.2
+EFFECTS = 1.0, 0.95, 0.93, 0.91, 0.9
+HETEROGENEITIES = 0.0, 0.1, 0.2
 
 
 def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame":

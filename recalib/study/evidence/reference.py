@@ -1,0 +1,117 @@
+"""What the reference study's replicates say in more detail: maps, schedules and widths."""
+
+from collections.abc import Mapping
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.stats import rankdata
+
+from recalib.study.evidence.claims.maps import WIDTHS
+from recalib.study.evidence.speedup import iterations_needed
+from recalib.study.evidence.verdicts import RATIO, Verdict
+from recalib.study.hierarchy import student
+from recalib.study.measured import ERRORS, KINDS
+from recalib.study.multiverse.reference import LENGTHS, SYSTEMS
+from recalib.study.statistics import Estimate, combined
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+FLIPS = 10_000  # of the permutation test
+NAMES = {"improved": "improved system", "ritter": "Ritter's"}
+
+
+def _geometric(values: np.ndarray) -> Estimate:
+    """The geometric mean of values (replicate,), with Student's interval."""
+    return Estimate(*np.exp(student(np.log(values))).tolist())
+
+
+def two_maps(reference: "pd.DataFrame") -> list[dict]:
+    """By system and iterations: the error with two maps over that with one."""
+    rows = []
+    for system, iterations in product(SYSTEMS, LENGTHS):
+        one, two = (combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two"))
+        estimate = _geometric(two / one)
+        verdict = RATIO.verdict(estimate)
+        rows.append(
+            {"system": NAMES[system], "iterations": iterations, "ratio": estimate, "verdict": verdict}
+        )
+    return rows
+
+
+def speed_of_two_maps(reference: "pd.DataFrame") -> list[dict]:
+    """By system: iterations of two maps over those of one for the same errors.
+
+    The errors are those of one map in the middle of the ladder: of others, one of the two is not
+    always within it. `unknown` replicates are not within it either, and left out.
+    """
+    rows = []
+    for system, iterations in product(SYSTEMS, LENGTHS[1:3]):
+        goal = _errors(reference, "one", system)[iterations]
+        ladder = np.stack(list(_errors(reference, "two", system).values()), axis=1)
+        factors = iterations_needed(np.array(LENGTHS), ladder, goal) / iterations
+        known = np.isfinite(factors)
+        estimate = _geometric(factors[known]) if known.sum() > 1 else Estimate(np.nan, np.nan, np.nan)
+        about = {"system": NAMES[system], "iterations": iterations}
+        rows.append(about | {"factor": estimate, "unknown": int((~known).sum())})
+    return rows
+
+
+def _errors(reference: "pd.DataFrame", maps: str, system: str) -> dict[int, np.ndarray]:
+    """Errors (replicate, 2) by number of iterations."""
+    return {
+        iterations: np.stack(
+            [reference[f"{maps}_{system}_{iterations}_{error}"] for error in ERRORS], axis=-1
+        )
+        for iterations in LENGTHS
+    }
+
+
+def schedules(reference: "pd.DataFrame") -> list[dict]:
+    """By system, law of the rate and n: the error with equal visits over that without."""
+    rows = []
+    for system, rate, n in product(NAMES, ("linear", "exponential"), (3, 6)):
+        estimate = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
+        verdict: Verdict = RATIO.verdict(estimate)
+        about = {"system": NAMES[system], "rate": rate, "n": n}
+        rows.append(about | {"ratio": estimate, "verdict": verdict})
+    return rows
+
+
+def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dict]:
+    """By map: the permutation test that exchanges g_k and g_kl, over all searches together.
+
+    Args:
+        trials: all of a sample; those of the first rounds are looked at.
+        random: of the exchanges.
+
+    Both widths of a trial have the same distribution. If they mattered alike, their log ratio could
+    have had either sign.
+    """
+    first, rows = trials[trials["round"] == 1], []
+    for kind, error, sign in zip(KINDS, ERRORS, (1, -1), strict=True):
+        ranks = first.groupby("search")[error].transform(lambda its: rankdata(its) - its.size / 2)
+        moved = ranks.to_numpy() * np.log(first[f"{kind}/g_k"] / first[f"{kind}/g_kl"]).to_numpy()
+        found = sign * moved.sum()
+        exchanged = (random.integers(2, size=(FLIPS, len(moved))) * 2 - 1) @ moved
+        p = (1 + (np.abs(exchanged) >= abs(found)).sum()) / (1 + FLIPS)
+        rows.append({"statement": WIDTHS[kind].statement, "trials": len(moved), "p": p})
+    return rows
+
+
+def spread_of_luck(reference: "pd.DataFrame", columns: Mapping[str, str]) -> list[dict]:
+    """What one search alone would find, by what is compared: where 95 % of replicates lie.
+
+    Args:
+        columns: of ratios, by what they are called.
+    """
+    from scipy.special import stdtrit
+
+    rows = []
+    for name, column in columns.items():
+        values = np.log(reference[column].to_numpy())
+        reach = stdtrit(len(values) - 1, 0.975) * values.std(ddof=1) * np.sqrt(1 + 1 / len(values))
+        low, high = np.exp([values.mean() - reach, values.mean() + reach])
+        rows.append({"name": name, "low": low, "high": high})
+    return rows
