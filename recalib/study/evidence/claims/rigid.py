@@ -9,8 +9,7 @@ from recalib.study.measured import ERRORS, KINDS, NONE, RIGID
 def needs(ask):
     for scenario in RIGID:
         ask.history(ask.fact("improved"), scenario)
-    for fact in ("iterations", "seed"):
-        ask.fact(fact)
+    ask.fact("seed")
 
 
 def measure(evidence, limits):
