@@ -2,112 +2,168 @@
 
 import json
 import math
-import re
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from recalib.study.evidence.claims import CLAIMS, judging, missing
-from recalib.study.evidence.claims.claim import Claim, Finding, Limit, above, below, every
-from recalib.study.evidence.claims.integrals import _where_it_ends
-from recalib.study.evidence.claims.speed_up import READINGS
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Needs
 from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.evidence.words import measured
+from recalib.study.evidence.verdicts import Verdict
+from recalib.study.layout import REFERENCE, SECOND
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import Estimate
-from tests.made_up import INITIAL, MadeUp
+from tests.made_up import INITIAL, LUCK, REPLICATES, MadeUp, few_resamples
 
 IDS = [claim.id for claim in CLAIMS]
 
 
+# The real robot is not here: no number that could be made up decides this one.
+UNDECIDED = {"rigid"}
+FACTORS = [f"factor, as many cells as {cells}" for cells in CELLS.values()]
+
+
 @pytest.fixture(scope="module")
 def supporting(few, tmp_path_factory) -> MadeUp:
-    return MadeUp(tmp_path_factory.mktemp("supporting"), few)
+    return MadeUp(tmp_path_factory.mktemp("supporting"), few).campaign()
+
+
+@pytest.fixture(scope="module")
+def judged(supporting) -> dict[str, dict]:
+    with few_resamples():
+        return {claim["id"]: claim for claim in supporting.judge()}
 
 
 def test_every_claim_says_all_of_itself():
     assert len(set(IDS)) == len(IDS)
-    assert all(claim.criterion and claim.reason and claim.limits for claim in CLAIMS)
+    assert all(claim.criterion and claim.reason and claim.quotation for claim in CLAIMS)
     for claim in CLAIMS:
         assert claim.reason.format(**claim.limits)
+        assert claim.short.count("{}") == 1
+        assert claim.measure or claim.across
 
 
-def test_supporting_evidence_supports_every_claim(supporting):
-    assert {claim["id"]: claim["verdict"] for claim in supporting.judge()} == dict.fromkeys(
-        IDS, "supported"
-    )
+def test_supporting_evidence_supports_every_claim(judged):
+    expected = {name: "undecided" if name in UNDECIDED else "supported" for name in IDS}
+    assert {name: claim["verdict"] for name, claim in judged.items()} == expected
 
 
-def test_what_is_measured_is_what_was_made_up(supporting):
+def test_without_the_campaign_the_reference_study_decides(few, tmp_path):
+    claims = {claim["id"]: claim for claim in MadeUp(tmp_path, few).judge()}
+    assert {name for name, its in claims.items() if its["verdict"] != "supported"} == UNDECIDED
+
+
+def test_what_is_measured_is_what_was_made_up(judged):
     """But for luck, which is of some hundredths for a mean over searches and seeds."""
     cm, deg = INITIAL
-    switches = {
-        "improved with it / without it": 0.1 / 0.4,
-        "Ritter with it / without it": np.sqrt(4 * 2 / (5 * 3)),
+    switches = {"improved system": 0.1 / 0.4, "Ritter's": np.sqrt(4 * 2 / (5 * 3))}
+    balls = {
+        "share of balls in which the new update is better, where the condition holds": 1.0,
+        "share of balls in which the condition holds": 1.0,
     }
-    integrals = {"E_upd / E_clas, intact": 0.1, "E_upd / E_clas, damaged": 0.1}
     expected = {
-        "identity": {"largest cm": 1e-9, "largest degrees": 1e-9},
-        "ritter-slow": {"position left": 5 / cm, "orientation left": 3 / deg},
-        # 95 % of what is spread evenly from half to one and a half of it
-        "weak-coupling": {"position commands": 1.45 * 0.02, "orientation commands": 1.45 * 0.05},
-        "width-order": {
-            "position map, g_k over g_kl": 0.3,
-            "orientation map, g_k over g_kl": 1 / 0.3,
+        "identity": {
+            "largest position error [cm]": 1e-9,
+            "largest orientation error [degrees]": 1e-9,
         },
-        **dict.fromkeys(("theta-reason", "jacobian-reason"), integrals),
+        "grid": {
+            "grid / after Kohonen's rule": 0.5 / 0.55,
+            "grid / least of k-means": 0.5 / 0.49,
+            "grid / grid from face to face": 0.5 / 0.6,
+        },
+        "ritter-slow": {
+            "Ritter's": 5 / cm,
+            "position error": 5 / cm,
+            "orientation error": 3 / deg,
+        },
+        "weak-coupling": {"the mapping": 0.05},
+        "large-neighbourhoods": {"improved system": 0.5},
+        "separate-maps": {
+            "Ritter's, 1,000 iterations": 0.5,
+            "Ritter's, 200 iterations": 0.5,
+            "improved system, 200 iterations": 0.5,
+        },
+        **dict.fromkeys(("theta-reason", "jacobian-reason"), balls),
+        **dict.fromkeys(("theta-increments", "jacobian-increments", "schedule"), switches),
+        "cells-position": {"improved system": 0.5},
+        "cells-orientation": {"improved system": 0.5},
         "expected-learning": {"largest deviation": 0.01},
-        **dict.fromkeys(
-            ("separate-maps", "theta-increments", "jacobian-increments", "schedule"), switches
-        ),
         "rigid": {
-            "translation, position": 0.1 / cm,
-            "rotation, position": 0.1 / cm,
-            "rotation, orientation": 0.1 / deg,
-            "translation and rotation, position": 0.1 / cm,
-            "translation and rotation, orientation": 0.1 / deg,
-            "translation, orientation at most": 1e-9,
+            "translation, position error": 0.1 / cm,
+            "rotation, position error": 0.1 / cm,
+            "rotation, orientation error": 0.1 / deg,
+            "translation and rotation, position error": 0.1 / cm,
+            "translation and rotation, orientation error": 0.1 / deg,
+            "translation, orientation error at most": 1e-6,
         },
         "initial-error": {
-            "assignments below 8.3 cm": 14 / 41,
-            "assignments below 4.7 deg": 14 / 41,
+            "share of assignments below 8.3 cm": 14 / 41,
+            "share of assignments below 4.7 deg": 14 / 41,
         },
         "figure-1": {
-            "position left": 0.1 / cm,
-            "orientation left": 0.1 / deg,
-            "final cm": 0.1,
-            "final degrees": 0.1,
+            "improved system": 0.1 / deg,
+            "position error": 0.1 / cm,
+            "orientation error": 0.1 / deg,
+            "final error [cm]": 0.1,
+            "final error [degrees]": 0.1,
         },
-        "rough-search": {"improved": 0.3, "Ritter": 0.3},
+        "speed-up": dict.fromkeys(FACTORS, 70),
+        "rough-search": {"improved system": 0.05},
         "controller-kept": {"largest difference": 0.0},
+        "local-units": {"radial units": 0.5},
     }
-    found = {claim["id"]: claim["measured"] for claim in supporting.judge()}
-    assert found.pop("speed-up") == dict.fromkeys([f"factor, {x}" for x in READINGS.values()])
+    found = {name: claim["measured"] for name, claim in judged.items()}
+    for name in ("widths-position", "widths-orientation"):  # a correlation's luck adds up
+        assert found.pop(name) == {"improved system": pytest.approx(0.4, abs=0.15)}
     assert found == {name: pytest.approx(its, rel=0.15, abs=0) for name, its in expected.items()}
 
 
-def test_the_contract_of_claims_json_holds(supporting):
-    keys = ["id", "section", "statement", "published", "measured", "interval", "criterion"]
-    for claim in json.loads(json.dumps(supporting.judge(), allow_nan=False)):
-        assert list(claim) == [*keys, "verdict", "note", "universes", "systems"]
-        assert claim["measured"] and measured(claim)
+MEASURED = {
+    *("status", "setups", "mean", "mean_interval", "heterogeneity", "heterogeneity_interval"),
+    *("luck", "luck_interval", "another_setup", "depends_on"),
+}
+
+
+def test_the_contract_of_claims_json_holds(judged):
+    keys = ["id", "section", "quotation", "statement", "published", "criterion", "measured"]
+    keys += ["interval", "bounds", "note", "verdict", "universes", "systems"]
+    text = json.dumps([*judged.values()], allow_nan=False)
+    assert "null" not in text
+    for claim in json.loads(text):
+        assert list(claim) == keys
+        assert claim["verdict"] in {*Verdict} and claim["measured"]
         assert set(claim["interval"]) <= set(claim["measured"])
         assert "{" not in "".join(claim[key] for key in ("statement", "published", "criterion"))
+        for its in claim["systems"].values():
+            assert its["verdict"] in {*Verdict}
+            assert MEASURED <= {*its["universes"]} <= MEASURED | {"holds", "holds_by_luck_alone"}
+
+
+def test_what_cannot_vary_is_told_from_what_was_not_measured(few, tmp_path, judged):
+    fixed = {"grid", "theta-reason", "jacobian-reason", "expected-learning", "rigid"}
+    fixed |= {"initial-error", "controller-kept"}
+    without = {claim["id"]: claim for claim in MadeUp(tmp_path, few).judge()}
+    for name in IDS:
+        measured, unmeasured = judged[name]["universes"], without[name]["universes"]
+        expected = ("cannot vary",) * 2 if name in fixed else ("measured", "not measured")
+        assert (measured["status"], unmeasured["status"]) == expected, name
 
 
 def test_limits_are_said_in_words():
     said = "{a:word}, {a:percent}, {b:central}, {c}, {d:word}"
-    limits = {"a": Limit(0.1), "b": Limit(0.025), "c": Limit(0.001), "d": Limit(2.0)}
-    assert said.format(**limits) == "tenth, 10 %, 95 %, 0.001, twice"
+    limits = {"a": Limit(0.1), "b": Limit(0.025), "c": Limit(0.001), "d": Limit(3.0)}
+    assert said.format(**limits) == "tenth, 10 %, 95 %, 0.001, three"
 
 
+@few_resamples()
 def test_a_claim_sees_what_it_declared_and_nothing_else(supporting):
     job = judging(supporting.request)
     for claim in CLAIMS:
         needs = supporting.made(job.claims[claim.id])
-        for path in needs.files:
+        for path in (each for each in needs.files if f"{SECOND}/" not in each or "design" in each):
             without = tuple(each for each in needs.files if each != path)
             with pytest.raises(Undeclared, match=path):
                 claim.judge(Evidence(needs.model_copy(update={"files": without})))
@@ -126,84 +182,125 @@ def test_needs_travel_as_text(supporting):
     assert Needs.model_validate_json(needs.model_dump_json()) == needs
 
 
-@pytest.mark.parametrize(
-    ("claim", "final"),
-    [
-        ("identity", {("improved", "intact"): [0.002, 0]}),
-        ("ritter-slow", {"ritter_200": [1.0, 3.0]}),
-        ("figure-1", {"improved": 1.0}),
-        ("separate-maps", {"improved_single_map": 0.05, "ritter_separate_maps": [9.0, 5.0]}),
-        ("theta-increments", {"improved_theta_values": 0.05, "ritter_theta_increments": 4.0}),
-        ("jacobian-increments", {"improved_jacobian_values": 0.1, "ritter_jacobian_increments": 9}),
-        ("schedule", {"improved_exponential": 0.05, "ritter_equal_visits": [5.0, 3.0]}),
-        ("rigid", {("improved", "rotation"): [0.5, 0.1]}),
-        ("rigid", {("improved", "translation"): [0.1, 0.02]}),
-        ("speed-up", {"ritter_2000": 0.05, "ritter_double_2000": 0.05}),
-    ],
-)
-def test_contradicting_errors_change_the_verdict(few, tmp_path, claim, final):
-    assert MadeUp(tmp_path, few, final).verdict(claim) == "not supported"
+def test_a_text_may_use_every_limit_in_every_way_that_it_does(supporting):
+    for claim in CLAIMS:
+        facts = supporting.needs(claim.ask).facts
+        for text in (claim.statement, claim.criterion, claim.reason, claim.published):
+            assert "{" not in text.format(**claim.limits, **facts)
 
 
 @pytest.mark.parametrize(
-    ("claim", "final"),
+    ("claim", "final", "verdict"),
     [
-        ("ritter-slow", {"ritter_200": [0.25 * 8.3, 3.0]}),
-        ("figure-1", {"improved": [0.83, 0.1]}),
-        ("rigid", {("improved", "rotation"): [0.05 * 8.3, 0.1]}),
-        # neither helps
-        ("separate-maps", {"improved_single_map": 0.1, "ritter_separate_maps": [5.0, 3.0]}),
-        # one helps, and one harms
-        ("schedule", {"improved_exponential": 0.05}),
-        # the readings of "the same number of neurons" do not agree
-        ("speed-up", {"ritter_2000": 0.05}),
-        ("speed-up", {"ritter_double_2000": 0.05}),
-        # they do not get there, but in many repetitions of the study they would
-        ("speed-up", {"ritter": 0.105, "ritter_double": 0.105}),
+        ("identity", {("improved", "intact"): [0.002, 0]}, "contradicted"),
+        ("ritter-slow", {"ritter_200": [1.0, 3.0]}, "contradicted"),
+        ("ritter-slow", {"ritter_200": [0.25 * 8.3, 3.0]}, "undecided"),
+        ("figure-1", {"improved": 1.0}, "contradicted"),
+        ("figure-1", {"improved": [0.83, 0.1]}, "undecided"),
+        ("theta-increments", {"improved_theta_values": 0.05}, "contradicted"),
+        ("theta-increments", {"improved_theta_values": 0.11}, "undecided"),
+        ("jacobian-increments", {"improved_jacobian_values": 0.05}, "contradicted"),
+        ("schedule", {"improved_exponential": 0.05}, "contradicted"),
+        ("speed-up", {"ritter_double_2000": 0.05}, "contradicted"),
+        ("rigid", {("improved", "rotation"): [4.0, 4.0]}, "undecided"),
     ],
 )
-def test_errors_between_change_the_verdict_to_undecided(few, tmp_path, claim, final):
-    assert MadeUp(tmp_path, few, final).verdict(claim) == "undecided"
+def test_other_errors_change_the_verdict(few, tmp_path, claim, final, verdict):
+    assert MadeUp(tmp_path, few, final).verdict(claim) == verdict
 
 
-def test_a_change_that_helps_one_system_alone_is_supported_for_that_one(few, tmp_path):
-    made_up = MadeUp(tmp_path, few, {"ritter_jacobian_increments": [5.0, 3.0]})
+def test_the_system_for_which_the_paper_makes_a_claim_decides(few, tmp_path):
+    made_up = MadeUp(tmp_path, few, {"ritter_jacobian_increments": [9.0, 6.0]})
     judged = made_up.judged("jacobian-increments")
+    verdicts = {name: system["verdict"] for name, system in judged["systems"].items()}
+    assert verdicts == {"improved system": "supported", "Ritter's": "contradicted"}
     assert judged["verdict"] == "supported"
-    verdicts = [system["verdict"] for system in judged["systems"].values()]
-    assert verdicts == ["supported", "undecided"]
 
 
-def test_whole_intervals_are_judged_three_ways():
-    inside, low, high = (Estimate(1.0, *bounds) for bounds in ((0.9, 1.1), (0.8, 0.9), (1.1, 1.2)))
-    assert [below(each, 1.0) for each in (inside, low, high)] == [None, True, False]
-    assert [above(each, 1.0) for each in (inside, low, high)] == [None, False, True]
-    assert [every(each) for each in ([True, True], [True, None], [None, False])] == [
-        True,
-        None,
-        False,
-    ]
+OF_SETUPS = [claim for claim in CLAIMS if claim.measure is None]
+
+
+@pytest.mark.parametrize("claim", OF_SETUPS, ids=lambda claim: claim.id)
+def test_the_mean_over_the_setups_decides_but_never_against_the_reference_study(
+    few, tmp_path, claim
+):
+    across = next(iter(claim.across.values()))
+    limit, factor = across.comparison.limit, 0.5 if across.comparison.below else 2.0
+    right, wrong = limit * factor or 0.4, limit / factor or -0.4
+    neutral = "no effect" if across.comparison.bounds else "undecided"
+    made_up = MadeUp(tmp_path, few)
+
+    def verdict(reference, setups):
+        luck = LUCK * np.resize([-1.0, 1.0], REPLICATES)  # none on average: 0 or 1 is inside
+        values = reference * np.exp(luck) if across.logarithmic else reference + luck
+        table = made_up.reference().assign(**{across.column: values})
+        made_up.write(made_up.layout.shipped(REFERENCE), table)
+        made_up.campaign(outcomes=made_up.outcomes({across.column: setups}))
+        return made_up.verdict(claim.id)
+
+    with few_resamples():
+        cases = (right, right), (limit, right), (limit, wrong), (right, wrong), (wrong, right)
+        decided = ["supported", "supported", "contradicted", "undecided", "undecided"]
+        assert [verdict(*case) for case in cases] == decided
+        assert [verdict(each, limit) for each in (limit, right, wrong)] == [neutral] * 3
 
 
 def test_contradicting_measurements_change_the_verdict(few, tmp_path):
     made_up = MadeUp(tmp_path, few)
+    quantised, balls = made_up.quantisation(), made_up.propagation
+    worse = quantised.assign(distance=quantised["distance"].where(quantised.seed < 0, 0.5))
+    worse.loc[worse["placement"] == "boxes", "distance"] = 0.6
     for claim, name, table in (
-        ("weak-coupling", "coupling", made_up.coupling().assign(position=0.2)),
-        ("theta-reason", "propagation", made_up.propagation(1.2)),
-        ("jacobian-reason", "propagation", made_up.propagation(1.0)),
+        ("grid", "quantisation", worse),
+        ("theta-reason", "propagation", balls(1.2)),
+        ("jacobian-reason", "propagation", balls(1.0)),
         ("expected-learning", "visits", made_up.visits().assign(ratio=1.2, error=0.1)),
         ("controller-kept", "replay", made_up.replay().assign(difference=1e-9)),
     ):
         made_up.write(made_up.layout.mapping(name), table)
-        assert made_up.verdict(claim) == "not supported", claim
+        assert made_up.verdict(claim) == "contradicted", claim
+
+
+def test_a_grid_has_to_be_near_to_the_least_that_is_known(few, tmp_path):
+    made_up = MadeUp(tmp_path, few)
+    table = made_up.quantisation()
+    table.loc[table["placement"] == "kmeans", "distance"] *= 0.8
+    made_up.write(made_up.layout.mapping("quantisation"), table)
+    assert made_up.verdict("grid") == "contradicted"
+
+
+def test_a_condition_that_is_met_nowhere_decides_nothing(few, tmp_path):
+    made_up = MadeUp(tmp_path, few)
+    table = made_up.propagation(1.0).assign(to_original=0.9)
+    made_up.write(made_up.layout.mapping("propagation"), table)
+    judged = made_up.judged("theta-reason")
+    assert judged["verdict"] == "undecided"
+    json.dumps(judged, allow_nan=False)
+
+
+@pytest.mark.parametrize(("better", "verdict"), [(95, "supported"), (94, "contradicted")])
+def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, better, verdict):
+    """Others say nothing of it."""
+    made_up, rows = MadeUp(tmp_path, few), []
+    for ball in range(150):
+        meets = ball < 100
+        updated = 0.5 if ball < better else 2.0
+        ends = (0.1, 0.9) if meets else (0.9, 0.1)
+        rows.append(("theta", "damaged", 1.0, 1.0, updated, *ends))
+    columns = ["kind", "start", "scale", "classic", "updated", "to_original", "to_constant"]
+    table = pd.DataFrame(rows, columns=columns)
+    made_up.write(made_up.layout.mapping("propagation"), table)
+    judged = made_up.judged("theta-reason")
+    assert judged["verdict"] == verdict
+    assert [*judged["measured"].values()] == pytest.approx([better / 100, 2 / 3, 0], abs=1e-4)
 
 
 @pytest.mark.parametrize(
     ("ratio", "error", "verdict"),
     [
         (1.04, 0.02, "supported"),  # within 5 %, and within three standard errors
-        (1.04, 0.01, "not supported"),  # not within these
-        (0.94, 0.04, "not supported"),  # not within 5 %
+        (1.04, 0.01, "contradicted"),  # not within these
+        (0.94, 0.04, "contradicted"),  # not within 5 %
     ],
 )
 def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, ratio, error, verdict):
@@ -213,60 +310,54 @@ def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, rati
     assert made_up.verdict("expected-learning") == verdict
 
 
-def test_the_note_says_between_which_shifts_the_reason_ends():
-    ratios = pd.Series([0.1, 0.2, 0.5, 0.9, 1.5], index=[0.1, 0.5, 1.0, 4.0, 8.0])
-    assert _where_it_ends(ratios).startswith(
-        "E_upd passes E_clas between 4 and 8 times the paper's"
-    )
-    assert "below E_clas up to 4 times the paper's" in _where_it_ends(ratios[:4])
-
-
-def test_contradicting_trials_change_the_verdict(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
-    trials = made_up.trials("improved")
-    swapped = {"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"}
-    made_up.sample("improved", trials.rename(columns=swapped))
-    assert made_up.verdict("width-order") == "not supported"
-    blind = np.where(trials.index % 100 == 0, 0.01, 3.0)
-    made_up.sample("improved", trials.assign(score=blind))
-    assert made_up.verdict("rough-search") == "not supported"
-
-
 def test_unusual_initial_errors_change_the_verdict(few, tmp_path):
     published = few.paper_damage.published.model_copy(update={ERRORS[0]: 30.0})
     damage = few.paper_damage.model_copy(update={"published": published})
     made_up = MadeUp(tmp_path, few.model_copy(update={"paper_damage": damage}))
     judged = made_up.judged("initial-error")
-    assert judged["verdict"] == "not supported"
+    assert judged["verdict"] == "contradicted"
     assert judged["statement"] == "This damage gives initial errors of 30.0 cm and 4.7 degrees."
 
 
 @pytest.mark.parametrize(
-    ("rung", "verdict", "bound"), [(200, "undecided", "1"), (20_000, "supported", "100")]
+    ("final", "verdict", "number", "bounds", "said"),
+    [
+        # it never gets there: the factor is above 100
+        (
+            {"ritter_double": 5.0},
+            "contradicted",
+            100,
+            ["mean", "low", "high"],
+            "does not get there",
+        ),
+        # in many repetitions of the study it would
+        ({"ritter_double": 0.101}, "undecided", 100, ["mean", "high"], "does not get there"),
+        # nothing less was tried than what gets there: nobody knows
+        (
+            {"ritter_double_200": 0.05},
+            "undecided",
+            1,
+            [],
+            "needs at most 200 iterations, the first",
+        ),
+    ],
 )
-def test_the_highest_rung_is_a_lower_bound_and_nothing_more(few, tmp_path, rung, verdict, bound):
-    """Ritter's never gets there: that supports the factor as far as its ladder reaches."""
-    ladder = {"improved": few.experiments.ladder["improved"], **dict.fromkeys(READINGS, (rung,))}
-    its = few.model_copy(
-        update={"experiments": few.experiments.model_copy(update={"ladder": ladder})}
-    )
-    final = {f"{learner}_{rung}": [5.0, 3.0] for learner in READINGS}
-    judged = MadeUp(tmp_path, its, final).judged("speed-up")
+def test_the_end_of_a_ladder_is_a_bound_and_is_called_so(
+    few, tmp_path, final, verdict, number, bounds, said
+):
+    if "ritter_double" in final:
+        rungs = few.experiments.ladder["ritter_double"]
+        names = [f"ritter_double_{rung}" for rung in rungs]
+        names[rungs.index(few.learners["ritter_double"].iterations)] = "ritter_double"
+        worst = dict.fromkeys(names, 5.0)
+        final = worst | {"ritter_double_20000": final["ritter_double"]}
+    judged = MadeUp(tmp_path, few, final).judged("speed-up")
     assert judged["verdict"] == verdict
-    assert judged["measured"] == {f"factor, {name}": None for name in READINGS.values()}
-    assert judged["note"].count(f"all that is known is a factor above {bound}") == 2
-    assert "published" not in judged["note"]
-
-
-def test_what_gets_there_in_its_shortest_training_has_a_factor_of_at_most_that(few, tmp_path):
-    """Nothing less was tried: so nobody knows, and least of all that it does not get there."""
-    judged = MadeUp(tmp_path, few, {"ritter_200": 0.05}).judged("speed-up")
-    first, other = READINGS.values()
-    assert judged["verdict"] == "undecided"
-    assert judged["measured"] == {f"factor, {first}": 1, f"factor, {other}": None}
-    assert list(judged["interval"]) == [f"factor, {other}"]
-    assert "gets there in 200: all that is known is a factor of at most 1 and" in judged["note"]
-    assert judged["note"].count("does not get there") == 1
+    assert judged["measured"][FACTORS[0]] == number
+    assert [each for each in judged["bounds"].get(FACTORS[0], []) if each in bounds] == bounds
+    assert FACTORS[1] not in judged["bounds"]
+    assert said in judged["note"].split(" and, ")[0]
+    assert "null" not in json.dumps(judged, allow_nan=False)
 
 
 def test_a_single_search_has_no_interval_to_say(study, tmp_path):
@@ -274,14 +365,22 @@ def test_a_single_search_has_no_interval_to_say(study, tmp_path):
     made_up = MadeUp(tmp_path, study.model_copy(update={"name": "once", "search": once}))
     judged = made_up.judged("ritter-slow")
     assert judged["verdict"] == "undecided" and judged["interval"] == {}
-    assert re.fullmatch(r"position left: 0\.\d+; orientation left: 0\.\d+", measured(judged))
+    assert "null" not in json.dumps(judged, allow_nan=False)
 
 
-def test_a_number_that_is_missing_decides_nothing():
-    missing, unbounded = (math.nan, 2.0), (3.0, np.inf)
-    assert Finding(True, {"factor": math.nan}).systems == {"": None}
-    assert Finding(False, {"factor": 1.0}, {"factor": missing}).systems == {"": None}
-    assert Finding(True, {"factor": np.inf}, {"factor": unbounded}).systems == {"": True}
+def test_ends_take_the_place_of_what_is_not_known():
+    nan, inf = math.nan, math.inf
+    found = Finding(
+        {
+            "never": Estimate(inf, 60.0, inf),
+            "at once": Estimate(nan, 0.0, 2.0),
+            "a number": Estimate(5.0, 4.0, 6.0),
+        },
+        ends={"never": (1.0, 100.0), "at once": (1.0, 100.0)},
+    ).said()
+    assert found["measured"] == {"never": 100, "at once": 1, "a number": 5}
+    assert found["interval"] == {"never": [60, 100], "at once": [1, 2], "a number": [4, 6]}
+    assert found["bounds"] == {"never": ["mean", "high"], "at once": ["mean", "low"]}
 
 
 def test_what_the_claims_lack_is_told_by_key(study):
@@ -298,30 +397,29 @@ def test_what_the_claims_lack_is_told_by_key(study):
     ]
     assert lacking(learners=("improved", "ritter")) == ["experiments.learners: ritter_200"]
     assert lacking(switches=False) == ["experiments.switches: true"]
-    rungs = dict.fromkeys(READINGS, (200, 10_000))
+    rungs = dict.fromkeys(CELLS, (200, 10_000))
     assert lacking(ladder=rungs | {"improved": (50,)}) == ["experiments.ladder.improved: 200"]
     assert lacking(ladder={"improved": (200,), "ritter": (200, 10_000)}) == [
         "experiments.ladder.ritter_double"
     ]
-    coarse = study.mapping.model_copy(update={"scales": (2.0,)})
-    assert missing(study.model_copy(update={"mapping": coarse})) == ["mapping.scales: 1"]
 
 
 def test_adding_a_claim_touches_its_file_and_the_list_alone(supporting):
     claim = Claim(
         id="new",
         section="1",
+        quotation="there are",
         statement="There are {iterations}.",
         short="There are {}",
-        published="no number",
         limits={"most": Limit(1000)},
         criterion="At most {most}.",
         reason="Why not.",
         needs=lambda ask: ask.fact("iterations"),
         measure=lambda evidence, limits: Finding(
-            evidence.fact("iterations") <= limits["most"], {"n": evidence.fact("iterations")}
+            verdict=Verdict.SUPPORTED, numbers={"n": evidence.fact("iterations")}
         ),
     )
-    judged = claim.judge(Evidence(supporting.needs(claim.needs)))
+    judged = claim.judge(Evidence(supporting.needs(claim.ask)))
     assert judged["statement"] == "There are 200." and judged["criterion"] == "At most 1000."
-    assert judged["verdict"] == "supported"
+    assert (judged["verdict"], judged["published"]) == ("supported", "no number")
+    assert judged["universes"] == {"status": "cannot vary"} and judged["measured"] == {"n": 200}
