@@ -1,89 +1,151 @@
-"""Verdicts over universes, and what they depend on."""
+"""A claim over all setups: mean, heterogeneity and luck, counts, and what they depend on."""
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.across import Across, Share, over_all
+from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.effects import effects
+from recalib.study.evidence.verdicts import CORRELATION, Comparison
+from recalib.study.hierarchy import hierarchy
+from recalib.study.statistics import Estimate
+from tests.made_up import few_resamples
 
-UNIVERSES = 128
-
-
-def share(holds: int, of: int = UNIVERSES) -> Share:
-    return Share(holds, of, pd.Series(dtype=float))
-
-
-@pytest.mark.parametrize(
-    ("home", "holds", "verdict"),
-    [
-        (True, 120, True),
-        (True, 64, None),  # at home alone
-        (True, 5, None),
-        (None, 120, None),  # nearly everywhere, but not shown at home
-        (None, 64, None),
-        (None, 30, False),
-        (False, 30, False),
-        (False, 64, None),
-        (False, 120, None),  # elsewhere, but the reverse at home
-    ],
-)
-def test_the_rule_of_verdicts(home, holds, verdict):
-    assert over_all(home, share(holds)) is verdict
-
-
-@pytest.mark.parametrize("home", [True, False, None])
-def test_without_universes_home_decides(home):
-    assert over_all(home, None) is home
-
-
-def test_the_interval_of_a_share_is_wilsons():
-    low, high = share(64).interval
-    assert (low, high) == pytest.approx((0.4147, 0.5853), abs=1e-4)
-    assert share(128).interval[1] == 1.0
-
-
-def test_a_claim_holds_on_its_side_of_the_limit():
-    outcomes = pd.DataFrame({"factor": [10.0, 60.0, np.inf]})
-    assert list(Across("factor", "", below=False).holds(outcomes, 50)) == [False, True, True]
-    assert list(Across("factor", "").holds(outcomes, 50)) == [True, False, False]
-
-
-def test_claims_name_limits_of_their_own():
-    for claim in CLAIMS:
-        assert all(across.limit in claim.limits for across in claim.across.values())
+SETUPS = 64
+RATIO = Across("theta", "a ratio")
+ORDER = Across("order", "a correlation", CORRELATION, logarithmic=False)
 
 
 def design(random) -> pd.DataFrame:
-    half = np.arange(UNIVERSES) % 2
-    columns = {"robot": np.arange(UNIVERSES) % 4, "home": random.permutation(half)}
+    half = np.arange(SETUPS) % 2
+    columns = {"effort": half, "robot": np.arange(SETUPS) % 4, "home": random.permutation(half)}
     return pd.DataFrame(columns | {"norm": random.permutation(half)}).astype(str)
+
+
+def outcomes(column, mean, luck=0.1, own=0.1, logarithmic=True, seed=0) -> pd.DataFrame:
+    random = np.random.default_rng(seed)
+    values = mean + own * random.normal(size=(SETUPS, 1)) + luck * random.normal(size=(SETUPS, 2))
+    keys = pd.MultiIndex.from_product([range(SETUPS), range(2)], names=["universe", "replicate"])
+    numbers = np.exp(values) if logarithmic else values
+    return pd.DataFrame({column: numbers.ravel()}, index=keys).reset_index()
+
+
+LEVELS = design(np.random.default_rng(1))
+
+
+def test_ratios_are_averaged_as_logarithms_and_correlations_as_they_are():
+    table = outcomes("theta", -0.3)
+    over = RATIO.over(table, LEVELS)
+    geometric = np.exp(np.log(table["theta"]).mean())
+    assert over.mean.mean == pytest.approx(geometric)
+    assert over.mean.low < geometric < over.mean.high
+    table = outcomes("order", 0.3, logarithmic=False)
+    assert ORDER.over(table, LEVELS).mean.mean == pytest.approx(table["order"].mean())
+    reference = pd.DataFrame({"theta": [0.5, 2.0, 1.0], "order": [0.1, 0.2, 0.3]})
+    assert RATIO.in_reference(reference).mean == pytest.approx(1)
+    assert ORDER.in_reference(reference).mean == pytest.approx(0.2)
+
+
+def test_setups_and_replicates_may_come_in_any_order():
+    table = outcomes("theta", -0.3)
+    shuffled = table.sample(frac=1, random_state=0)
+    one, other = RATIO.over(table, LEVELS), RATIO.over(shuffled, LEVELS)
+    assert one.mean == other.mean and one.model.luck == other.model.luck
+
+
+def test_luck_has_the_groups_of_the_effort_of_the_design():
+    table = outcomes("theta", 0.0)
+    values = np.log(table["theta"]).to_numpy().reshape(SETUPS, 2)
+    expected = hierarchy(values, LEVELS["effort"].to_numpy())
+    found = RATIO.over(table, LEVELS).model
+    assert found.luck == pytest.approx(expected.luck)
+    assert found.luck_of_numbers == pytest.approx(expected.luck_of_numbers)
+
+
+def test_a_setup_with_a_bound_in_place_of_a_number_enters_no_mean():
+    table = outcomes("factor", 4.0).assign(bound=0)
+    table.loc[table["universe"] < 10, "factor"] = 1e6
+    table.loc[(table["universe"] < 10) & (table["replicate"] == 1), "bound"] = [1, -1] * 5
+    factor = Across("factor", "a factor", Comparison(50.0, below=False), table="horizon")
+    over = factor.over(table, LEVELS)
+    assert len(over.model.numbers) == len(over.levels) == SETUPS - 10
+    assert over.mean.mean == pytest.approx(np.exp(4), rel=0.1)
+
+
+def test_the_verdict_is_that_of_the_mean_unless_the_reference_study_says_the_opposite():
+    over = RATIO.over(outcomes("theta", -0.3), LEVELS)
+    assert over.verdict(Estimate(0.7, 0.6, 0.8)) == "supported"
+    assert over.verdict(Estimate(1.3, 1.2, 1.4)) == "undecided"
+
+
+@pytest.mark.parametrize(
+    ("mean", "sign", "counted"), [(-1.0, 1, True), (1.0, 1, True), (-0.1, 1, False)]
+)
+def test_setups_are_counted_only_where_luck_is_small_beside_the_mean(mean, sign, counted):
+    over = RATIO.over(outcomes("theta", mean, own=0.5), LEVELS)
+    if not counted:
+        assert over.holds is None
+        return
+    holds, alone = over.holds
+    assert holds == (over.model.numbers < 0).sum()
+    assert 0 < holds < SETUPS, "heterogeneity lets it hold and fail somewhere"
+    expected = SETUPS if mean < 0 else 0  # no luck of a setup's number reaches the limit
+    assert alone == pytest.approx(expected, abs=0.1)
+
+
+def test_a_count_goes_by_the_side_and_the_limit_of_the_claim():
+    above = Across("theta", "a share", Comparison(0.25, below=False))
+    over = above.over(outcomes("theta", np.log(0.25) + 1.0, own=0.5), LEVELS)
+    holds, alone = over.holds
+    assert holds == (np.exp(over.model.numbers) > 0.25).sum() < SETUPS
+    assert alone == pytest.approx(SETUPS, abs=0.1)
+
+
+def test_where_there_is_no_luck_it_holds_by_the_mean_everywhere():
+    over = RATIO.over(outcomes("theta", -0.5, luck=0.0, own=0.4), LEVELS)
+    assert over.holds[1] == SETUPS
+
+
+@few_resamples()
+def test_what_is_said_is_in_the_unit_of_the_number():
+    said = RATIO.over(outcomes("theta", -1.0), LEVELS).said(np.random.default_rng(2))
+    assert (said["status"], said["setups"]) == ("measured", SETUPS)
+    assert said["mean"] == pytest.approx(np.exp(-1), rel=0.05)
+    assert said["mean_interval"][0] < said["mean"] < said["mean_interval"][1]
+    assert said["heterogeneity"] == pytest.approx(0.1, abs=0.05), "of logarithms"
+    assert said["luck"] == pytest.approx(0.1, abs=0.03)
+    assert np.log(said["another_setup"]) == pytest.approx([-1.2, -0.8], abs=0.1)
+    assert said["holds"] == SETUPS == pytest.approx(said["holds_by_luck_alone"], abs=0.01)
+    assert said["depends_on"]["factor"] in LEVELS and said["depends_on"]["effect"] >= 1
+    low, high = said["depends_on"]["interval"]
+    assert low <= high
+
+
+@few_resamples()
+def test_what_a_choice_does_to_a_correlation_is_a_difference():
+    table = outcomes("order", 0.3, logarithmic=False, own=0.0, luck=0.01)
+    table["order"] += 0.2 * (LEVELS["home"].to_numpy()[table["universe"]] == "1")
+    said = ORDER.over(table, LEVELS).said(np.random.default_rng(2))["depends_on"]
+    assert (said["factor"], said["from"], said["to"]) == ("home", "0", "1")
+    assert said["effect"] == pytest.approx(0.2, abs=0.02)
 
 
 def test_the_factor_that_matters_is_found_with_how_much_it_matters():
     random = np.random.default_rng(1)
-    factors = design(random)
-    values = np.exp(0.2 * random.normal(size=UNIVERSES)) * np.where(factors["home"] == "1", 2, 1)
-    table = effects(pd.Series(values), factors, random)
+    values = 0.2 * random.normal(size=SETUPS) + np.where(LEVELS["home"] == "1", 0.5, 0)
+    with few_resamples():
+        table = effects(values, LEVELS, random)
     first = table.iloc[0]
     assert (first["factor"], first["least"], first["largest"]) == ("home", "0", "1")
-    assert first["low"] < 2 < first["high"] and first["effect"] > first["chance"]
-    assert len(table) == 3 and (table["effect"] / table["chance"]).is_monotonic_decreasing
+    assert first["low"] < 0.5 < first["high"] and first["effect"] > first["chance"]
+    assert len(table) == 4 and (table["effect"] - table["chance"]).is_monotonic_decreasing
 
 
 def test_in_95_percent_no_factor_without_effect_exceeds_chance():
     found = []
-    for repetition in range(40):
-        random = np.random.default_rng(repetition)
-        values = pd.Series(np.exp(random.normal(size=UNIVERSES)))
-        table = effects(values, design(random), random)
-        found.append((table["effect"] > table["chance"]).any())
-    assert np.mean(found) <= 0.1, "four of forty: the binomial's 95 %"
-
-
-def test_what_was_not_reached_counts_as_twice_the_largest():
-    factors = pd.DataFrame({"cells": ["one"] * 4 + ["both"] * 4})
-    values = pd.Series([10.0] * 4 + [40.0, 40.0, np.inf, np.inf])
-    first = effects(values, factors, np.random.default_rng(0)).iloc[0]
-    assert first["effect"] == pytest.approx(4 * np.sqrt(2))
+    with few_resamples():
+        for repetition in range(40):
+            random = np.random.default_rng(repetition)
+            table = effects(random.normal(size=SETUPS), design(random), random)
+            found.append((table["effect"] > table["chance"]).any())
+    assert np.mean(found) <= 0.125, "five of forty: the binomial's 97 %"
