@@ -31,11 +31,18 @@ def two_maps(reference: "pd.DataFrame") -> list[dict]:
     """By system and iterations: the error with two maps over that with one."""
     rows = []
     for system, iterations in product(SYSTEMS, LENGTHS):
-        one, two = (combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two"))
+        one, two = (
+            combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two")
+        )
         estimate = _geometric(two / one)
         verdict = RATIO.verdict(estimate)
         rows.append(
-            {"system": NAMES[system], "iterations": iterations, "ratio": estimate, "verdict": verdict}
+            {
+                "system": NAMES[system],
+                "iterations": iterations,
+                "ratio": estimate,
+                "verdict": verdict,
+            }
         )
     return rows
 
@@ -52,7 +59,9 @@ def speed_of_two_maps(reference: "pd.DataFrame") -> list[dict]:
         ladder = np.stack(list(_errors(reference, "two", system).values()), axis=1)
         factors = iterations_needed(np.array(LENGTHS), ladder, goal) / iterations
         known = np.isfinite(factors)
-        estimate = _geometric(factors[known]) if known.sum() > 1 else Estimate(np.nan, np.nan, np.nan)
+        estimate = (
+            _geometric(factors[known]) if known.sum() > 1 else Estimate(np.nan, np.nan, np.nan)
+        )
         about = {"system": NAMES[system], "iterations": iterations}
         rows.append(about | {"factor": estimate, "unknown": int((~known).sum())})
     return rows

@@ -120,6 +120,18 @@ def over_setups(its: Mapping) -> str:
     return text
 
 
+def depends(its: Mapping) -> str:
+    """The choice that moves a claim's number most, and by how much; empty where none is known."""
+    if its["status"] != "measured":
+        return ""
+    its = its["depends_on"]
+    if its["effect"] <= its["chance"]:
+        return "No choice moves it by more than chance would show."
+    factor, least, largest = (its[key].replace("_", " ") for key in ("factor", "from", "to"))
+    effect = ranged(its["effect"], its["interval"])
+    return f"The choice that moves it most is {factor}: {effect} from {least} to {largest}."
+
+
 def amounts(entry: Mapping) -> str:
     """A damage in the words of the configuration, without their keys."""
     values = (", ".join(each) if isinstance(each, list) else each for each in entry.values())
