@@ -11,6 +11,7 @@ import numpy as np
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.quantities import LENGTH
@@ -46,13 +47,13 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
         return found
     for name in dict.fromkeys(robot for _, robot in used):
         try:
-            controller = Controller(robots[name], study.controller.greatest_condition)
+            Controller(robots[name], study.controller.greatest_condition)
         except RecalibError as error:
             found.append(_of_robot(name, error))
             continue
         its = [scenario for scenario, robot in used if robot == name]
         for scenario in its:
-            found += _of_scenario(study, scenario, controller)
+            found += _of_scenario(study, scenario, robots[name])
         if any(isinstance(entry, Assigned) for each in its for entry in study.scenarios[each]):
             found += _of_assignment(study, robots[name])
     if study.experiments.evidence and not found:
@@ -88,16 +89,16 @@ def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | Non
     return None
 
 
-def _of_scenario(study: Study, scenario: str, controller: Controller) -> Iterator[Mistake]:
+def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
     """Links and joints that the robot lacks, amounts that are too much for it, and a base from
     which it does not even reach the middle of its workspace.
     """
-    robot, moved = controller.robot, []
+    moved: list[BaseShift] = []
     for index, entry in enumerate(study.scenarios[scenario]):
         path = "scenarios", scenario, index
         if isinstance(entry, BaseShift):
             moved.append(entry)
-            if not _reaches_middle(controller, moved):
+            if not _reaches_middle(robot, moved):
                 key, stood = next(iter(describe(entry).items()))
                 where = f"the middle of the workspace within reach of the {robot.name}"
                 yield unlike((*path, key), stood, f"less, so that it leaves {where}")
@@ -110,11 +111,12 @@ def _of_scenario(study: Study, scenario: str, controller: Controller) -> Iterato
                 yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
 
 
-def _reaches_middle(controller: Controller, moved: Iterable[BaseShift]) -> bool:
-    """Whether the controller can be told a pose that takes the moved robot there."""
-    home = controller.robot.home[None]
-    middle, now = (apply(controller.robot, shifts).forward(home) for shifts in ((), moved))
-    return bool(controller.solve(middle @ np.linalg.inv(now) @ middle).reached[0])
+def _reaches_middle(robot: Robot, moved: Iterable[BaseShift]) -> bool:
+    """Whether a command takes the moved robot to the middle of its workspace."""
+    home = robot.home[None]
+    middle, now = (apply(robot, shifts).forward(home) for shifts in ((), moved))
+    angles, left = Chain.of(robot.arm).solve(middle @ np.linalg.inv(now) @ middle, home)
+    return bool(left[0] <= TOLERANCE and np.all((robot.lower <= angles) & (angles <= robot.upper)))
 
 
 def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
