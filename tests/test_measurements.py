@@ -20,6 +20,7 @@ from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.loading import load
+from recalib.measurements import check_moves
 from recalib.nominal.poses import position_error
 
 SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
@@ -60,6 +61,42 @@ def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, e
     with pytest.raises(BadMeasurement, match=r"move 0 of run 1 measured \(.*; valid: six coord"):
         learner.learn(DESIRED, execute, 0.0)
     assert np.array_equal(learner.command(TESTS), before)
+
+
+UNIT = np.eye(6)[3]  # of the coordinates that a learner sees, along one of them
+SPOILT = {
+    "an outlier of 30 units": lambda achieved, step: achieved + 30 * UNIT * (step == 5),
+    "an outlier of 8 units": lambda achieved, step: achieved - 8 * UNIT * (step == 5),
+    "another unit, 100 of which are one": lambda achieved, step: 100 * achieved,
+    "angles in degrees": lambda achieved, step: achieved * [1, 1, 1, 57.3, 57.3, 57.3],
+    "every pose the same": lambda achieved, step: np.full_like(achieved, 0.3),
+    "every pose the same, with noise": lambda achieved, step: 0.3 + 1e-3 * achieved,
+}
+
+
+@pytest.mark.parametrize("spoil", SPOILT.values(), ids=SPOILT)
+@pytest.mark.parametrize("name", LEARNERS)
+def test_no_learner_takes_what_no_damage_explains(name, spoil, makers):
+    learner, poses = makers[name](RUNS), np.random.default_rng(4).uniform(-1, 1, (8, RUNS, 6))
+    with pytest.raises(BadMeasurement, match=r"move 0 of run 0 measured \(.*; valid: (six|another)"):
+        for step, desired in enumerate(poses):
+            learner.learn(
+                desired,
+                lambda commands, step=step: Outcome(
+                    spoil(commands + 0.1, step), np.ones(commands.shape[:2], dtype=bool)
+                ),
+                step / len(poses),
+            )
+
+
+def test_what_the_study_does_is_taken():
+    """Turns beyond half a turn and back, serious damage, learners that diverge, refused moves."""
+    sent = np.array([[[0, 0, 0, 20.0, 0, 0], [0.9] * 6, [np.nan] * 6, [1e9] * 6]])
+    came = np.array([[[0, 0, 0, 2.0, 9, 9], [3.0] * 6, [0.1] * 6, [0.1] * 6]])
+    executed = np.array([[True, True, False, False]])
+    last = check_moves(sent, came, executed)
+    assert [part.shape for part in last] == [(1, 1, 6), (1, 1, 6), (1, 1)]
+    check_moves(sent[:, 1:2], came[:, 3:], np.array([[True]]), last)  # nobody moved before it
 
 
 @pytest.mark.parametrize("name", LEARNERS)
