@@ -9,13 +9,16 @@ import numpy as np
 from recalib.errors import BadMeasurement
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
-# Workspace coordinates, of which the workspace holds -1 to 1. Three times the paper's damage moves an
-# arm by 1 or 2; who is 5 outside of the workspace is more than twice its size away from it.
+# Workspace coordinates; the workspace reaches from -1 to 1. Damage of 12 cm and 12 degrees in each of
+# several parts moves an arm by 1 or 2. Beyond 5 it is away by more than twice the workspace's size.
 OUTSIDE = 5.0
 # A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
 # middle axis comes back as up to half a turn about the others, which is at most twice as much.
 WRAPPED = 2.0
-MOVED, STUCK = 0.1, 0.01  # commands that are so far apart do not lead to poses so near to each other
+MOVED, STUCK = (
+    0.1,
+    0.01,
+)  # commands that are so far apart do not lead to poses so near to each other
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 
