@@ -9,8 +9,8 @@ import numpy as np
 from recalib.errors import BadMeasurement
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
-# Workspace coordinates; the workspace reaches from -1 to 1. Damage of 12 cm and 12 degrees in each of
-# several parts moves an arm by 1 or 2. Beyond 5 it is away by more than twice the workspace's size.
+# Workspace coordinates; the workspace reaches from -1 to 1. Links 12 cm too short and encoders 12
+# degrees off move an arm by 1 or 2. At 5 it is away by twice the size of the workspace.
 OUTSIDE = 5.0
 # A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
 # middle axis comes back as up to half a turn about the others, which is at most twice as much.
