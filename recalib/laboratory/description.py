@@ -41,7 +41,7 @@ class Description:
         columns: by a heading of the table, what should have stood there, or "ignored".
         instrument: (4, 4) m in the arm's base frame; None where it is unknown.
         target: (4, 4) m in the tool link's frame; None where it is unknown.
-        distances: m between the centres of two sockets.
+        distances: m between the centres of two sockets, by their names in alphabetical order.
     """
 
     columns: Mapping[str, str] = field(default_factory=dict)
@@ -102,7 +102,13 @@ def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
 def _distances(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
-    return dict(map(_distance, given))
+    distances = {}
+    for pair, length in map(_distance, given):
+        if pair in distances:
+            found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
+            raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
+        distances[pair] = length
+    return distances
 
 
 def _distance(given: Any) -> tuple[tuple[str, str], float]:
@@ -114,7 +120,7 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
     length = _read("distance.length", given["length"], LENGTH)
     if length <= 0:
         raise InvalidSetting("distance.length", given["length"], "more than zero")
-    return (str(between[0]), str(between[1])), length
+    return tuple(sorted(map(str, between))), length
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:

@@ -96,7 +96,7 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
     if (kinematics := kinematics_yaml(geometry)) is not None:
         (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")
     result.correction.save(folder / CORRECTION)
-    parameters = [vars(each) for each in described(geometry, result.left_open)]
+    parameters = [vars(each) for each in described(result)]
     _write_table(folder / TABLE, parameters)
     offsets = [each for each in parameters if each["name"].startswith("offset of ")]
     _write_table(folder / OFFSETS, offsets)

@@ -104,7 +104,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
     radius = 1e3 * np.median(result.validation.radii(result.seen.joints))
     covered = 100 * result.validation.coverage(RANDOM)
     yield f"95 % of positions should lie within {radius:.3g} mm (held out: {covered:.0f} %)"
-    directions = open_directions(result.geometry, result.left_open)
+    directions = open_directions(result)
     lasting = [words for words, other_postures_tell in directions if not other_postures_tell]
     for words in [words for words, other_postures_tell in directions if other_postures_tell][:MOST]:
         yield f"other postures would tell: {words}"
