@@ -17,6 +17,7 @@ from recalib.identification.error_model import (
     NO_ERRORS,
     OFFSETS,
     ErrorModel,
+    held,
 )
 from recalib.identification.estimation import identify
 from recalib.identification.frames import Frames
@@ -100,7 +101,7 @@ def validate(
 
     The hybrid is geometry with joint errors and a Gaussian process of what is left, as far as all
     rows show any. Where rows are held out, all is identified and chosen anew but how smooth the
-    process is.
+    process is. A joint that stood still has no errors: what holds it has them.
 
     Args:
         frames: at both ends; see `guess_frames` for those that are unknown.
@@ -110,16 +111,20 @@ def validate(
     """
     check_postures(find_postures(seen.joints, arm.slides, noise=0.0))
     say("geometry")
-    geometry = ErrorModel(arm, OFFSETS, frames)
-    estimate = identify_by_consensus(geometry, seen)
+    estimate = identify_by_consensus(ErrorModel(arm, OFFSETS, frames), seen)
     check_estimate(estimate)
     postures = check_postures(find_postures(seen.joints, arm.slides, estimate.noise[0]))
+    candidates = {
+        kind: [held(terms, postures.still) for terms in options]
+        for kind, options in CANDIDATES.items()
+    }
+    geometry = ErrorModel(arm, *candidates[GEOMETRIC], frames)
     counted = estimate.weights >= OUTLYING
     weights = counted.astype(float)
     say("what is no geometry")
-    hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, weights=weights)
+    hybrid = calibrate(arm, candidates[HYBRID], seen, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, hybrid, weights)
+        hybrid = calibrate(arm, candidates[HYBRID], seen, frames, hybrid, weights)
     richer = hybrid.residual is not None or hybrid.model.names != geometry.names
     unsettled = richer and not hybrid.estimate.converged
     full = {
@@ -133,7 +138,7 @@ def validate(
         folds = divide(seen, postures)
         say(f"what is missed {way}")
         held_out[way] = {
-            kind: hold_out(partial(calibrate_again, whole, CANDIDATES[kind]), seen, weights, folds)
+            kind: hold_out(partial(calibrate_again, whole, candidates[kind]), seen, weights, folds)
             for kind, whole in full.items()
         }
     chosen = _choice(held_out, counted, postures)
