@@ -177,12 +177,6 @@ def test_candidates_none_of_which_is_of_use_are_refused(calibrated, folder, caps
     assert told.startswith("recalib: candidates is '2, none of use'; valid: some within reach")
 
 
-def test_that_results_have_no_folder_is_told_before_the_work(seen, folder, capsys):
-    arguments = [str(folder / "arm.urdf"), str(folder / "measurements.csv")]
-    assert main(["calibrate", *arguments, f"--out={arguments[1]}"]) == REFUSED
-    assert capsys.readouterr().err == f"recalib: cannot use {arguments[1]}: it is no folder\n"
-
-
 def test_an_arm_without_errors_is_left_alone(arm, seen, folder, capsys):
     random = np.random.default_rng(11)
     positions = arm.forward(seen)[:, :3, 3] + NOISE * random.standard_normal((ROWS, 3))
