@@ -5,7 +5,6 @@ arm's base and tool link. Its arrays are the bytes of the arm's URDF, the calibr
 joint coordinates learned from.
 """
 
-import tempfile
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -14,7 +13,7 @@ import numpy as np
 
 from recalib.archives import read_archive, write_archive
 from recalib.identification.calibration import Calibration
-from recalib.nominal.arms import load_arm
+from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
 
 FORMAT = "recalib correction", 3
@@ -56,8 +55,5 @@ def load_correction(path: str | PathLike) -> Correction:
     """What `Correction.save` wrote. Raises InvalidFile."""
     header, state = read_archive(path, FORMAT, "recalib calibrate")
     urdf = state["urdf"].tobytes()
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "arm.urdf"
-        file.write_bytes(urdf)
-        arm = load_arm(file, header["tool"], header["base"])
+    arm = arm_of(urdf, Path(path), header["tool"], header["base"])
     return Correction(urdf, Calibration.restore(arm, state["calibration"]), state["learned"])

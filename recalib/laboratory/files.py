@@ -93,8 +93,8 @@ def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) 
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
-    source, geometry = result.urdf.read_bytes(), result.geometry
-    text, tool = corrected_urdf(source, geometry)
+    geometry = result.geometry
+    text, tool = corrected_urdf(result.source, geometry)
     (folder / URDF).write_bytes(text)
     if (kinematics := kinematics_yaml(geometry)) is not None:
         (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")

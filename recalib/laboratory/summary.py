@@ -61,10 +61,15 @@ def verdict(result: Calibrated) -> str:
 
 def notes(result: Calibrated) -> list[str]:
     """What else to know of it, in a line each."""
-    return list(_notes(result))
+    return [_subject(result), *_notes(result)]
+
+
+def _subject(result: Calibrated) -> str:
+    return f"{result.origin}, {result.arm.tool} in {result.arm.base}"
 
 
 def _lines(result: Calibrated) -> Iterator[str]:
+    yield _subject(result)
     yield verdict(result)
     yield ""
     yield f"{'folds':<12}{'what is corrected':<34}{'mean':>9}{'95 %':>9}{'largest':>9}"
@@ -81,7 +86,6 @@ def _lines(result: Calibrated) -> Iterator[str]:
 def _notes(result: Calibrated) -> Iterator[str]:
     arm, estimate = result.arm, result.calibration.estimate
     yield f"{len(result.seen)} rows of {result.table.name}"
-    yield f"{result.urdf.name}, {arm.tool} in {arm.base}"
     if result.beside is not None:
         yield f"nominal positions are those of the URDF, with {result.beside}"
     if arm.massless:
