@@ -7,6 +7,7 @@ import numpy as np
 from recalib.identification.validation import GEOMETRIC, HYBRID, KINDS, NOTHING, RANDOM, WAYS
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.parameters import open_directions
+from recalib.meshes import with_own_meshes
 
 DOING = {
     NOTHING: "nothing",
@@ -90,6 +91,12 @@ def _notes(result: Calibrated) -> Iterator[str]:
         yield f"nominal positions are those of the URDF, with {result.beside}"
     if arm.massless:
         yield "the URDF has no masses: what gravity does to the arm is not part of the model"
+    _, unseen = with_own_meshes(result.source, result.urdf)
+    if unseen:
+        yield (
+            f"{len(unseen)} meshes are in none of the URDF's packages and folders, and not in the"
+            f" recording, as {unseen[0]}"
+        )
     noise = (
         f"{scale * each:.3g} {unit}"
         for (scale, unit), each in zip(UNITS, estimate.noise, strict=False)
