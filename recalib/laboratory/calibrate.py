@@ -20,8 +20,10 @@ from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, first_frames
 from recalib.laboratory.measurements import Measurements, read_measurements
 from recalib.laboratory.sanity import Fit, check_nominal
-from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.arms import arm_of
+from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
+from recalib.storage import read_file
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,8 @@ class Calibrated:
 
     Attributes:
         urdf: the file that describes the arm.
+        source: its bytes, as they were read.
+        origin: which file it is, in words.
         table: the file with the measurements.
         seen: what it says.
         targets, sockets: their names, in the order of their numbers.
@@ -39,6 +43,8 @@ class Calibrated:
     """
 
     urdf: Path
+    source: bytes
+    origin: str
     table: Path
     seen: Observations
     targets: tuple[str, ...]
@@ -75,7 +81,7 @@ class Calibrated:
     @property
     def correction(self) -> Correction:
         """What corrects commands, with no other file."""
-        return Correction(self.urdf.read_bytes(), self.calibration, self.seen.joints)
+        return Correction(self.source, self.calibration, self.seen.joints)
 
     @property
     def counted(self) -> np.ndarray:
@@ -117,11 +123,14 @@ def calibrate_arm(
     another arm; frames that cannot be told, or that are not where the description has them; a fit
     that did not work out.
     """
-    arm = load_arm(urdf, tool, base)
+    path = find_urdf(urdf)
+    source = read_file(path, MOST)
+    arm = arm_of(source, path, tool, base)
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
     said = description or Description()
     rows = read_measurements(table, arm, said)
+    say(its := origin(urdf, source))
     say(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
     beside = None
     known = None if said.instrument is None else np.linalg.inv(said.instrument)
@@ -134,7 +143,7 @@ def calibrate_arm(
     check_distances(arm, seen, frames, sockets)
     validation = validate(arm, seen, frames, say)
     return Calibrated(
-        find_urdf(urdf), Path(table), seen, targets, sockets, beside, frames, validation
+        path, source, its, Path(table), seen, targets, sockets, beside, frames, validation
     )
 
 

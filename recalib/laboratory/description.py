@@ -20,7 +20,6 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,8 +27,11 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
 from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.storage import read_file
 
 PARTS = "columns", "instrument", "target", "distance"
+MOST = 1_000_000  # bytes
+FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}  # in any table, too
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 
@@ -53,12 +55,7 @@ class Description:
 def read_description(path: str | PathLike) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
     try:
-        parts = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InvalidFile(path, error.strerror or "it cannot be read") from None
-    except ValueError as error:  # not UTF-8, or not TOML
-        raise InvalidFile(path, f"it is no TOML: {error}") from None
-    try:
+        parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, ", ".join(PARTS))
@@ -71,6 +68,10 @@ def read_description(path: str | PathLike) -> Description:
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
+    except ValueError as error:  # not UTF-8, or not TOML
+        raise InvalidFile(path, f"it is no TOML: {error}") from None
+    except RecursionError:
+        raise InvalidFile(path, "its parts are nested too deep") from None
 
 
 def _columns(given: Any) -> dict[str, str]:
@@ -125,6 +126,10 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
     try:
-        return kind.read(text)
+        number = kind.read(text)
     except InvalidQuantity:
         raise InvalidSetting(key, text, f"{kind.name} in {', '.join(kind.units)}") from None
+    most, told = FARTHEST[kind]
+    if abs(number) > most:
+        raise InvalidSetting(key, text, f"up to {told}")
+    return number
