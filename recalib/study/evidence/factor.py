@@ -10,7 +10,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.verdicts import Verdict, of_published
 from recalib.study.measured import ERRORS
-from recalib.study.multiverse.efforts import LONG
+from recalib.study.multiverse.lengths import LONG
 from recalib.study.statistics import Draws, Estimate
 
 if TYPE_CHECKING:

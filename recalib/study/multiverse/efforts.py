@@ -14,13 +14,13 @@ from recalib.study import jobs
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
+from recalib.study.multiverse.lengths import LONG
 from recalib.study.plants import Resolved
 from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
 
-LONG = 10_000  # iterations: what the paper names; as long a training is watched on its way
 FIRST, WATCHED = 1000, 60  # iterations and measurements: nobody gets there earlier
 
 

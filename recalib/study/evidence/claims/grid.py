@@ -5,7 +5,6 @@ import numpy as np
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
 from recalib.study.hierarchy import student
-from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.statistics import Estimate
 
 
@@ -20,7 +19,7 @@ def measure(evidence, limits):
     def over(placement: str) -> Estimate:
         return Estimate(*np.exp(student((distances["boxes"] - distances[placement]).to_numpy())))
 
-    kohonen, least = over(f"kohonen_{max(ITERATIONS)}"), over("kmeans")
+    kohonen, least = over("kohonen_10000"), over("kmeans")
     verdict = RATIO.side(kohonen)
     if verdict is Verdict.SUPPORTED:
         verdict = Comparison(limits["worse"]).verdict(least)
