@@ -21,7 +21,7 @@ def context(evidence: Evidence) -> dict:
     improved, outcomes = evidence.fact("improved"), evidence.setups("outcomes")
     searches = evidence.searched_for(improved).searches
     return {
-        "universes": 0 if outcomes is None else len(outcomes),
+        "setups": 0 if outcomes is None else outcomes["universe"].nunique(),
         "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
         "assignments": len(evidence.assignments()),
         "translation": amounts(evidence.scenario("translation")["damages"][0]),

@@ -34,17 +34,17 @@ def factor_table(evidence: Evidence) -> list[dict]:
     for (learner, cells), (effort, pair), definition in product(
         CELLS.items(), EFFORTS.items(), (ANEW, ON_THE_WAY)
     ):
-        luck = evidence.rng("factor", learner, effort, definition)
+        rng = evidence.rng("factor", learner, effort, definition)
         fast = errors_of(table, IMPROVED, pair[0])[own]
         slow = errors_of(table, learner, pair[1])
         if definition == ANEW and pair == ("full", "full"):
             estimate = leading(evidence, learner)  # as figures and claims have it
         elif definition == ANEW:
             final = {rung: errors[:, :, -1] for rung, errors in slow.items()}
-            estimate = speed_up(final, {own: fast[:, :, -1]}, [own], luck)[0]
+            estimate = speed_up(final, {own: fast[:, :, -1]}, [own], rng)[0]
         else:
             grids = watched(table, learner, pair[1])
-            estimate = on_the_way(slow, grids, fast[:, :, -1], own, luck)
+            estimate = on_the_way(slow, grids, fast[:, :, -1], own, rng)
         about = {"cells": cells, "effort": effort, "definition": definition}
         longest = max(slow) / own
         rows.append(about | {"factor": estimate, "longest": longest, "verdict": verdict(estimate)})
@@ -54,8 +54,8 @@ def factor_table(evidence: Evidence) -> list[dict]:
 def leading(evidence: Evidence, learner: str) -> Estimate:
     """The factor by the study's own ladders: equal and full effort, tuned anew."""
     ladders = evidence.ladder(learner), evidence.ladder(IMPROVED)
-    luck = evidence.rng("speed-up", learner)
-    return speed_up(*ladders, [evidence.fact("iterations")], luck)[0]
+    rng = evidence.rng("speed-up", learner)
+    return speed_up(*ladders, [evidence.fact("iterations")], rng)[0]
 
 
 def verdict(estimate: Estimate) -> Verdict:
