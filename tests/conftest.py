@@ -62,7 +62,7 @@ def few(study) -> Study:
         },
     }
     parts = {part: getattr(study, part).model_copy(update=its) for part, its in less.items()}
-    return study.model_copy(update={"name": "few", **parts})
+    return study.model_copy(update=parts)
 
 
 @pytest.fixture(scope="session")

@@ -4,11 +4,12 @@ As they are, they support every claim. Tests change what they are about.
 """
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from itertools import product
 from pathlib import Path
+from typing import Self
 from unittest import mock
 
 import numpy as np
@@ -26,8 +27,11 @@ from recalib.study.evidence.real import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
 from recalib.study.experiments.samples import write_sample
-from recalib.study.layout import Layout
+from recalib.study.layout import EFFORTS, PIECES, REFERENCE, SECOND, Layout, pieces
+from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.measured import ERRORS
+from recalib.study.multiverse.efforts import LONG
+from recalib.study.multiverse.reference import LENGTHS
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, training
 
@@ -40,10 +44,14 @@ FINAL = {
     **{switch.without: 0.4 for switch in SWITCHES},
     **{switch.added: [4.0, 2.0] for switch in SWITCHES},
 }
-LADDERS = {"improved": 20, "ritter": 1600, "ritter_double": 1600}  # error times iterations
+LADDERS = {"improved": 20, "ritter": 1400, "ritter_double": 1400}  # error times iterations
 # Spread of errors: of searches at 0.05 to 0.1 in the experiments, of seeds at 0.05
 OF_SEARCHES, OF_SEEDS = 0.07, 0.05
 NOISE = 1e-9  # relative: more than machines differ by
+UNMEASURED = "scale", "width", "distance"  # but of assignments
+REPLICATES = 8  # of the reference study
+# Spread of logarithms of what the campaign measures: of replicates, and of setups
+LUCK, OWN = 0.1, 0.05
 
 
 @contextmanager
@@ -73,9 +81,10 @@ class MadeUp:
         self._samples = folder / "search"
         self._tables: dict[str, Callable[[], pd.DataFrame]] = {
             its.assignments(study.robot): self.assignments,
-            its.coverage: self.coverage,
+            its.shipped(REFERENCE): self.reference,
+            its.shipped(EFFORTS): self.efforts,
         }
-        for name in ("coupling", "propagation", "visits", "replay"):
+        for name in ("coupling", "propagation", "quantisation", "visits", "replay"):
             self._tables[its.mapping(name)] = getattr(self, name)
         for scenario, learner in self.trainings.runs:
             path = its.history(scenario, learner)
@@ -116,7 +125,7 @@ class MadeUp:
         rng = np.random.default_rng(len(path))
         table = table.reset_index(drop=True)
         for column in table.select_dtypes("float") if self._noise else ():
-            if column not in ("scale", "width", "distance") or "assignments" in path:
+            if column not in UNMEASURED or "assignments" in path:
                 signs = rng.choice([-1.0, 1.0], len(table))
                 table[column] = table[column] * (1 + self._noise * signs)
         Path(path).parent.mkdir(parents=True, exist_ok=True)
@@ -156,9 +165,70 @@ class MadeUp:
             }
         )
 
-    def coverage(self) -> pd.DataFrame:
-        row = {"change": "maps", "effect": "with it", "inside": 0.95}
-        return pd.DataFrame([row | {"once_low": 0.8, "once_high": 1.2}])
+    def reference(self, means: Mapping[str, float] | None = None, repetition=0) -> pd.DataFrame:
+        """The replicates of the reference study; `means` are those of `outcomes`."""
+        rng = generator(repetition, "made up", "reference")
+        table = _measured(REPLICATES, 1, means or {}, rng)
+        for system, rate, n in product(("improved", "ritter"), ("linear", "exponential"), (3, 6)):
+            table[f"schedule_{system}_{rate}_{n}"] = 0.5 * _spread(rng, REPLICATES)
+        for system, length, error in product(("improved", "ritter"), LENGTHS, ERRORS):
+            for maps, level in (("one", 20), ("two", 10)):
+                luck = _spread(rng, REPLICATES)
+                table[f"{maps}_{system}_{length}_{error}"] = level / length**0.5 * luck
+        return table.assign(universe=-1, replicate=range(REPLICATES))
+
+    def outcomes(self, means: Mapping[str, float] | None = None, repetition=0) -> pd.DataFrame:
+        """What the setups measure.
+
+        Args:
+            means: over the setups, by column; those that support the claims unless given.
+        """
+        plan, rng = self.study.universes, generator(repetition, "made up", "outcomes")
+        return _measured(plan.count, plan.replicates, means or {}, rng)
+
+    def horizon(self, factor: float = 100.0) -> pd.DataFrame:
+        """How long Ritter's takes in the setups."""
+        plan, rng = self.study.universes, generator(0, "made up", "horizon")
+        table = _numbered(plan.horizons, plan.replicates)
+        return table.assign(factor=factor * _spread(rng, len(table)), bound=0)
+
+    def campaign(self, **tables: pd.DataFrame) -> Self:
+        """Keep the tables of the campaign; those that are not given support the claims."""
+        for name in PIECES:
+            table = tables[name] if name in tables else getattr(self, name)()
+            paths = pieces(name, table["universe"].nunique(), self.layout.shipped(SECOND))
+            for number, path in enumerate(paths):
+                self.write(path, table[table["universe"] // PIECES[name] == number])
+        return self
+
+    def efforts(self) -> pd.DataFrame:
+        """Trainings for the factor of 70: a rough search leaves half as much error again."""
+        own, ladder = training(self.study, "improved").iterations, self.study.experiments.ladder
+        cases = [("improved", own)] + [
+            (n, it) for n in LADDERS if n != "improved" for it in ladder[n]
+        ]
+        tables = []
+        for (name, iterations), (effort, worse) in product(cases, (("full", 1.0), ("rough", 1.5))):
+            searches, seeds = (4 if effort == "full" else 8), self.study.training.seeds
+            whens = np.linspace(0.1, 1, 10) if iterations >= LONG else np.ones(1)
+            keys = product(range(searches), range(seeds), np.rint(whens * iterations).astype(int))
+            table = pd.DataFrame(keys, columns=["search", "seed", "iteration"])
+            rng = generator(0, "made up", "efforts", name, iterations, effort)
+            luck = np.exp(OF_SEARCHES * rng.normal(size=(searches, 1, 1, 2)))
+            luck = luck * np.exp(OF_SEEDS * rng.normal(size=(searches, seeds, 1, 2)))
+            luck = np.broadcast_to(luck, (searches, seeds, len(whens), 2)).reshape(-1, 2)
+            level = worse * LADDERS[name] / table[["iteration"]].to_numpy()
+            table[list(ERRORS)] = level * luck
+            about = {"training": f"{name}_{iterations}", "effort": effort, "iterations": iterations}
+            tables.append(table.assign(**about))
+        return pd.concat(tables, ignore_index=True)
+
+    def quantisation(self) -> pd.DataFrame:
+        distances = {"boxes": 0.5, "faces": 0.6, "kmeans": 0.49}
+        distances |= {f"kohonen_{count}": 0.55 for count in ITERATIONS}
+        cases = product(distances.items(), range(10))
+        rows = [(name, seed, its * (1 + 0.001 * seed)) for (name, its), seed in cases]
+        return pd.DataFrame(rows, columns=["placement", "seed", "distance"])
 
     def coupling(self) -> pd.DataFrame:
         rng = np.random.default_rng(1)
@@ -173,6 +243,7 @@ class MadeUp:
         table = pd.DataFrame(cases, columns=["kind", "start", "scale", "ball"])
         table["classic"] = 1 + 0.1 * table["ball"]
         table["updated"] = ratio * table["classic"]
+        table["to_constant"], table["to_original"] = 0.9, 0.1
         return table.drop(columns="ball")
 
     def visits(self) -> pd.DataFrame:
@@ -265,7 +336,7 @@ class MadeUp:
     @few_resamples()
     def conclude(self) -> None:
         """Make the tables and verdicts that figures and pages read, as the workflow does."""
-        layout, plan = self.layout, self.plan
+        layout, plan = self.campaign().layout, self.plan
         for path, table in self._tables.items():
             self.write(path, table())
         histories = [layout.history(*run) for run in self.trainings.runs]
@@ -293,3 +364,31 @@ class MadeUp:
         table = pd.DataFrame(cases, columns=["learner", "poses", "subset"])
         luck = rng.uniform(0.5, 1.5, len(table)) * (1 + self._noise * rng.choice([-1, 1]))
         return table.assign(position_error_mm=2 * luck / np.sqrt(table["poses"]))
+
+
+def _numbered(setups: int, replicates: int) -> pd.DataFrame:
+    keys = product(range(setups), range(replicates))
+    return pd.DataFrame(keys, columns=["universe", "replicate"])
+
+
+def _spread(rng: np.random.Generator, count: int, spread: float = LUCK) -> np.ndarray:
+    return np.exp(spread * rng.normal(size=count))
+
+
+def _measured(
+    setups: int, replicates: int, means: Mapping[str, float], rng: np.random.Generator
+) -> pd.DataFrame:
+    """What replicates of setups measure for each claim, with heterogeneity and luck."""
+    table = _numbered(setups, replicates)
+    for moment, level in (("initial", INITIAL), ("final", 0.02 * INITIAL)):
+        for error, value in zip(ERRORS, level, strict=True):
+            table[f"{moment}_{error}"] = value * _spread(rng, len(table))
+    table["rigid"] = 0.01 * _spread(rng, len(table))
+    for across in {its.column: its for claim in CLAIMS for its in claim.across.values()}.values():
+        if across.table == "outcomes":
+            limit, below = across.comparison.limit, across.comparison.below
+            mean = means.get(across.column, limit * (0.5 if below else 2.0) or 0.4)
+            own = np.repeat(OWN * rng.normal(size=setups), replicates)
+            moved = own + LUCK * rng.normal(size=len(table))
+            table[across.column] = mean * np.exp(moved) if across.logarithmic else mean + moved
+    return table

@@ -1,6 +1,7 @@
 """Where the results of a study lie: the one home of their paths, for all who make or read them."""
 
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 SHIPPED = "replication"  # the name of the study that writes README, docs and figures/
@@ -37,6 +38,10 @@ class Layout:
     """
 
     root: str
+
+    def shipped(self, path: str) -> str:
+        """A file that lies in the project whose results these are."""
+        return str(Path(*takewhile(lambda part: part != RESULTS, Path(self.root).parts), path))
 
     @property
     def summary(self) -> str:

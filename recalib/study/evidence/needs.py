@@ -21,6 +21,7 @@ from recalib.study.layout import (
     FIRST,
     POWER,
     REFERENCE,
+    SECOND,
     SHIPPED,
     Layout,
     pieces,
@@ -221,7 +222,7 @@ class Request:
 
     def reference(self) -> None:
         """The reference study measured as the alternative setups are."""
-        self._shipped("experiments.evidence: true", REFERENCE)
+        self._shipped("experiments.evidence: true", self._layout.shipped(REFERENCE))
 
     def setups(self, table: str) -> None:
         """What was measured in each alternative setup, once all of them are in.
@@ -231,13 +232,14 @@ class Request:
         """
         plan = self.study.universes
         count = {"outcomes": plan.count, "horizon": plan.horizons}[table]
-        if self._is_shipped and all(Path(path).exists() for path in pieces(table, count)):
-            for path in (DESIGN, *pieces(table, count)):
+        measured = pieces(table, count, self._layout.shipped(SECOND))
+        if self._is_shipped and all(Path(path).exists() for path in measured):
+            for path in (DESIGN, *measured):
                 self._result(path)
 
     def efforts(self) -> None:
         """The trainings for the factor of 70, by the effort of their searches."""
-        self._shipped("experiments.evidence: true", EFFORTS)
+        self._shipped("experiments.evidence: true", self._layout.shipped(EFFORTS))
 
     def power(self) -> None:
         """What the campaign can find."""

@@ -163,7 +163,7 @@ class Evidence:
 
     def reference(self) -> "pd.DataFrame":
         """A row for each replicate of the reference study, measured as the setups are."""
-        return self._table(REFERENCE)
+        return self._table(self._layout.shipped(REFERENCE))
 
     def setups(self, table: str) -> "pd.DataFrame | None":
         """A row for each replicate of each alternative setup; None unless all are measured.
@@ -173,12 +173,13 @@ class Evidence:
         """
         import pandas as pd
 
-        paths = [path for path in self._needs.files if path.startswith(f"{SECOND}/{table}_")]
+        first = f"{self._layout.shipped(SECOND)}/{table}_"
+        paths = [path for path in self._needs.files if path.startswith(first)]
         return pd.concat(map(self._table, paths), ignore_index=True) if paths else None
 
     def efforts(self) -> "pd.DataFrame":
         """A row for each training, effort, search, seed and measurement."""
-        return self._table(EFFORTS)
+        return self._table(self._layout.shipped(EFFORTS))
 
     def power(self) -> "pd.DataFrame":
         """What the campaign can find, in worlds whose truth is known."""

@@ -17,7 +17,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.statistics import Estimate
 
-WORDS = {0.1: "tenth", 0.25: "quarter"}
+WORDS = {0.1: "tenth", 0.25: "quarter", 3.0: "three"}
 
 
 class Limit(float):
