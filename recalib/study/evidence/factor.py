@@ -37,17 +37,18 @@ def factor_table(evidence: Evidence) -> list[dict]:
         rng = evidence.rng("factor", learner, effort, definition)
         fast = errors_of(table, IMPROVED, pair[0])[own]
         slow = errors_of(table, learner, pair[1])
+        longest = max(slow)
         if definition == ANEW and pair == ("full", "full"):
             estimate = leading(evidence, learner)  # as figures and claims have it
         elif definition == ANEW:
             final = {rung: errors[:, :, -1] for rung, errors in slow.items()}
             estimate = speed_up(final, {own: fast[:, :, -1]}, [own], rng)[0]
         else:
-            grids = watched(table, learner, pair[1])
-            estimate = on_the_way(slow, grids, fast[:, :, -1], own, rng)
+            grids = watched(table, learner)
+            longest, estimate = on_the_way(slow, grids, fast[:, :, -1], own, rng)
         about = {"cells": cells, "effort": effort, "definition": definition}
-        longest = max(slow) / own
-        rows.append(about | {"factor": estimate, "longest": longest, "verdict": verdict(estimate)})
+        judged = {"factor": estimate, "longest": longest / own, "verdict": verdict(estimate)}
+        rows.append(about | judged)
     return rows
 
 
@@ -64,22 +65,28 @@ def verdict(estimate: Estimate) -> Verdict:
 
 
 def errors_of(table: "pd.DataFrame", learner: str, effort: str) -> dict[int, np.ndarray]:
-    """Errors (search, seed, measurement, 2) of a learner's trainings, by number of iterations."""
-    named = table["training"].str.rpartition("_")[0] == learner
-    own = table[named & (table["effort"] == effort)]
+    """Errors (search, seed, measurement, 2) of a learner's trainings, by number of iterations.
+
+    The rough searches within a full one share its poses. So they count as more seeds of it, and
+    not as searches of their own.
+    """
     found = {}
-    for iterations, its in own.groupby("iterations"):
-        its = its.sort_values(["search", "seed", "iteration"])
-        shape = its["search"].nunique(), its["seed"].nunique(), its["iteration"].nunique(), 2
-        found[int(iterations)] = its[list(ERRORS)].to_numpy().reshape(shape)
+    for iterations, its in _trainings(table, learner).groupby("iterations"):
+        own = its[its["effort"] == effort].sort_values(["search", "seed", "iteration"])
+        searches = its.loc[its["effort"] == "full", "search"].nunique()
+        shape = searches, -1, own["iteration"].nunique(), len(ERRORS)
+        found[int(iterations)] = own[list(ERRORS)].to_numpy().reshape(shape)
     return found
 
 
-def watched(table: "pd.DataFrame", learner: str, effort: str) -> dict[int, np.ndarray]:
+def watched(table: "pd.DataFrame", learner: str) -> dict[int, np.ndarray]:
     """The iterations (measurement,) at which those errors were measured."""
-    named = table["training"].str.rpartition("_")[0] == learner
-    own = table[named & (table["effort"] == effort)]
-    return {int(n): np.sort(its["iteration"].unique()) for n, its in own.groupby("iterations")}
+    groups = _trainings(table, learner).groupby("iterations")["iteration"]
+    return {int(iterations): np.sort(its.unique()) for iterations, its in groups}
+
+
+def _trainings(table: "pd.DataFrame", learner: str) -> "pd.DataFrame":
+    return table[table["training"].str.rpartition("_")[0] == learner]
 
 
 def on_the_way(
@@ -88,8 +95,8 @@ def on_the_way(
     goal: np.ndarray,
     own: int,
     random: np.random.Generator,
-) -> Estimate:
-    """When a long training reaches both errors of another, over `own` iterations.
+) -> tuple[int, Estimate]:
+    """How long a training is, and when it reaches both errors of another, over `own` iterations.
 
     Args:
         slow: errors (search, seed, measurement, 2) by number of iterations.
@@ -97,7 +104,7 @@ def on_the_way(
         goal: (search, seed, 2) final errors of the other.
 
     It is the shortest of at least LONG iterations that reaches them on average; the longest, where
-    none does. Infinite where it does not.
+    none does. Infinite where it does not reach them.
     """
     target = goal.mean(axis=(0, 1))
     long = [rung for rung in sorted(slow) if rung >= LONG]
@@ -106,4 +113,4 @@ def on_the_way(
     draws = Draws(random)
     within = (draws.means(slow[rung]) <= draws.means(goal)[:, None]).all(axis=-1)
     first = np.where(within.any(axis=1), grids[rung][within.argmax(axis=1)], np.inf)
-    return draws.estimate(first / own)
+    return rung, draws.estimate(first / own)
