@@ -47,7 +47,7 @@ def factor_table(evidence: Evidence) -> list[dict]:
             grids = watched(table, learner)
             longest, estimate = on_the_way(slow, grids, fast[:, :, -1], own, rng)
         about = {"cells": cells, "effort": effort, "definition": definition}
-        judged = {"factor": estimate, "longest": longest / own, "verdict": verdict(estimate)}
+        judged = {"factor": estimate, "longest": longest / own, "verdict": in_words(estimate)}
         rows.append(about | judged)
     return rows
 
@@ -62,6 +62,14 @@ def leading(evidence: Evidence, learner: str) -> Estimate:
 def verdict(estimate: Estimate) -> Verdict:
     """Of the published factor."""
     return of_published(PUBLISHED, estimate)
+
+
+def in_words(estimate: Estimate) -> str:
+    """That verdict, and on which side of the published factor an interval without it lies."""
+    judged = verdict(estimate)
+    if judged is not Verdict.CONTRADICTED:
+        return str(judged)
+    return f"{judged}: the factor is {'larger' if estimate.low > PUBLISHED else 'smaller'}"
 
 
 def errors_of(table: "pd.DataFrame", learner: str, effort: str) -> dict[int, np.ndarray]:

@@ -33,7 +33,7 @@ def percent(value: float) -> str:
 def ranged(middle: float, bounds: Sequence[float], said=short) -> str:
     """A number with its interval."""
     low, high = map(said, bounds)
-    return f"{said(middle)} ({low} to {high})"
+    return f"{said(middle)} ({low} to {high})" if low != high else said(middle)
 
 
 def estimated(estimate: Estimate, longest: float = np.inf) -> str:
