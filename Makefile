@@ -12,7 +12,7 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design universes ship lock clean
+.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -108,9 +108,21 @@ design: setup ## draw the universes anew, and ship them
 	mkdir -p workflow/universes/second
 	cp results/universes/design.csv workflow/universes/second/
 
-universes: setup ## measure every universe of the design, and ship what was measured
-	$(SNAKEMAKE) universes
-	cp results/universes/outcomes.csv workflow/universes/second/
+power: setup ## try the model of the campaign in worlds whose truth is known, and ship what it finds (10 minutes)
+	$(SNAKEMAKE) -- results/universes/power.csv
+	cp results/universes/power.csv workflow/universes/second/
+
+reference: setup ## measure the reference study as the universes are, and ship it (40 minutes)
+	$(SNAKEMAKE) -- results/universes/reference.csv results/universes/efforts.csv
+	cp results/universes/reference.csv results/universes/efforts.csv workflow/universes/second/
+
+universes: setup ## measure all universes of the design, or PIECE=0 or 1 of them, and ship them (half an hour a piece)
+	$(SNAKEMAKE) $(if $(PIECE),-- results/universes/outcomes_$(PIECE).csv,universes)
+	cp results/universes/outcomes_$(or $(PIECE),*).csv workflow/universes/second/
+
+horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 of them (half an hour a piece)
+	$(SNAKEMAKE) $(if $(PIECE),-- results/universes/horizon_$(PIECE).csv,horizons)
+	cp results/universes/horizon_$(or $(PIECE),*).csv workflow/universes/second/
 
 ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship

@@ -1,30 +1,35 @@
 """Archives of named arrays in groups, with a header: NumPy's .npz, whole or not at all."""
 
+import hashlib
 import io
 import json
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, RecalibError
 from recalib.interfaces import State
-from recalib.storage import whole
+from recalib.storage import read_file, whole
 
-# What NumPy and zipfile raise of damaged files; RuntimeError where one seems to be encrypted.
-UNREADABLE = (
-    AttributeError,
-    EOFError,
-    KeyError,
-    OSError,
-    RuntimeError,
-    TypeError,
-    ValueError,
-    zipfile.BadZipFile,
-)
+MOST = 256_000_000  # bytes, also of what is packed
+
+
+@contextmanager
+def refused(path: str | PathLike, writer: str) -> Iterator[None]:
+    """Take whatever is raised while a file is read for its fault: it may hold anything.
+
+    Raises InvalidFile, or what was raised on purpose.
+    """
+    try:
+        yield
+    except RecalibError:
+        raise
+    except Exception:
+        raise InvalidFile(path, f"it is not whole, or not written by {writer}") from None
 
 
 def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State) -> None:
@@ -34,8 +39,9 @@ def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State
         header: of JSON's types, with the `format` and its `version`.
     """
     arrays = flat(groups)
+    sealed = {**header, "sha256": _digest(header, arrays)}
     with whole(path) as temporary:
-        np.savez(temporary, header=json.dumps({**header, "arrays": [*arrays]}), **arrays)
+        np.savez(temporary, header=json.dumps(sealed), **arrays)
 
 
 def read_archive(
@@ -49,25 +55,33 @@ def read_archive(
 
     Raises InvalidFile: not there, not whole, or not of this format.
     """
-    broken = InvalidFile(path, f"it is not whole, or not written by {writer}")
-    try:
-        content = io.BytesIO(Path(path).read_bytes())
-    except OSError as error:
-        raise InvalidFile(path, error.strerror) from None
-    try:
+    content = io.BytesIO(read_file(path, MOST))
+    with refused(path, writer):
+        with zipfile.ZipFile(content) as packed:
+            size = sum(member.file_size for member in packed.infolist())
+        if size > MOST:
+            raise InvalidFile(path, f"it unpacks to {size / 1e6:.3g} MB; expected: {MOST / 1e6:g}")
         with np.load(content) as file:
-            arrays = {name: file[name][()] for name in file.files}
-        header = json.loads(str(arrays.pop("header")))
-        found = header["format"], header["version"]
-    except UNREADABLE:
-        raise broken from None
+            arrays = {name: file[name] for name in file.files}
+        header = json.loads(str(arrays.pop("header")[()]))
+        found, digest = (header["format"], header["version"]), header.pop("sha256", None)
     if found != kind:
         raise InvalidFile(path, f"it is of format {found}; valid: {kind}")
-    if header.pop("arrays", None) != [*arrays]:  # a damaged directory can hide some
-        raise broken
+    with refused(path, writer):
+        if digest != _digest(header, arrays):
+            raise ValueError
     if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
         raise InvalidFile(path, "it holds numbers that are none")
-    return header, _nested(arrays)
+    return header, _nested({name: array[()] for name, array in arrays.items()})
+
+
+def _digest(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> str:
+    """Of all that an archive holds: its sums tell a damaged part, not one that was replaced."""
+    digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
+    for name, array in sorted(arrays.items()):
+        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
+        digest.update(array.tobytes())
+    return digest.hexdigest()
 
 
 def flat(state: State, prefix: str = "") -> dict[str, np.ndarray]:

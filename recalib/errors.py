@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from os import PathLike, fspath
 
+from recalib.spelling import instead
+
 
 class RecalibError(Exception):
     """Base of every error that this library raises on purpose."""
@@ -13,7 +15,7 @@ class UnknownName(RecalibError):
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
-        super().__init__(f"unknown {kind} {name!r}; valid: {', '.join(self.valid)}")
+        super().__init__(f"unknown {kind} {name!r}; {instead(name, self.valid)}")
 
 
 class InvalidQuantity(RecalibError):

@@ -12,15 +12,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from recalib.archives import read_archive, write_archive
+from recalib.archives import read_archive, refused, write_archive
 from recalib.errors import InvalidFile, UnknownName
 from recalib.interfaces import Savable, State
 
 if TYPE_CHECKING:  # to join files takes no robot
     from recalib.nominal.robots import Robot
 
-FORMAT, VERSION = "recalib learner", 5
+FORMAT, VERSION = "recalib learner", 6
 KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
+WRITER = "recalib.save"
 ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
 PROBES = 8  # joint angles at which the kinematics of two robots are compared
 
@@ -97,5 +98,6 @@ def _write(path: Path, header: Mapping[str, Any], states: Sequence[State]) -> No
 
 def read(path: Path) -> tuple[dict[str, Any], list[State]]:
     """Header and runs of a file. Raises InvalidFile: not whole, or not of this format."""
-    header, groups = read_archive(path, (FORMAT, VERSION), "recalib.save")
-    return header, [groups[str(run)] for run in range(len(groups))]
+    header, groups = read_archive(path, (FORMAT, VERSION), WRITER)
+    with refused(path, WRITER):
+        return header, [groups[str(run)] for run in range(len(groups))]

@@ -4,9 +4,12 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
+from recalib.archives import refused
 from recalib.errors import InvalidSetting, OtherRobot, UnknownName
 from recalib.interfaces import Savable
-from recalib.learned import KINDS, Path, differences, identity, read
+from recalib.learned import KINDS, WRITER, Path, differences, identity, read
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 
@@ -20,17 +23,21 @@ def load(path: Path, robot: Robot, run: int | None = None) -> Savable:
     Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run).
     """
     header, states = read(path)
-    if found := differences(header["robot"], identity(robot)):
-        raise OtherRobot(path, found)
-    settings = header["settings"]
-    if run is not None:
-        if not 0 <= run < len(states):
-            raise InvalidSetting("run", run, f"0 to {len(states) - 1}")
-        states = [states[run]]
-        if "by_run" in settings:
-            settings["by_run"] = [settings["by_run"][run]]
-    learner = _build(header["kind"], settings, len(states), robot)
-    learner.restore(states)
+    with refused(path, WRITER):
+        if found := differences(header["robot"], identity(robot)):
+            raise OtherRobot(path, found)
+        settings = header["settings"]
+        if run is not None:
+            if not 0 <= run < len(states):
+                raise InvalidSetting("run", run, f"0 to {len(states) - 1}")
+            states = [states[run]]
+            if "by_run" in settings:
+                settings["by_run"] = [settings["by_run"][run]]
+        learner = _build(header["kind"], settings, len(states), robot)
+        learner.restore(states)
+        centre = np.zeros((len(states), 1, 6))
+        if not np.isfinite(learner.command(centre)).all():
+            raise ValueError
     return learner
 
 

@@ -1,7 +1,7 @@
 """Measurements as they enter: what nobody can learn from is refused by its name.
 
 One number that is none would spread, in silence, through all that is learned from it; and so would
-millimetres that are taken for metres.
+millimetres that are taken for metres. All learners refuse the same, by `check_moves`.
 """
 
 import numpy as np
@@ -9,20 +9,52 @@ import numpy as np
 from recalib.errors import BadMeasurement
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
-WIDEST = 1e5  # workspace coordinates, likewise
+# Workspace coordinates; the workspace reaches from -1 to 1. Links 12 cm too short and encoders 12
+# degrees off move an arm by 1 or 2. At 5 it is away by twice the size of the workspace.
+OUTSIDE = 5.0
+# A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
+# middle axis comes back as up to half a turn about the others, which is at most twice as much.
+WRAPPED = 2.0
+MOVED, STUCK = (
+    0.1,
+    0.01,
+)  # commands that are so far apart do not lead to poses so near to each other
 SKEW = 0.01  # of a rotation matrix, as instruments round it
+Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 
 
-def check_coordinates(achieved: np.ndarray) -> None:
-    """Raise BadMeasurement unless coordinates (run, move, 6) are numbers, and not grossly off.
+def check_moves(
+    commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, last: Moves | None = None
+) -> Moves:
+    """Raise BadMeasurement unless what moves achieved are numbers, no arm's length off, and differ.
 
-    Refused moves count, too: they leave the arm at home.
+    Args:
+        commands, achieved: (run, move, 6) coordinates of the workspace. A refused move counts,
+            too: it leaves the arm at home.
+        executed: (run, move) whether it was carried out.
+        last: the move before these, as this function returned it.
+
+    Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
     """
-    if np.abs(achieved).max(initial=0.0) <= WIDEST:  # not so where one is NaN
-        return
-    run, move = np.argwhere(~(np.abs(achieved) <= WIDEST).all(axis=-1))[0]
-    valid = f"six coordinates of the workspace, each a number up to {WIDEST:g}"
-    raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
+    allowed = OUTSIDE + WRAPPED * np.abs(commands).max(axis=-1)
+    size = np.abs(achieved).max(axis=-1)
+    # A command may be NaN where a learner diverges; such a move is refused, and harmless.
+    for run, move in np.argwhere(~np.isfinite(size) | (size > allowed))[:1]:
+        valid = (
+            "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
+            f" {allowed[run, move]:.3g} for such a command"
+        )
+        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
+    moves = commands, achieved, executed
+    if last is not None:
+        moves = tuple(np.concatenate(parts, axis=1) for parts in zip(last, moves, strict=True))
+    sent, came = (np.abs(np.diff(poses, axis=1)).max(axis=-1) for poses in moves[:2])
+    stuck = (sent > MOVED) & (came < STUCK) & moves[2][:, 1:] & moves[2][:, :-1]
+    for run, move in np.argwhere(stuck)[:1]:
+        which = f"move {move + (last is None)} of run {run}"
+        valid = "another pose than the move before it, whose command was another one"
+        raise BadMeasurement(which, moves[1][run, move + 1], valid)
+    return tuple(part[:, -1:] for part in moves)
 
 
 def check_pose(measured: np.ndarray, near: np.ndarray) -> None:

@@ -1,11 +1,38 @@
-"""Files that appear whole or not at all."""
+"""Files that are read whole or refused, and files that appear whole or not at all."""
 
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from recalib.errors import InvalidFile
+
 IN_THE_MAKING = ".part"
+
+
+def read_file(path: str | os.PathLike, most: int) -> bytes:
+    """The bytes of a file.
+
+    Args:
+        most: of them; no such file has more.
+
+    Raises InvalidFile: not there, not to be read, without an end, or larger.
+    """
+    try:
+        mode = os.stat(path).st_mode
+        if stat.S_IFMT(mode) not in (stat.S_IFREG, stat.S_IFDIR):
+            kind = "pipe" if stat.S_ISFIFO(mode) else "device"
+            raise InvalidFile(path, f"it is a {kind}; expected: a file, which has an end")
+        with open(path, "rb") as stream:
+            content = stream.read(most + 1)
+            size = max(os.fstat(stream.fileno()).st_size, len(content))
+    except (OSError, ValueError) as error:  # ValueError: a name that no file can have
+        raise InvalidFile(path, getattr(error, "strerror", None) or "it cannot be read") from None
+    if size > most:
+        found = f"it has {size / 1e6:.3g} MB"
+        raise InvalidFile(path, f"{found}; expected: at most {most / 1e6:.3g} MB")
+    return content
 
 
 @contextmanager

@@ -1,9 +1,8 @@
 """An arm in the Rerun viewer: its meshes, and where its links are."""
 
-import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pinocchio as pin
@@ -11,25 +10,35 @@ import rerun as rr
 from rerun.urdf import UrdfTree
 from scipy.spatial.transform import Rotation
 
+from recalib.meshes import with_own_meshes
 from recalib.nominal.kinematics import Arm
 
 WORLD = "tf#/"  # the frame that Rerun gives to the root of the entities
 
 
-def log_meshes(rec: rr.RecordingStream, urdf: Path, prefix: str) -> dict[str, list[str]]:
+def log_meshes(
+    rec: rr.RecordingStream, source: bytes, urdf: Path, prefix: str
+) -> tuple[dict[str, list[str]], list[str]]:
     """Log the visual meshes of a robot, each in the frame `<prefix>/<link>` of its link.
 
-    Returns their entities by link; links without any are not among them.
+    Args:
+        source: what was read of the URDF at `urdf`.
+
+    Returns their entities by link, links without any left out; and the names of the meshes that
+    are in none of the URDF's packages and folders.
     """
-    tree = UrdfTree.from_file_path(urdf, entity_path_prefix=prefix, frame_prefix=f"{prefix}/")
-    links = [tree.root_link(), *(tree.get_joint_child(joint) for joint in tree.joints())]
-    visuals = {
-        link.name: paths for link in links if (paths := tree.get_visual_geometry_paths(link))
-    }
-    entities = [entity for paths in visuals.values() for entity in paths]
-    with _packages(urdf):
+    text, missing = with_own_meshes(source, urdf)
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "arm.urdf")
+        file.write_bytes(text)
+        tree = UrdfTree.from_file_path(file, entity_path_prefix=prefix, frame_prefix=f"{prefix}/")
+        links = [tree.root_link(), *(tree.get_joint_child(joint) for joint in tree.joints())]
+        visuals = {
+            link.name: paths for link in links if (paths := tree.get_visual_geometry_paths(link))
+        }
+        entities = [entity for paths in visuals.values() for entity in paths]
         rec.send_chunks(tree.stream(include_joint_transforms=False).filter(content=entities))
-    return visuals
+    return visuals, missing
 
 
 def send_frame(
@@ -65,21 +74,3 @@ def link_placements(
             )
             placements[link][index] = placement.homogeneous
     return placements
-
-
-@contextmanager
-def _packages(urdf: Path) -> Iterator[None]:
-    """Let the meshes be found, `package://NAME/...`: NAME is a folder beside or above the URDF.
-
-    Rerun looks for packages in this variable.
-    """
-    variable = "ROS_PACKAGE_PATH"
-    before = os.environ.get(variable)
-    folders = [*map(str, urdf.resolve().parents), *([before] if before else [])]
-    os.environ[variable] = os.pathsep.join(folders)
-    try:
-        yield
-    finally:
-        del os.environ[variable]
-        if before is not None:
-            os.environ[variable] = before

@@ -30,8 +30,8 @@ from recalib.study.experiments.samples import write_sample
 from recalib.study.layout import EFFORTS, PIECES, REFERENCE, SECOND, Layout, pieces
 from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.measured import ERRORS
+from recalib.study.multiverse import lengths
 from recalib.study.multiverse.efforts import LONG
-from recalib.study.multiverse.reference import LENGTHS
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, training
 
@@ -171,7 +171,7 @@ class MadeUp:
         table = _measured(REPLICATES, 1, means or {}, rng)
         for system, rate, n in product(("improved", "ritter"), ("linear", "exponential"), (3, 6)):
             table[f"schedule_{system}_{rate}_{n}"] = 0.5 * _spread(rng, REPLICATES)
-        for system, length, error in product(("improved", "ritter"), LENGTHS, ERRORS):
+        for system, length, error in product(("improved", "ritter"), lengths.MAPS, ERRORS):
             for maps, level in (("one", 20), ("two", 10)):
                 luck = _spread(rng, REPLICATES)
                 table[f"{maps}_{system}_{length}_{error}"] = level / length**0.5 * luck

@@ -1,18 +1,23 @@
 """What was learned comes back from its file as it was, for the robot that it was learned on."""
 
 import json
+import tempfile
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
-from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, UnknownName
+from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
 from recalib.interfaces import Outcome
-from recalib.learned import KINDS, join, save
+from recalib.learned import KINDS, VERSION, join, read, save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
@@ -24,6 +29,7 @@ from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loading import load
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.poses import Workspace
+from tests.spoiling import spoil
 
 RUNS = 2
 SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
@@ -179,10 +185,32 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(1, 1), robot)
     arrays = dict(np.load(path))
-    header = json.loads(str(arrays.pop("header"))) | {"version": 6}
+    header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
-    with pytest.raises(InvalidFile, match=r"format \('recalib learner', 6\); valid: .* 5\)"):
+    with pytest.raises(
+        InvalidFile, match=rf"format \('recalib learner', {VERSION + 1}\); valid: .* {VERSION}\)"
+    ):
         load(path, robot)
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def written(request, makers, plant, robot, tmp_path_factory):
+    path = tmp_path_factory.mktemp("written") / "a.npz"
+    save(path, train(makers[request.param](RUNS), plant, 7), robot)
+    return path
+
+
+@settings(max_examples=20)
+@given(st.data())
+def test_a_file_that_was_tampered_with_is_refused_or_of_use(written, robot, data):
+    """Whatever was replaced in it, also where it was sealed anew."""
+    with tempfile.TemporaryDirectory() as folder, np.errstate(all="ignore"):
+        path = Path(folder) / "a.npz"
+        path.write_bytes(written.read_bytes())
+        spoil(data.draw, path)
+        with suppress(RecalibError):
+            learner, runs = load(path, robot), len(read(path)[1])
+            assert learner.command(TESTS[:1].repeat(runs, axis=0)).shape == (runs, *TESTS.shape[1:])
 
 
 def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):

@@ -1,14 +1,18 @@
 """Bad measurements are refused by their name, or survived: never a quiet wrong answer."""
 
+from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 import numpy as np
 import pytest
 
+from recalib.damaged.plant import Plant
 from recalib.errors import BadMeasurement, InvalidFile
 from recalib.external import ExternalRobot
 from recalib.identification.calibration import calibrate
-from recalib.identification.error_model import OFFSETS
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
 from recalib.interfaces import Outcome
 from recalib.learned import save
@@ -20,7 +24,12 @@ from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.loading import load
+from recalib.measurements import OUTSIDE, WRAPPED, check_moves
 from recalib.nominal.poses import position_error
+from recalib.study.assignments import Ways
+from recalib.study.experiments.ensemble import feasible, scaled_arm
+from recalib.study.experiments.settings import rules_of
+from recalib.study.experiments.trials import search_once
 
 SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
 RUNS = 2
@@ -62,6 +71,46 @@ def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, e
     assert np.array_equal(learner.command(TESTS), before)
 
 
+UNIT = np.eye(6)[3]  # of the coordinates that a learner sees, along one of them
+SPOILT = {
+    "an outlier of 30 units": lambda achieved, step: achieved + 30 * UNIT * (step == 5),
+    "an outlier of 8 units": lambda achieved, step: achieved - 8 * UNIT * (step == 5),
+    "another unit, 100 of which are one": lambda achieved, step: 100 * achieved,
+    "angles in degrees": lambda achieved, step: achieved * [1, 1, 1, 57.3, 57.3, 57.3],
+    "every pose the same": lambda achieved, step: np.full_like(achieved, 0.3),
+    "every pose the same, with noise": lambda achieved, step: 0.3 + 1e-3 * achieved,
+}
+
+
+@pytest.mark.parametrize("spoil", SPOILT.values(), ids=SPOILT)
+@pytest.mark.parametrize("name", LEARNERS)
+def test_no_learner_takes_what_no_damage_explains(name, spoil, makers):
+    learner, poses = makers[name](RUNS), np.random.default_rng(4).uniform(-1, 1, (8, RUNS, 6))
+
+    def learn():
+        for step, desired in enumerate(poses):
+            learner.learn(
+                desired,
+                lambda commands, step=step: Outcome(
+                    spoil(commands + 0.1, step), np.ones(commands.shape[:2], dtype=bool)
+                ),
+                step / len(poses),
+            )
+
+    with pytest.raises(BadMeasurement, match=r"move 0 of run 0 .*; valid: (six|another)"):
+        learn()
+
+
+def test_what_the_study_does_is_taken():
+    """Turns beyond half a turn and back, serious damage, learners that diverge, refused moves."""
+    sent = np.array([[[0, 0, 0, 20.0, 0, 0], [0.9] * 6, [np.nan] * 6, [1e9] * 6]])
+    came = np.array([[[0, 0, 0, 2.0, 9, 9], [3.0] * 6, [0.1] * 6, [0.1] * 6]])
+    executed = np.array([[True, True, False, False]])
+    last = check_moves(sent, came, executed)
+    assert [part.shape for part in last] == [(1, 1, 6), (1, 1, 6), (1, 1)]
+    check_moves(sent[:, 1:2], came[:, 3:], np.array([[True]]), last)  # nobody moved before it
+
+
 @pytest.mark.parametrize("name", LEARNERS)
 def test_a_learner_survives_equal_poses(name, makers):
     learner = makers[name](RUNS)
@@ -74,6 +123,27 @@ def test_a_learner_survives_equal_poses(name, makers):
     left = learner.command(DESIRED[:, None]) + 0.01 - DESIRED[:, None]
     assert np.abs(left).max() < 0.005
     assert np.isfinite(learner.command(TESTS)).all()
+
+
+def test_the_study_s_most_serious_damage_is_far_from_refused(controller, plan, study, monkeypatch):
+    """Its largest scale, under a search that tries whatever settings."""
+    farthest = []
+    monkeypatch.setattr(
+        "recalib.learners.hierarchical.check_moves",
+        lambda sent, came, *_: farthest.append(
+            np.max(np.abs(came).max(axis=-1) - WRAPPED * np.abs(sent).max(axis=-1))
+        ),
+    )
+    damage, links = study.paper_damage, plan.nominal("ur10").robot.links
+    ways = Ways(links, damage.shorten, controller.robot.joints, damage.shift)
+    scale = max(study.experiments.ensemble["improved"]["scaled"].scales)
+    order = np.random.default_rng(5).permutation(len(ways))
+    damages = islice(feasible(controller.robot, ways, order, scale), 8)
+    arms = [scaled_arm(controller.robot, each, scale) for each in damages]
+    budget = study.search.model_copy(update={"rounds": 1, "trials": 8, "seeds": 1})
+    rules = rules_of(study.learners["ritter"])
+    search_once(lambda runs: Plant(controller, arms), rules, 40, budget, 5, "extreme")
+    assert 0 < max(farthest) < OUTSIDE / 3
 
 
 def scaled(pose, factor):
@@ -126,15 +196,28 @@ def spoilt(values, bad):
         (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
         (lambda q, p: (q, spoilt(p, 1e6)), r"measurement 7 .*10 \(m in the base frame\)"),
         (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
-        (lambda q, p: (q, p[:19]), r"shapes: .*n > 0"),
-        (lambda q, p: (q[:, :5], p), r"shapes: .*n > 0"),
-        (lambda q, p: (q[:0], p[:0]), r"shapes: .*n > 0"),
+        (
+            lambda q, p: (q, p[:19]),
+            r"'measured' measured \(19, 4, 4\); valid: \(20, 3\) or \(20, 4, 4\)",
+        ),
+        (lambda q, p: (q[:, :5], p), r"'joints' measured \(20, 5\); valid: \(20, 6\)"),
+        (lambda q, p: (q[:0], p[:0]), r"number of observations measured \(0\); valid: one or more"),
     ],
     ids=["NaN", "degrees", "no pose", "far off", "mm", "one less", "five joints", "none"],
 )
 def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
     with pytest.raises(BadMeasurement, match=said):
         calibrate(robot.arm, [OFFSETS], Observations(*spoil(*table)))
+
+
+def test_an_identification_that_is_led_astray_names_a_measurement(table, robot):
+    """To where a link has turned once around, and no small change of its turn means anything."""
+    model, seen = ErrorModel(robot.arm, OFFSETS), Observations(*table)
+    astray = np.zeros_like(model.deviations)
+    astray[9] = 2 * np.pi
+    start = replace(identify(model, seen), parameters=astray)
+    with pytest.raises(BadMeasurement, match="measurement 0 .*valid: what the same arm explains"):
+        identify(model, seen, start)
 
 
 @pytest.mark.parametrize("rows", [[0], [0] * 20], ids=["one", "twenty times the same"])

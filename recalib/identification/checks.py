@@ -13,16 +13,18 @@ TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 def check_observations(seen: Observations, model: ErrorModel) -> None:
     """Raise BadMeasurement unless the parameters of a model can be identified from these."""
     count, joints = len(seen), len(model.nominal.slides)
-    shapes = [np.shape(seen.joints), np.shape(seen.targets)]
+    if count == 0:
+        raise BadMeasurement("the number of observations", [0], "one or more")
+    sizes = {"joints": [(count, joints)], "targets": [(count,)]}
     if seen.measured is None:
-        fit = np.shape(seen.sockets) == (count,)
-        shapes.append(np.shape(seen.sockets))
+        sizes["sockets"] = [(count,)]
     else:
-        fit = np.shape(seen.measured) in ((count, 3), (count, 4, 4))
-        shapes.append(np.shape(seen.measured))
-    if not fit or count == 0 or shapes[:2] != [(count, joints), (count,)]:
-        valid = f"joints (n, {joints}), targets (n,), and (n, 3), (n, 4, 4) or sockets (n,), n > 0"
-        raise BadMeasurement("shapes:", [size for shape in shapes for size in shape], valid)
+        sizes["measured"] = [(count, 3), (count, 4, 4)]
+    for name, fit in sizes.items():
+        size = np.shape(getattr(seen, name))
+        if size not in fit:
+            valid = " or ".join(map(str, fit))
+            raise BadMeasurement(f"the size of the observations' {name!r}", size, valid)
     slides = model.nominal.slides
     tables = [
         ("joint angles of measurement", seen.joints[:, ~slides], TURNED, "rad"),

@@ -28,8 +28,15 @@ from recalib.nominal.kinematics import Arm, tool_frame
 
 # By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
 # for each joint (n, joints), and the standard deviation of its coefficients before anything is
-# known.
-JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float]]
+# known, of all joints or of each.
+JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
+
+
+def held(terms: JointTerms, joints: np.ndarray) -> JointTerms:
+    """The same terms, without errors of some joints (joints,): they stay at zero."""
+    return {
+        name: (function, np.where(joints, HELD, scale)) for name, (function, scale) in terms.items()
+    }
 
 
 def _waves(order: int, amplitude: float) -> JointTerms:
@@ -100,14 +107,14 @@ class ErrorModel:
         """Standard deviations (term, joints) of the joint terms' coefficients."""
         if not self._terms:
             return np.empty((0, self._joints))
-        scales = np.array([scale for _, scale in self._terms.values()])
-        deviations = np.repeat(scales[:, None], self._joints, axis=1)
+        scales = [np.broadcast_to(scale, self._joints) for _, scale in self._terms.values()]
+        deviations = np.array(scales)
         slides = self.nominal.slides
         deviations[:, slides] = HELD
         deviations[0, slides] = OFFSET_OF_A_SLIDE
         if self.nominal.massless and "compliance" in self.names:
             deviations[self.names.index("compliance")] = HELD
-        return deviations
+        return np.where(np.array(scales) > HELD, deviations, HELD)
 
     def twists(self, parameters: np.ndarray) -> np.ndarray:
         """The twists (joints + targets, 6) [m, rad] in the parameters (P,)."""

@@ -21,6 +21,7 @@ import numpy as np
 import scipy.linalg
 from scipy.special import chdtri
 
+from recalib.errors import BadMeasurement
 from recalib.identification.checks import check_observations
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.linearised import Linearised
@@ -107,7 +108,13 @@ def identify(
             precision += known
             pull += stretch
         precision[diagonal] += 1 / variances
-        change, length, covariance, volume = _posterior(precision, pull)
+        try:
+            change, length, covariance, volume = _posterior(precision, pull)
+        except ValueError:  # what is far off has led to where nothing can be told any more
+            row = weights.argmin()
+            valid = "what the same arm explains as the others"
+            numbers = seen.joints[row] if seen.measured is None else np.ravel(seen.measured[row])
+            raise BadMeasurement(f"measurement {row}", numbers, valid) from None
         parameters = parameters + change
         near.move(change)
         # ... and then noise and variances, given the parameters.

@@ -111,6 +111,11 @@ def _is_open(tool: np.ndarray, seen: Observations, target: np.ndarray | None) ->
     return np.linalg.svd(points / np.sqrt(len(points)), compute_uv=False)[1] < THIN
 
 
+def typical_miss(frames: Frames, arm: Arm, seen: Observations) -> float:
+    """The median of what the frames miss [m] with the nominal arm between them."""
+    return _missed(frames, arm.forward(seen.joints), seen)
+
+
 def _missed(frames: Frames, tool: np.ndarray, seen: Observations) -> float:
     """The median of what the frames miss [m], with the nominal poses (n, 4, 4) of the tool."""
     predicted = frames.base @ tool @ frames.targets[seen.targets]

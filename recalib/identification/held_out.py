@@ -1,7 +1,8 @@
 """What an identification misses on rows that it was not made from.
 
-Each row is held out in two ways: in a random part of all rows, and with those that are near it in
-joint space, where what was learned has to reach farther.
+Each row is held out in two ways: in a random part of all postures, and with those that are near it
+in joint space, where what was learned has to reach farther. A posture is held out as a whole, with
+all its targets and repetitions: any row of it would give the others away.
 """
 
 from collections.abc import Callable
@@ -13,6 +14,7 @@ from scipy.cluster.vq import kmeans, vq
 from recalib.identification.calibration import Calibration
 from recalib.identification.linearised import LEVER
 from recalib.identification.observations import Observations
+from recalib.identification.postures import Postures
 from recalib.randomness import generator
 
 FOLDS = 5
@@ -50,52 +52,78 @@ class HeldOut:
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
     def factor(self) -> float:
-        """The radius that covers 95 % of measured positions, over their spreads.
+        """The radius that covers 95 % of measured positions in each part, over their spreads.
 
         The spreads know of noise and of what data left open, not of what no parameter can hold:
-        that is in what was missed (split conformal prediction, Lei et al. 2018).
+        that is in what was missed (split conformal prediction, Lei et al. 2018). Where parts lie
+        apart, that differs from one to the next, and a new place may be as bad as the worst.
         """
         ratios = self.errors[:, 0] / self.spreads
-        rank = min(len(ratios), int(np.ceil((len(ratios) + 1) * COVERED)))
-        return float(np.sort(ratios)[rank - 1])
+        return max(_covering(ratios[self.folds == fold]) for fold in np.unique(self.folds))
 
     def coverage(self) -> float:
         """The part of positions within intervals whose factor is that of the other folds."""
-        parts = range(self.folds.max() + 1)
-        factors = np.array([self[self.folds != fold].factor() for fold in parts])
-        return float(np.mean(self.errors[:, 0] <= factors[self.folds] * self.spreads))
+        inside = np.empty(len(self.folds), dtype=bool)
+        for fold in np.unique(self.folds):
+            own = self.folds == fold
+            inside[own] = self[own].errors[:, 0] <= self[~own].factor() * self.spreads[own]
+        return float(inside.mean())
 
 
-def random_folds(seen: Observations) -> np.ndarray:
-    """The number (n,) of the part that each row is in; each target and socket is in all of them."""
-    random, folds, first = generator(0, "folds"), np.empty(len(seen), dtype=int), 0
-    for rows in _groups(seen):
-        folds[random.permutation(rows)] = (first + np.arange(len(rows))) % FOLDS
-        first += len(rows)
-    return folds
+def _covering(ratios: np.ndarray) -> float:
+    """The least of them that covers 95 % of others like them."""
+    rank = min(len(ratios), int(np.ceil((len(ratios) + 1) * COVERED)))
+    return float(np.sort(ratios)[rank - 1])
 
 
-def blocks(seen: Observations) -> np.ndarray:
+def random_folds(seen: Observations, postures: Postures) -> np.ndarray:
+    """The number (n,) of the part that each row is in, with each target or socket in all of them.
+
+    As far as it can be: of a posture, all rows are in one part.
+    """
+    random, shown = generator(0, "folds"), seen.groups[postures.first]
+
+    def deal(some: np.ndarray) -> np.ndarray:
+        order, parts = random.permutation(len(some)), np.empty(len(some), dtype=int)
+        by_target = order[np.argsort(shown[some[order]], kind="stable")]
+        parts[by_target] = np.arange(len(some)) % FOLDS
+        return parts
+
+    return _divided(seen, postures, deal)
+
+
+def blocks(seen: Observations, postures: Postures) -> np.ndarray:
     """Likewise, of parts that lie together in joint space."""
-    spread = seen.joints.std(axis=0)
-    scaled = seen.joints / np.where(spread > 0, spread, 1)
-    random, folds = generator(0, "blocks"), np.empty(len(seen), dtype=int)
-    for rows in _groups(seen):
-        centres, _ = kmeans(scaled[rows], min(FOLDS, len(rows)), rng=random)
-        folds[rows], _ = vq(scaled[rows], centres)
-    return folds
+    random, joints = generator(0, "blocks"), seen.joints[postures.first]
+    scaled = joints / np.where(postures.still, np.inf, joints.std(axis=0))
+
+    def cluster(some: np.ndarray) -> np.ndarray:
+        centres, _ = kmeans(scaled[some], min(FOLDS, len(some)), rng=random)
+        return vq(scaled[some], centres)[0]
+
+    return _divided(seen, postures, cluster)
 
 
-def _groups(seen: Observations) -> list[np.ndarray]:
-    """Rows of each target, or of each ball in each socket."""
-    group = seen.groups
-    return [np.flatnonzero(group == one) for one in range(group.max() + 1)]
+def _divided(
+    seen: Observations, postures: Postures, divide: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
+    """The part (n,) of each row, by what divides postures (their numbers) into parts.
+
+    A target or a socket of which all would be in one part is divided by itself: without any row,
+    nobody knows where it is.
+    """
+    parts, groups = divide(np.arange(len(postures))), seen.groups
+    for group in range(groups.max() + 1):
+        its = np.unique(postures.numbers[groups == group])
+        if np.ptp(parts[its]) == 0:
+            parts[its] = divide(its)
+    return parts[postures.numbers]
 
 
 def hold_out(fit: Fit, seen: Observations, weights: np.ndarray, folds: np.ndarray) -> HeldOut:
     """Identify without each fold in turn, and look at what is missed there."""
     misses, spreads = np.empty((len(seen), 3 * seen.kinds)), np.empty(len(seen))
-    for fold in range(folds.max() + 1):
+    for fold in np.unique(folds):
         held = folds == fold
         calibration, asked = fit(seen[~held], weights[~held]), seen[held]
         misses[held] = calibration.misses(asked)

@@ -4,18 +4,22 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.identification.estimation import Estimate
+from recalib.identification.postures import Postures
 
-FEWEST = 10  # rows to hold some out
+FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
 NAMED = 5  # rows to look at first
 
 
-class TooFewRows(RecalibError):
-    """Fewer rows than it takes to say what an identification is worth."""
+class TooFewPostures(RecalibError):
+    """Fewer postures than it takes to say what an identification is worth."""
 
-    def __init__(self, rows: int):
-        self.rows = rows
-        super().__init__(f"there are {rows} rows; valid: at least {FEWEST}")
+    def __init__(self, postures: int, rows: int):
+        self.postures, self.rows = postures, rows
+        super().__init__(
+            f"there are {rows} rows of {postures} posture{'s' * (postures != 1)}; valid: at least"
+            f" {FEWEST} postures, all over the joints' ranges"
+        )
 
 
 class NotConverged(RecalibError):
@@ -49,19 +53,11 @@ class Implausible(RecalibError):
         )
 
 
-class OnePosture(RecalibError):
-    """Rows that are all of the same posture, so that none can be held out."""
-
-    def __init__(self):
-        super().__init__("all rows are of one posture; valid: postures all over the joints' ranges")
-
-
-def check_rows(joints: np.ndarray) -> None:
-    """Raise TooFewRows or OnePosture unless some of the postures (n, joints) can be held out."""
-    if len(joints) < FEWEST:
-        raise TooFewRows(len(joints))
-    if not np.ptp(joints, axis=0).any():
-        raise OnePosture
+def check_postures(postures: Postures) -> Postures:
+    """The same, if some of them can be held out. Raises TooFewPostures."""
+    if len(postures) < FEWEST:
+        raise TooFewPostures(len(postures), len(postures.numbers))
+    return postures
 
 
 def check_estimate(estimate: Estimate) -> None:

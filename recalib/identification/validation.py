@@ -17,16 +17,19 @@ from recalib.identification.error_model import (
     NO_ERRORS,
     OFFSETS,
     ErrorModel,
+    held,
 )
 from recalib.identification.estimation import identify
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.observations import Observations
-from recalib.identification.soundness import check_estimate, check_rows
+from recalib.identification.postures import Postures, find_postures
+from recalib.identification.soundness import check_estimate, check_postures
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
-RANDOM, BLOCKWISE = WAYS = "at random", "in blocks"
+# Of errors away from what was measured, and among it. The first is what a calibration is worth.
+BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
 # The joint terms that each may have, the fewest first.
 CANDIDATES = {
@@ -44,6 +47,7 @@ class Validation:
     Attributes:
         held_out: by way of folding and by what is done. Where frames are unknown, those of the
             nominal arm are identified, too, and nothing else is.
+        postures: in which all rows are.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
         chosen: what is best done: nothing, geometric or hybrid.
         full: the calibrations from all rows.
@@ -51,6 +55,7 @@ class Validation:
     """
 
     held_out: Mapping[str, Mapping[str, HeldOut]]
+    postures: Postures
     counted: np.ndarray
     chosen: str
     full: Mapping[str, Calibration]
@@ -76,9 +81,9 @@ class Validation:
     def radii(self, joints: np.ndarray) -> np.ndarray:
         """Within how much (n,) [m] of its prediction 95 % of measured positions lie.
 
-        For the calibration that is chosen, in postures like those that were seen.
+        For the calibration that is chosen, also in postures away from those that were seen.
         """
-        held = self.held_out[RANDOM][self.chosen][self.counted]
+        held = self.held_out[BLOCKWISE][self.chosen][self.counted]
         return held.factor() * self.calibration.spreads(joints)
 
     def coverage(self, way: str) -> float:
@@ -96,25 +101,30 @@ def validate(
 
     The hybrid is geometry with joint errors and a Gaussian process of what is left, as far as all
     rows show any. Where rows are held out, all is identified and chosen anew but how smooth the
-    process is.
+    process is. A joint that stood still has no errors: what holds it has them.
 
     Args:
         frames: at both ends; see `guess_frames` for those that are unknown.
         say: is told what is being done.
 
-    Raises BadMeasurement, TooFewRows, OnePosture, NotConverged and Implausible.
+    Raises BadMeasurement, TooFewPostures, NotConverged and Implausible.
     """
-    check_rows(seen.joints)
+    check_postures(find_postures(seen.joints, arm.slides, noise=0.0))
     say("geometry")
-    geometry = ErrorModel(arm, OFFSETS, frames)
-    estimate = identify_by_consensus(geometry, seen)
+    estimate = identify_by_consensus(ErrorModel(arm, OFFSETS, frames), seen)
     check_estimate(estimate)
+    postures = check_postures(find_postures(seen.joints, arm.slides, estimate.noise[0]))
+    candidates = {
+        kind: [held(terms, postures.still) for terms in options]
+        for kind, options in CANDIDATES.items()
+    }
+    geometry = ErrorModel(arm, *candidates[GEOMETRIC], frames)
     counted = estimate.weights >= OUTLYING
     weights = counted.astype(float)
     say("what is no geometry")
-    hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, weights=weights)
+    hybrid = calibrate(arm, candidates[HYBRID], seen, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, CANDIDATES[HYBRID], seen, frames, hybrid, weights)
+        hybrid = calibrate(arm, candidates[HYBRID], seen, frames, hybrid, weights)
     richer = hybrid.residual is not None or hybrid.model.names != geometry.names
     unsettled = richer and not hybrid.estimate.converged
     full = {
@@ -124,31 +134,36 @@ def validate(
     if richer and not unsettled:
         full[HYBRID] = hybrid
     held_out = {}
-    for way, folds in zip(WAYS, (random_folds(seen), blocks(seen)), strict=True):
+    for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
+        folds = divide(seen, postures)
         say(f"what is missed {way}")
         held_out[way] = {
-            kind: hold_out(partial(calibrate_again, whole, CANDIDATES[kind]), seen, weights, folds)
+            kind: hold_out(partial(calibrate_again, whole, candidates[kind]), seen, weights, folds)
             for kind, whole in full.items()
         }
-    chosen = _choice(held_out, counted)
+    chosen = _choice(held_out, counted, postures)
     for kinds in (full, *held_out.values()):
         kinds.setdefault(HYBRID, kinds[GEOMETRIC])  # there was nothing but geometry
-    return Validation(held_out, counted, chosen, full, unsettled)
+    return Validation(held_out, postures, counted, chosen, full, unsettled)
 
 
 def _identified(model: ErrorModel, seen: Observations, weights: np.ndarray) -> Calibration:
     return Calibration(model, identify(model, seen, weights=weights))
 
 
-def _choice(held_out: Mapping[str, Mapping[str, HeldOut]], counted: np.ndarray) -> str:
-    """The simplest that nothing beats for sure, on rows held out in both ways."""
+def _choice(
+    held_out: Mapping[str, Mapping[str, HeldOut]], counted: np.ndarray, postures: Postures
+) -> str:
+    """The simplest that nothing beats for sure, on postures held out in both ways."""
+    _, own = np.unique(postures.numbers[counted], return_inverse=True)
     losses = {
         kind: np.mean([held_out[way][kind][counted].losses for way in WAYS], axis=0)
         for kind in held_out[RANDOM]
     }
     best, *richer = losses
     for kind in richer:
-        gains = losses[best] - losses[kind]
+        # rows of one posture miss alike: they are one gain
+        gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
         if gains.mean() > SURE * gains.std(ddof=1) / np.sqrt(len(gains)):
             best = kind
     return best

@@ -11,17 +11,19 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.identification.calibration import Calibration
 from recalib.identification.estimation import DOUBTFUL
-from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.openness import Open, open_parameters
 from recalib.identification.validation import GEOMETRIC, NOTHING, RANDOM, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.knowledge import check_distances, first_frames
 from recalib.laboratory.measurements import Measurements, read_measurements
 from recalib.laboratory.sanity import Fit, check_nominal
-from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.arms import arm_of
+from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
+from recalib.storage import read_file
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,8 @@ class Calibrated:
 
     Attributes:
         urdf: the file that describes the arm.
+        source: its bytes, as they were read.
+        origin: which file it is, in words.
         table: the file with the measurements.
         seen: what it says.
         targets, sockets: their names, in the order of their numbers.
@@ -39,6 +43,8 @@ class Calibrated:
     """
 
     urdf: Path
+    source: bytes
+    origin: str
     table: Path
     seen: Observations
     targets: tuple[str, ...]
@@ -75,7 +81,7 @@ class Calibrated:
     @property
     def correction(self) -> Correction:
         """What corrects commands, with no other file."""
-        return Correction(self.urdf.read_bytes(), self.calibration, self.seen.joints)
+        return Correction(self.source, self.calibration, self.seen.joints)
 
     @property
     def counted(self) -> np.ndarray:
@@ -114,13 +120,17 @@ def calibrate_arm(
         say: is told what is being done, in a line each.
 
     Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
-    another arm; frames that cannot be told; a fit that did not work out.
+    another arm; frames that cannot be told, or that are not where the description has them; a fit
+    that did not work out.
     """
-    arm = load_arm(urdf, tool, base)
+    path = find_urdf(urdf)
+    source = read_file(path, MOST)
+    arm = arm_of(source, path, tool, base)
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
     said = description or Description()
     rows = read_measurements(table, arm, said)
+    say(its := origin(urdf, source))
     say(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
     beside = None
     known = None if said.instrument is None else np.linalg.inv(said.instrument)
@@ -128,14 +138,12 @@ def calibrate_arm(
         point = None if said.target is None else said.target[:3, 3]
         beside = check_nominal(arm, rows.coordinates, rows.nominal, known, point)
     seen, targets, sockets = _observations(rows, said, Path(table))
-    if known is not None and said.target is not None:
-        frames = Frames(known, np.tile(said.target, (len(targets), 1, 1)))
-    else:
-        say("where instrument and target are: a first guess")
-        frames = guess_frames(arm, seen, known, said.target)
+    say("where instrument and target are: a first guess")
+    frames = first_frames(arm, seen, said.instrument, said.target)
+    check_distances(arm, seen, frames, sockets)
     validation = validate(arm, seen, frames, say)
     return Calibrated(
-        find_urdf(urdf), Path(table), seen, targets, sockets, beside, frames, validation
+        path, source, its, Path(table), seen, targets, sockets, beside, frames, validation
     )
 
 
@@ -150,6 +158,11 @@ def _observations(
         measured[:, :3, :3], measured[:, :3, 3] = rows.rotations, rows.positions
     seen = Observations(rows.coordinates, measured, numbers)
     if rows.sockets is None:
+        if said.distances:
+            raise InvalidFile(
+                table,
+                "its description has a distance between sockets; the table has no column 'socket'",
+            )
         return seen, targets, ()
     if said.instrument is not None:
         raise InvalidFile(table, "its description has an instrument; a ball in sockets needs none")

@@ -4,9 +4,11 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 
-from recalib.errors import InvalidFile, RecalibError
+from recalib.errors import RecalibError
+from recalib.laboratory.outputs import check_new, is_taken, new
 
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -18,14 +20,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    with suppress(AttributeError):  # where Python's own was replaced
+        sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
     try:
+        check_new(given.out, given.makes_folder)
         return given.command(given)
     except RecalibError as error:
-        print(f"recalib: {error}", file=sys.stderr)
+        told = str(error)
     except OSError as error:
-        print(f"recalib: {error.filename}: {error.strerror}", file=sys.stderr)
+        told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    except MemoryError:
+        told = "there is not enough memory for this; try: fewer rows"
     except KeyboardInterrupt:
-        print("recalib: interrupted; no file was touched", file=sys.stderr)
+        there = is_taken(given.out, given.makes_folder)
+        told = f"interrupted; {given.out} is {'there, and whole' if there else 'not written'}"
+    print(f"recalib: {told}", file=sys.stderr)
     return REFUSED
 
 
@@ -37,13 +46,13 @@ def _parser() -> argparse.ArgumentParser:
 
     def add(name: str, command: Callable[[argparse.Namespace], int], text: str):
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
-        own.set_defaults(command=command)
+        own.set_defaults(command=command, makes_folder=command is _calibrate)
         return own
 
     own = add("calibrate", _calibrate, "identify an arm from measurements")
     own.add_argument("urdf", help="a file, or the name of one of example-robot-data")
     own.add_argument("measurements", type=Path, help="a table (CSV)")
-    own.add_argument("--out", type=Path, default=Path("calibration"), help="a folder (%(default)s)")
+    own.add_argument("--out", default="calibration", help="a new folder (%(default)s)")
     own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
     own.add_argument("--base", help="link in whose frame poses are; the root unless given")
     own.add_argument("--description", type=Path, help="what the table does not say itself (TOML)")
@@ -51,18 +60,18 @@ def _parser() -> argparse.ArgumentParser:
     own = add("correct", _correct, "commands that take the arm to what is desired")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
     own.add_argument("desired", type=Path, help="poses or joint coordinates (CSV)")
-    own.add_argument("--out", type=Path, default=Path("commands.csv"), help="a file (%(default)s)")
+    own.add_argument("--out", default="commands.csv", help="a new file (%(default)s)")
 
     own = add("next", _next, "the postures that would teach most, and whether they are worth it")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
     own.add_argument("candidates", type=Path, nargs="?", help="to choose from (CSV)")
     own.add_argument("--count", type=_positive, default=10, help="how many (%(default)s)")
-    own.add_argument("--out", type=Path, default=Path("next.csv"), help="a file (%(default)s)")
+    own.add_argument("--out", default="next.csv", help="a new file (%(default)s)")
 
     own = add("urdf", _urdf, "the URDF of an arm, from its Denavit-Hartenberg parameters")
     own.add_argument("links", type=Path, help="a table (CSV): joint, a, alpha, d, theta, kind")
     own.add_argument("--convention", default="standard", help="or modified (%(default)s)")
-    own.add_argument("--out", type=Path, default=Path("arm.urdf"), help="a file (%(default)s)")
+    own.add_argument("--out", default="arm.urdf", help="a new file (%(default)s)")
     return parser
 
 
@@ -80,8 +89,6 @@ def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.files import looks, write_files
     from recalib.laboratory.summary import summary
 
-    if given.out.exists() and not given.out.is_dir():  # known before the work, not after it
-        raise InvalidFile(given.out, "it is no folder")
     result = calibrate_arm(
         given.urdf, given.measurements, given.description, given.tool, given.base, _tell
     )
@@ -143,11 +150,10 @@ def _next(given: argparse.Namespace) -> int:
 def _urdf(given: argparse.Namespace) -> int:
     from recalib.laboratory.links import read_rows, urdf_of
     from recalib.nominal.denavit_hartenberg import arm_of_table
-    from recalib.storage import whole
 
     arm = arm_of_table(read_rows(given.links), given.convention)
-    with whole(given.out) as temporary:
-        temporary.write_text(urdf_of(arm), encoding="utf-8")
+    with new(given.out) as made:
+        made.write_text(urdf_of(arm), encoding="utf-8")
     print(f"{given.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
     return DONE
 

@@ -5,19 +5,18 @@ arm's base and tool link. Its arrays are the bytes of the arm's URDF, the calibr
 joint coordinates learned from.
 """
 
-import tempfile
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
-from recalib.archives import read_archive, write_archive
+from recalib.archives import read_archive, refused, write_archive
 from recalib.identification.calibration import Calibration
-from recalib.nominal.arms import load_arm
+from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
 
-FORMAT = "recalib correction", 3
+FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
 
 
 @dataclass(frozen=True)
@@ -54,10 +53,22 @@ class Correction:
 
 def load_correction(path: str | PathLike) -> Correction:
     """What `Correction.save` wrote. Raises InvalidFile."""
-    header, state = read_archive(path, FORMAT, "recalib calibrate")
-    urdf = state["urdf"].tobytes()
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "arm.urdf"
-        file.write_bytes(urdf)
-        arm = load_arm(file, header["tool"], header["base"])
-    return Correction(urdf, Calibration.restore(arm, state["calibration"]), state["learned"])
+    header, state = read_archive(path, FORMAT, WRITER)
+    with refused(path, WRITER):
+        urdf = state["urdf"].tobytes()
+        arm = arm_of(urdf, Path(path), header["tool"], header["base"])
+        calibration = Calibration.restore(arm, state["calibration"])
+        loaded = Correction(urdf, calibration, state["learned"])
+        if not _fits(loaded):
+            raise ValueError
+    return loaded
+
+
+def _fits(correction: Correction) -> bool:
+    """Whether the parts belong to one another; where they do not, it may raise anything."""
+    calibration, learned = correction.calibration, correction.learned
+    poses, jacobians = calibration.forward_and_jacobian(learned[:1])
+    numbers = poses, jacobians, calibration.spreads(learned[:1])
+    return learned.shape[1:] == (len(correction.arm.joints),) and all(
+        each.size and np.isfinite(each).all() for each in numbers
+    )

@@ -20,7 +20,6 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -28,8 +27,11 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
 from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.storage import read_file
 
 PARTS = "columns", "instrument", "target", "distance"
+MOST = 1_000_000  # bytes
+FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}  # in any table, too
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 
@@ -41,7 +43,7 @@ class Description:
         columns: by a heading of the table, what should have stood there, or "ignored".
         instrument: (4, 4) m in the arm's base frame; None where it is unknown.
         target: (4, 4) m in the tool link's frame; None where it is unknown.
-        distances: m between the centres of two sockets.
+        distances: m between the centres of two sockets, by their names in alphabetical order.
     """
 
     columns: Mapping[str, str] = field(default_factory=dict)
@@ -53,12 +55,7 @@ class Description:
 def read_description(path: str | PathLike) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
     try:
-        parts = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InvalidFile(path, error.strerror or "it cannot be read") from None
-    except ValueError as error:  # not UTF-8, or not TOML
-        raise InvalidFile(path, f"it is no TOML: {error}") from None
-    try:
+        parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, ", ".join(PARTS))
@@ -71,6 +68,10 @@ def read_description(path: str | PathLike) -> Description:
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
+    except ValueError as error:  # not UTF-8, or not TOML
+        raise InvalidFile(path, f"it is no TOML: {error}") from None
+    except RecursionError:
+        raise InvalidFile(path, "its parts are nested too deep") from None
 
 
 def _columns(given: Any) -> dict[str, str]:
@@ -102,7 +103,13 @@ def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
 def _distances(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
-    return dict(map(_distance, given))
+    distances = {}
+    for pair, length in map(_distance, given):
+        if pair in distances:
+            found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
+            raise InvalidSetting(f"distance between {' and '.join(pair)}", found, "one length")
+        distances[pair] = length
+    return distances
 
 
 def _distance(given: Any) -> tuple[tuple[str, str], float]:
@@ -114,11 +121,15 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
     length = _read("distance.length", given["length"], LENGTH)
     if length <= 0:
         raise InvalidSetting("distance.length", given["length"], "more than zero")
-    return (str(between[0]), str(between[1])), length
+    return tuple(sorted(map(str, between))), length
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
     try:
-        return kind.read(text)
+        number = kind.read(text)
     except InvalidQuantity:
         raise InvalidSetting(key, text, f"{kind.name} in {', '.join(kind.units)}") from None
+    most, told = FARTHEST[kind]
+    if abs(number) > most:
+        raise InvalidSetting(key, text, f"up to {told}")
+    return number

@@ -1,8 +1,8 @@
-"""The folder of a calibration: its files whole, and none of an older one beside them."""
+"""The folder of a calibration, and tables of postures."""
 
 import csv
 import json
-import os
+import shutil
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
@@ -14,12 +14,12 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.validation import NOTHING, RANDOM
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.outputs import new
 from recalib.laboratory.parameters import described
 from recalib.laboratory.summary import errors_table, summary, verdict
 from recalib.laboratory.universal_robots import kinematics_yaml
 from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.kinematics import Arm
-from recalib.storage import whole
 
 SUMMARY, URDF, CORRECTION = "summary.txt", "arm.urdf", "correction.npz"
 TABLE, VALUES, OFFSETS, ROWS = "parameters.csv", "parameters.json", "joint_offsets.csv", "rows.csv"
@@ -35,28 +35,28 @@ def write_files(
     folder: str | PathLike,
     further: Sequence[tuple[str, Callable[[Path, Calibrated], None]]] = (),
 ) -> list[str]:
-    """Write what is known into a folder, and say which files there are.
+    """Write what is known into a new folder, and say which files there are.
 
-    They are made elsewhere first, so that nothing of the folder is lost where one cannot be.
+    They are made elsewhere first, and appear together.
 
     Args:
         further: files to look at, by what writes them.
+
+    Raises InvalidFile where something is there already, or nothing can be put there.
     """
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".making-", dir=folder) as making:
-        made = Path(making)
+    with tempfile.TemporaryDirectory() as temporary:
+        made = Path(temporary)
         (made / SUMMARY).write_text(summary(result), encoding="utf-8")
         _write_table(made / ROWS, _rows(result))
         if result.worthwhile:
             _write_calibration(made, result)
         for name, write in further:
             write(made / name, result)
-        for name in NAMES:
-            (folder / name).unlink(missing_ok=True)
-            if (made / name).exists():
-                os.replace(made / name, folder / name)
-    return [name for name in NAMES if (folder / name).exists()]
+        written = [name for name in NAMES if (made / name).exists()]
+        with new(folder, folder=True) as there:
+            for name in written:
+                shutil.copyfile(made / name, there / name)
+    return written
 
 
 def looks() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[str]]:
@@ -75,28 +75,31 @@ def looks() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[
 
 
 def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) -> None:
-    """Write joint coordinates (n, joints) and poses (n, 4, 4) in the columns that we read."""
+    """Write joint coordinates (n, joints) and poses (n, 4, 4) in the columns that we read.
+
+    Raises InvalidFile where something is there already, or nothing can be put there.
+    """
     scales = [1e3 if slides else 180 / np.pi for slides in arm.slides]
     units = ["mm" if slides else "deg" for slides in arm.slides]
     names = [f"{joint} [{unit}]" for joint, unit in zip(arm.joints, units, strict=True)]
     names += [*(f"{axis} [mm]" for axis in "xyz"), *(f"r{axis} [deg]" for axis in "xyz")]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
     numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
-    with whole(path) as temporary:
+    with new(path) as made:
         _write_table(
-            temporary,
+            made,
             (dict(zip(names, (f"{each:.9f}" for each in row), strict=True)) for row in numbers),
         )
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
-    source, geometry = result.urdf.read_bytes(), result.geometry
-    text, tool = corrected_urdf(source, geometry)
+    geometry = result.geometry
+    text, tool = corrected_urdf(result.source, geometry)
     (folder / URDF).write_bytes(text)
     if (kinematics := kinematics_yaml(geometry)) is not None:
         (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")
     result.correction.save(folder / CORRECTION)
-    parameters = [vars(each) for each in described(geometry, result.left_open)]
+    parameters = [vars(each) for each in described(result)]
     _write_table(folder / TABLE, parameters)
     offsets = [each for each in parameters if each["name"].startswith("offset of ")]
     _write_table(folder / OFFSETS, offsets)
@@ -121,11 +124,11 @@ def _rows(result: Calibrated) -> Iterable[dict]:
     before = 1e3 * validation.errors(RANDOM, NOTHING)[:, 0]
     after = 1e3 * validation.errors(RANDOM, validation.chosen)[:, 0]
     doubted = {*result.doubted}
-    for row, (old, new, weight) in enumerate(zip(before, after, weights, strict=True), start=1):
+    for row, (old, left, weight) in enumerate(zip(before, after, weights, strict=True), start=1):
         yield {
             "row": row,
             "before [mm]": f"{old:.5g}",
-            "after [mm]": f"{new:.5g}",
+            "after [mm]": f"{left:.5g}",
             "weight": f"{weight:.3g}",
             "doubted": "yes" if row in doubted else "no",
         }

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile
 from recalib.identification.soundness import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
-from recalib.laboratory.description import Description
+from recalib.laboratory.description import FARTHEST, Description
 from recalib.nominal.kinematics import Arm
 from recalib.quantities import ANGLE, LENGTH, Quantity
 
@@ -22,7 +22,6 @@ ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "y
 VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
 LABELS = "target", "socket"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
-FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
 
 

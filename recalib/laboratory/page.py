@@ -25,7 +25,7 @@ def write_page(path: Path, result: Calibrated) -> None:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    parameters = described(result.geometry, result.left_open)
+    parameters = described(result)
     decided = [each for each in parameters if each.decided_by == "data"]
     decided.sort(key=lambda each: -abs(each.value) / each.deviation)
     text = environment.get_template("page.html.j2").render(

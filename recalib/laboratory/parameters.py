@@ -1,13 +1,12 @@
 """The parameters of a calibrated arm by name, with what is known of each."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration
 from recalib.identification.frames import HELD
-from recalib.identification.openness import Open
+from recalib.laboratory.calibrate import Calibrated
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 
@@ -30,15 +29,12 @@ class Parameter:
     decided_by: str
 
 
-def described(calibration: Calibration, left_open: Sequence[Open]) -> list[Parameter]:
-    """All parameters of geometry, in the order of the error model.
-
-    Args:
-        left_open: those that `openness.open_parameters` finds.
-    """
+def described(result: Calibrated) -> list[Parameter]:
+    """All parameters of geometry, in the order of the error model."""
+    calibration = result.geometry
     # a small deviation tells nothing: of what explains nothing, the prior becomes narrow
     estimate, by_prior = calibration.estimate, calibration.model.deviations <= HELD
-    by_prior[[one.parameter for one in left_open]] = True
+    by_prior[[one.parameter for one in result.left_open]] = True
     deviations = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(
@@ -48,37 +44,37 @@ def described(calibration: Calibration, left_open: Sequence[Open]) -> list[Param
             float(scale * deviations[index]),
             "prior" if by_prior[index] else "data",
         )
-        for index, (name, unit, scale) in enumerate(_names(calibration))
+        for index, (name, unit, scale) in enumerate(_names(result))
     ]
 
 
-def open_directions(calibration: Calibration, left_open: Sequence[Open]) -> list[tuple[str, bool]]:
+def open_directions(result: Calibrated) -> list[tuple[str, bool]]:
     """What was seen leaves open, in words, and whether any other postures could tell it.
 
     Each is a parameter and those that would explain the same.
     """
-    names = [name for name, *_ in _names(calibration)]
+    names = [name for name, *_ in _names(result)]
     told = []
-    for one in left_open:
+    for one in result.left_open:
         *others, last = (names[number] for number in (one.parameter, *one.partners))
         told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
     return told
 
 
-def _names(calibration: Calibration) -> Iterator[tuple[str, str, float]]:
+def _names(result: Calibrated) -> Iterator[tuple[str, str, float]]:
     """Name, unit, and its number in an SI unit, of each parameter of geometry."""
-    arm, frames = calibration.model.nominal, calibration.model.frames
+    arm, frames = result.arm, result.geometry.model.frames
     links = ["of base", *(f"behind {joint}" for joint in arm.joints[:-1])]
-    ends = [f"of target {number + 1}" for number in range(len(frames.targets))]
+    ends = [f"of target {name}" for name in result.targets]
     if len(ends) == 1:
         ends = ["of target" if frames.targets_unknown else "of tool"]
     for where in [*links, *ends]:
         for motion in MOTIONS:
             unit, scale = _unit(slides=motion.startswith("shift"))
             yield f"{motion} {where}", unit, scale
-    for socket in range(len(frames.sockets)):
+    for socket in result.sockets:
         for axis in "xyz":
-            yield f"{axis} of socket {socket + 1}, beside its first guess", "mm", 1e3
+            yield f"{axis} of socket {socket}, beside its first guess", "mm", 1e3
     for joint, slides in zip(arm.joints, arm.slides, strict=True):
         yield f"offset of {joint}", *_unit(slides)
 

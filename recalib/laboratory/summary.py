@@ -7,6 +7,7 @@ import numpy as np
 from recalib.identification.validation import GEOMETRIC, HYBRID, KINDS, NOTHING, RANDOM, WAYS
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.parameters import open_directions
+from recalib.meshes import with_own_meshes
 
 DOING = {
     NOTHING: "nothing",
@@ -61,10 +62,15 @@ def verdict(result: Calibrated) -> str:
 
 def notes(result: Calibrated) -> list[str]:
     """What else to know of it, in a line each."""
-    return list(_notes(result))
+    return [_subject(result), *_notes(result)]
+
+
+def _subject(result: Calibrated) -> str:
+    return f"{result.origin}, {result.arm.tool} in {result.arm.base}"
 
 
 def _lines(result: Calibrated) -> Iterator[str]:
+    yield _subject(result)
     yield verdict(result)
     yield ""
     yield f"{'folds':<12}{'what is corrected':<34}{'mean':>9}{'95 %':>9}{'largest':>9}"
@@ -81,11 +87,16 @@ def _lines(result: Calibrated) -> Iterator[str]:
 def _notes(result: Calibrated) -> Iterator[str]:
     arm, estimate = result.arm, result.calibration.estimate
     yield f"{len(result.seen)} rows of {result.table.name}"
-    yield f"{result.urdf.name}, {arm.tool} in {arm.base}"
     if result.beside is not None:
         yield f"nominal positions are those of the URDF, with {result.beside}"
     if arm.massless:
         yield "the URDF has no masses: what gravity does to the arm is not part of the model"
+    _, unseen = with_own_meshes(result.source, result.urdf)
+    if unseen:
+        yield (
+            f"{len(unseen)} meshes are in none of the URDF's packages and folders, and not in the"
+            f" recording, as {unseen[0]}"
+        )
     noise = (
         f"{scale * each:.3g} {unit}"
         for (scale, unit), each in zip(UNITS, estimate.noise, strict=False)
@@ -104,7 +115,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
     radius = 1e3 * np.median(result.validation.radii(result.seen.joints))
     covered = 100 * result.validation.coverage(RANDOM)
     yield f"95 % of positions should lie within {radius:.3g} mm (held out: {covered:.0f} %)"
-    directions = open_directions(result.geometry, result.left_open)
+    directions = open_directions(result)
     lasting = [words for words, other_postures_tell in directions if not other_postures_tell]
     for words in [words for words, other_postures_tell in directions if other_postures_tell][:MOST]:
         yield f"other postures would tell: {words}"

@@ -6,8 +6,9 @@ moving joint directly, no origin is left to move it by: it gets a link of its ow
 """
 
 import re
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping
+from pathlib import Path
+from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
@@ -15,6 +16,7 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
+from recalib.nominal.descriptions import encoding, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 
 CORRECTED = "_corrected"  # what a further link for the tool is called, after the tool's own name
@@ -31,17 +33,15 @@ def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]
     """
     nominal = calibration.model.nominal
     origins, tool = corrected_origins(source, calibration)
-    changed = with_origins(source, origins)
     if tool is None:
-        return changed, nominal.tool
+        return with_origins(source, origins), nominal.tool
     name = nominal.tool + CORRECTED
     added = (
         f'  <link name="{name}"/>\n  <joint name="{name}" type="fixed">\n'
         f'    <parent link="{nominal.tool}"/>\n    <child link="{name}"/>\n'
         f"    {_origin(tool)}\n  </joint>\n"
     )
-    end = changed.rindex(b"</robot")
-    return changed[:end] + added.encode() + changed[end:], name
+    return with_origins(source, origins, added), name
 
 
 def corrected_origins(
@@ -62,16 +62,23 @@ def corrected_origins(
     return origins | {name: np.linalg.inv(fixed) @ tool}, None
 
 
-def with_origins(source: bytes, origins: Mapping[str, np.ndarray]) -> bytes:
-    """A URDF with other origins (4, 4) [m] for the named joints; nothing else is touched."""
-    spans = _origin_spans(source)
+def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
+    """A URDF with other origins (4, 4) [m] for the named joints; nothing else is touched.
+
+    Args:
+        added: what is to stand at its end.
+    """
+    its = encoding(source)
+    text = source.decode(its).encode("utf-8")
+    spans, last = _origin_spans(text)
     pieces, done = [], 0
     for joint in sorted(origins, key=lambda joint: spans[joint]):
         start, end = spans[joint]
-        text = _origin(origins[joint])
-        pieces += [source[done:start], (text if start < end else f"\n    {text}").encode()]
+        new = _origin(origins[joint])
+        pieces += [text[done:start], (new if start < end else f"\n    {new}").encode()]
         done = end
-    return b"".join([*pieces, source[done:]])
+    changed = b"".join([*pieces, text[done:last], added.encode("utf-8"), text[last:]])
+    return changed.decode("utf-8").encode(its)
 
 
 def _origin(pose: np.ndarray) -> str:
@@ -113,7 +120,8 @@ def _segments(source: bytes, arm: Arm) -> Iterator[tuple[np.ndarray, str | None]
     origins (4, 4) of the fixed joints before that one. The tool may have no such joint.
     """
     by_child = {
-        joint.find("child").get("link"): joint for joint in ET.fromstring(source).findall("joint")
+        joint.find("child").get("link"): joint
+        for joint in parsed(source, Path("arm.urdf")).findall("joint")
     }
     path, link = [], arm.tool
     while link in by_child and link != arm.base:
@@ -131,7 +139,7 @@ def _segments(source: bytes, arm: Arm) -> Iterator[tuple[np.ndarray, str | None]
     yield last or (np.eye(4), None)
 
 
-def _pose(origin: ET.Element | None) -> np.ndarray:
+def _pose(origin: ElementTree.Element | None) -> np.ndarray:
     pose = np.eye(4)
     if origin is not None:
         x, y, z = map(float, origin.get("xyz", "0 0 0").split())
@@ -140,10 +148,14 @@ def _pose(origin: ET.Element | None) -> np.ndarray:
     return pose
 
 
-def _origin_spans(source: bytes) -> dict[str, tuple[int, int]]:
-    """First and last byte of each joint's origin; of where it would stand if there is none."""
-    spans, path, joint = {}, [], None
-    parser = expat.ParserCreate()
+def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int]:
+    """First and last byte of each joint's origin, or of where it would stand; and the root's last.
+
+    Args:
+        text: in UTF-8, whatever it says of itself.
+    """
+    spans, path, joint, last = {}, [], None, 0
+    parser = expat.ParserCreate("utf-8")
 
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal joint
@@ -155,14 +167,16 @@ def _origin_spans(source: bytes) -> dict[str, tuple[int, int]]:
             spans[joint] = parser.CurrentByteIndex, tag_end()
 
     def end(name: str) -> None:
-        closing = source.startswith(b"</", parser.CurrentByteIndex)  # not so after <origin/>
+        nonlocal last
+        last = parser.CurrentByteIndex
+        closing = text.startswith(b"</", last)  # not so after <origin/>
         if path[1:] == ["joint", "origin"] and closing:
             spans[joint] = spans[joint][0], tag_end()
         path.pop()
 
     def tag_end() -> int:
-        return _TAG.match(source, parser.CurrentByteIndex).end()
+        return _TAG.match(text, parser.CurrentByteIndex).end()
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
-    parser.Parse(source, True)
-    return spans
+    parser.Parse(text, True)
+    return spans, last

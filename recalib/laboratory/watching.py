@@ -72,7 +72,7 @@ def _send_arm(rec: rr.RecordingStream, result: Calibrated) -> None:
     """The nominal arm in each row: its meshes, and a line along it, if they are missing."""
     arm, joints = result.arm, result.seen.joints
     rows = [rr.TimeColumn(ROW, sequence=np.arange(1, len(joints) + 1))]
-    visuals = log_meshes(rec, result.urdf, ARM)
+    visuals, _ = log_meshes(rec, result.source, result.urdf, ARM)
     for link, poses in link_placements(arm, visuals, joints).items():
         send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", rows, poses)
     strips = rr.LineStrips3D.columns(

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from recalib.interfaces import State
-from recalib.measurements import check_coordinates
 
 PLACES = 3  # binary digits of the numbers of moves after which to learn anew
 
@@ -47,10 +46,7 @@ class Experience:
             sent: (run, move, sent) in the form that the learner uses.
             achieved: (run, move, 6) in coordinates of the workspace.
             executed: (run, move) whether they were carried out.
-
-        Raises BadMeasurement.
         """
-        check_coordinates(achieved)
         self._sent = np.concatenate([self._sent, sent], axis=1)
         self._achieved = np.concatenate([self._achieved, achieved], axis=1)
         self._executed = np.concatenate([self._executed, executed], axis=1)

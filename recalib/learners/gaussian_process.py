@@ -35,8 +35,7 @@ class GaussianProcessLearner(Observer):
             ]
         )
 
-    def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves; see `Observer.observe`."""
+    def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         before = self._experience.moves
         self._experience.add(commands, achieved, executed)
         if is_due(before, self._experience.moves):

@@ -56,8 +56,7 @@ class GeometricLearner(Observer):
             )
         return commands
 
-    def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves; see `Observer.observe`."""
+    def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         before = self._experience.moves
         self._experience.add(self._angles(commands), achieved, executed)
         if is_due(before, self._experience.moves):

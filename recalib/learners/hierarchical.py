@@ -11,7 +11,7 @@ from recalib.learners.maps import HierarchicalMap
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.measurements import check_coordinates
+from recalib.measurements import check_moves
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
@@ -53,7 +53,7 @@ class HierarchicalLearner:
         """One learning cycle with its two moves; see `Learner.learn`.
 
         Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
-        number, or grossly off.
+        number, far off, or the same whatever is sent.
         """
         k, l = self.nets.winner(desired)
         maps = self.maps.values()
@@ -61,11 +61,12 @@ class HierarchicalLearner:
         jacobian = np.concatenate([each.jacobian.at(k, l) for each in maps], axis=-2)
         command = theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
         first = execute(command[:, None])
-        check_coordinates(first.achieved)
+        last = check_moves(command[:, None], first.achieved, first.executed)
         # A_kl (u - u'): the correction of the second movement, and the increment of (6)
         correction = applied(jacobian, desired - first.achieved[:, 0])
-        second = execute((command + correction)[:, None])
-        check_coordinates(second.achieved)
+        corrected = (command + correction)[:, None]
+        second = execute(corrected)
+        check_moves(corrected, second.achieved, second.executed, last)
         moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
         learn_theta = first.executed[:, 0]
         far = np.square(moved).sum(axis=-1) > SHORTEST_MOVE**2

@@ -13,7 +13,6 @@ import numpy as np
 from recalib.errors import InvalidSetting
 from recalib.interfaces import State
 from recalib.learners.observer import Observer
-from recalib.measurements import check_coordinates
 from recalib.monomials import monomials
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
@@ -50,9 +49,8 @@ class PolynomialLearner(Observer):
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         return desired + monomials(desired, self._degree) @ self._coefficients
 
-    def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Learn from moves, one after the other; see `Observer.observe`."""
-        check_coordinates(achieved)
+    def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
+        """Learn from moves, one after the other."""
         for move in range(executed.shape[1]):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)

@@ -12,7 +12,7 @@ from recalib.learners.cells import Cells
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.measurements import check_coordinates
+from recalib.measurements import check_moves
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SPACING = 2 / 3  # of three cells along a coordinate of the workspace, which is 2 wide
@@ -70,10 +70,11 @@ class RadialLearner:
         """One move, and what all units learn of it; see `Learner.learn`.
 
         Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
-        number, or grossly off.
+        number, or far off.
         """
-        outcome = execute(self.command(desired[:, None]))
-        check_coordinates(outcome.achieved)
+        command = self.command(desired[:, None])
+        outcome = execute(command)
+        check_moves(command, outcome.achieved, outcome.executed)
         increment = desired - outcome.achieved[:, 0]  # e
         rate = self.rules.learning_rate(self.schedule, fraction) * outcome.executed[:, 0]
         k, l = self.nets.winner(desired)

@@ -12,5 +12,5 @@ class UncorrectedLearner(Observer):
         """The desired poses (run, pose, 6) themselves."""
         return desired
 
-    def observe(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
+    def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
         """Learn nothing."""

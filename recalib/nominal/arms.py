@@ -1,22 +1,21 @@
 """Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
 
-import importlib
-import importlib.metadata
-from functools import cache
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.nominal.descriptions import MOST, find_urdf, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.storage import read_file
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
 UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
-PACKAGE = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
+FARTHEST, HEAVIEST = 1e3, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
 def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = None) -> Arm:
@@ -33,7 +32,13 @@ def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = N
     Raises UnknownName (URDF, link), InvalidFile (no such file), InvalidSetting (several ends, and
     no tool given), and UnsuitableRobot: no URDF, or no such arm.
     """
-    tree = _Tree(find_urdf(urdf))
+    path = find_urdf(urdf)
+    return arm_of(read_file(path, MOST), path, tool, base)
+
+
+def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None = None) -> Arm:
+    """As `load_arm`, of what was read from a URDF; its path is for messages."""
+    tree = _Tree(source, path)
     base = tree.link("base", base or tree.root)
     tool = tree.link("tool", tool) if tool else tree.only_end(base)
     moving = tree.joints_between(base, tool)
@@ -46,45 +51,30 @@ def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = N
     if base != tree.root:
         _stand_on(model, model.frames[tool_frame(model, base)].placement.copy())
     arm = Arm(model, tool, base)
-    for joint, axis in zip(arm.joints, arm.axes, strict=True):
-        if not axis.any():
-            raise UnsuitableRobot(f"the axis of {joint} has no length in {urdf}")
-    limits = model.lowerPositionLimit, model.upperPositionLimit
-    for joint, lower, upper in zip(arm.joints, *limits, strict=True):
-        if not lower <= upper:
-            raise UnsuitableRobot(f"the limits of {joint} are {lower} to {upper} in {urdf}")
+    _check(arm, path)
     return arm
 
 
-def find_urdf(urdf: str | PathLike) -> Path:
-    """The file of a URDF.
-
-    Args:
-        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
-            a description in robot_descriptions.py, such as panda_description, if it is installed.
-
-    Raises UnknownName, or InvalidFile where that is no name but a path.
-    """
-    packaged = _packaged_urdfs()
-    if urdf in packaged:
-        return packaged[urdf]
-    if fspath(urdf).endswith("_description"):
-        try:
-            return Path(importlib.import_module(f"{PACKAGE}.{urdf}").URDF_PATH)
-        except (ImportError, AttributeError):
-            valid = f"a path, or a URDF of {PACKAGE}, which has to be installed"
-            raise InvalidSetting("urdf", fspath(urdf), valid) from None
-    if Path(urdf).is_file():
-        return Path(urdf)
-    if Path(urdf).name != fspath(urdf):
-        raise InvalidFile(urdf, "there is no such file")
-    raise UnknownName("file or URDF of example-robot-data", fspath(urdf), packaged)
-
-
-@cache
-def _packaged_urdfs() -> dict[str, Path]:
-    files = importlib.metadata.files("example-robot-data") or []
-    return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
+def _check(arm: Arm, path: Path) -> None:
+    """Raise UnsuitableRobot where a number of an arm is none of an arm."""
+    model = arm.model
+    for joint, axis in zip(arm.joints, arm.axes, strict=True):
+        if not axis.any():
+            raise UnsuitableRobot(f"the axis of {joint} has no length in {path}")
+    limits = model.lowerPositionLimit, model.upperPositionLimit
+    for joint, lower, upper in zip(arm.joints, *limits, strict=True):
+        if not lower <= upper:
+            raise UnsuitableRobot(f"the limits of {joint} are {lower} to {upper} in {path}")
+    tool = model.frames[tool_frame(model, arm.tool)].placement
+    for name, placement in zip(
+        [*arm.joints, arm.tool], [*model.jointPlacements[1:], tool], strict=True
+    ):
+        if not np.abs(placement.translation).max() < FARTHEST:
+            far = f"{FARTHEST:g} m or more from what carries it"
+            raise UnsuitableRobot(f"{name} is {far} in {path}")
+    for name, inertia in zip(arm.joints, list(model.inertias)[1:], strict=True):
+        if not (abs(inertia.mass) < HEAVIEST and np.abs(inertia.lever).max() < FARTHEST):
+            raise UnsuitableRobot(f"what {name} carries has no mass of an arm's link in {path}")
 
 
 class _Tree:
@@ -96,11 +86,8 @@ class _Tree:
         root: the link that no joint carries.
     """
 
-    def __init__(self, path: Path):
-        try:
-            robot = ElementTree.parse(path).getroot()
-        except (ElementTree.ParseError, UnicodeDecodeError):
-            raise UnsuitableRobot(f"{path} is no URDF: it is not XML") from None
+    def __init__(self, source: bytes, path: Path):
+        robot = parsed(source, path)
         if path.suffix == ".xacro" or any("xacro" in element.tag for element in robot.iter()):
             raise UnsuitableRobot(
                 f"{path} is a xacro file; valid: what `xacro {path.name}` expands it to"
@@ -113,7 +100,7 @@ class _Tree:
                 joint.set("name", joint.get("name") + NAMESAKE)
         try:
             self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
-        except ValueError:  # what is wrong, urdfdom has written to stderr
+        except (ValueError, RecursionError):  # what is wrong, urdfdom has written to stderr
             raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from None
         self._name = path.name
         self._joints = {joint.find("child").get("link"): joint for joint in robot.iterfind("joint")}

@@ -13,6 +13,7 @@ ones, too. So poses determine joint angles, and what learns from poses alone is 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 from typing import NamedTuple
 
@@ -89,8 +90,13 @@ class Controller:
         self._check_reach(poses, residuals)
         self._check_limits(knots)
         self._check_condition(knots, greatest_condition)
-        features = monomials(np.concatenate([grid * part for part in BOXES]), DEGREE)
-        self._guess = np.linalg.lstsq(features, np.concatenate(solved))[0]
+        self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
+
+    @cached_property
+    def _guess(self) -> np.ndarray:
+        """Coefficients of joint angles by coordinates: who only asks for reach needs none."""
+        coordinates, angles = self._knots
+        return np.linalg.lstsq(monomials(coordinates, DEGREE), angles)[0]
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
@@ -73,6 +72,8 @@ def _missing(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     missing[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
     far = np.trace(between, axis1=-2, axis2=-1) < 1
     if far.any():
+        from scipy.spatial.transform import Rotation  # seldom needed: no start waits for it
+
         missing[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
     return missing
 

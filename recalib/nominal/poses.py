@@ -11,7 +11,6 @@ mixes metres with radians.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.compiled import compiled
 from recalib.errors import UnknownName
@@ -175,6 +174,8 @@ def position_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
 
 def orientation_error(achieved: np.ndarray, desired: np.ndarray) -> np.ndarray:
     """Angle (...) in rad of the turn from one orientation to the other, of poses (..., 4, 4)."""
+    from scipy.spatial.transform import Rotation  # no robot that is only asked waits for it
+
     between = np.swapaxes(desired[..., :3, :3], -1, -2) @ achieved[..., :3, :3]
     angles = Rotation.from_matrix(between.reshape(-1, 3, 3), assume_valid=True).magnitude()
     return angles.reshape(between.shape[:-2])

@@ -26,6 +26,8 @@ class Nominal(Frozen):
     name: str
     robot: Robot
     controller: Controller
+    urdf_sha256: str
+    """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
 
 
 class Assignments(Frozen):

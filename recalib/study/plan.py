@@ -1,5 +1,6 @@
 """From a study to what each of its jobs needs."""
 
+import hashlib
 from collections.abc import Iterable
 
 from recalib.errors import UnknownName
@@ -40,9 +41,14 @@ class Plan:
         self.study = study
 
     def nominal(self, robot: str) -> jobs.Nominal:
-        """A robot and its controller."""
-        study = self.study
-        return jobs.Nominal(name=robot, robot=study.robots[robot], controller=study.controller)
+        """A robot and its controller. See `find_urdf` for what it raises."""
+        from recalib.nominal.arms import find_urdf  # which brings Pinocchio
+
+        entry = self.study.robots[robot]
+        digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()
+        return jobs.Nominal(
+            name=robot, robot=entry, controller=self.study.controller, urdf_sha256=digest
+        )
 
     def assignments(self, robot: str) -> jobs.Assignments:
         """Every assignment of the paper's damage to a robot."""

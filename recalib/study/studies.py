@@ -4,7 +4,7 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import partial, reduce
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +16,17 @@ from recalib.study.configuration.messages import (
     unknown,
     unlike,
 )
-from recalib.study.configuration.reading import Source, placed, read_study
+from recalib.study.configuration.reading import Check, Source, placed, read_study
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import Placed, from_mapping, shown
 from recalib.study.layout import SHIPPED, root_of
+from recalib.study.trainings import Trainings
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
 LIKE = "like"  # the key by which a study names another one, of which it says what it changes
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
-REMEMBERED = ".snakemake/checked"
+DESCRIPTION = "real", "description"
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 
@@ -62,29 +63,37 @@ def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
 
 
 def read_studies(
-    project: Path, files: Sequence[Path], changes: Mapping
+    project: Path, files: Sequence[Path], changes: Mapping, asking: bool = True
 ) -> tuple[str, dict[str, Study]]:
     """The folder of results of this call's study, and every study by that of its own.
+
+    Robots are asked of the scenarios that this call's study trains on; of others, `ask_robots` may.
 
     Args:
         project: folder of the project.
         files: configuration files of this call, laid over config.yaml one after the other.
         changes: settings of its command line, laid over them.
+        asking: whether to ask the robots: they need not be asked for every job of a cluster.
 
     Raises InvalidConfiguration, NotShipped, NameTaken.
     """
-    checks = check, partial(named_files, project), partial(_check_robots_once, project)
     known = sorted((project / OTHERS).glob("*.yaml"))
 
-    def read(*sources: Source) -> Study:
-        layers = (layer for source in sources for layer in layers_of(source, known))
-        return read_study(project / CONFIGURATION, *layers, checks=checks)
+    def read(*sources: Source, checks: Sequence[Check] = ()) -> Study:
+        layers = [[*layers_of(source, known)] for source in sources]
+        begun = [layer for its in layers for layer in its[:-1]]
+        base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
+        named = partial(named_files, project)
+        return read_study(base, *(its[-1] for its in layers), checks=(check, named, *checks))
 
-    main = read(*files, *([_typed(changes)] if changes else []))
+    own = [*files, *([_typed(changes)] if changes else [])]
+    base = read()  # a mistake in it is none in what is laid over it
+    trained = [lambda study: ask_robots(study, Trainings(study).scenarios())]
+    main = read(*own, checks=trained if asking else ())
     others = list(map(read, known))
     studies = {root_of(main.name): main}
-    if main.name != SHIPPED and (files or changes):
-        others.insert(0, read())
+    if main.name != SHIPPED and own:
+        others.insert(0, base)
     for study in others:
         if study != studies.setdefault(root_of(study.name), study):
             raise NameTaken(f"two studies are called {study.name!r}; valid: a name of its own")
@@ -115,7 +124,7 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
     said = {key: value for key, value in its.content.items() if key != LIKE}
     return [
         *layers_of(other, [*valid.values()]),
-        from_mapping(own),
+        from_mapping(own, its.place[:1]),
         Placed(said, its.place, its.origin),
     ]
 
@@ -136,34 +145,20 @@ def _typed(value: Any) -> Any:
 
 def named_files(project: Path, study: Study) -> list[Mistake]:
     """Files that a study names and that are not there."""
-    named = {("expected",): study.expected}
+    named = {("expected",): study.expected, DESCRIPTION: study.real.description}
     named |= {("real", "data", part, "file"): its.file for part, its in study.real.data}
     return [
-        unlike(path, file, "a file that is there, or null")
+        unlike(path, file, "a file that is there" + (path != DESCRIPTION) * ", or null")
         for path, file in named.items()
         if file is not None and not (project / file).is_file()
     ]
 
 
-def _check_robots_once(project: Path, study: Study) -> list[Mistake]:
-    """What the robots say of the study. To ask takes a second, so it is remembered: of the same
-    study and the same code, they said that nothing is wrong.
-    """
-    code = sorted((project / "recalib").glob("[nd]*/*.py"))  # nominal, damaged
-    known = hashlib.sha256(json.dumps(digests(study)).encode())
-    for path in [*code, *sorted((project / "recalib" / "study").rglob("*checks.py"))]:
-        known.update(path.read_bytes())
-    mark = project / REMEMBERED / known.hexdigest()
-    if mark.exists():
-        return []
-    from recalib.study.configuration.robot_checks import check_robots
+def ask_robots(study: Study, scenarios: Sequence[str]) -> list[Mistake]:
+    """What the robots say of these scenarios; see `check_robots`."""
+    from recalib.study.configuration.robot_checks import check_robots  # it takes half a second
 
-    mistakes = check_robots(study)
-    if not mistakes:
-        with suppress(OSError):  # where nothing can be written, the robots are asked each time
-            mark.parent.mkdir(parents=True, exist_ok=True)
-            mark.touch()
-    return mistakes
+    return check_robots(study, scenarios)
 
 
 def ship(project: Path) -> None:

@@ -67,8 +67,9 @@ def scenario_of(study: Study, scenario: str) -> tuple[str, str]:
 
 def elsewhere(study: Study) -> dict[str, str]:
     """The study's own scenario on its robot and on the others: robot to scenario."""
-    others = {robot: f"{study.scenario}-{robot}" for robot in study.experiments.robots}
-    return {study.robot: study.scenario} | others
+    others = (robot for robot in study.experiments.robots if robot != study.robot)
+    own = {study.robot: study.scenario}
+    return own | {robot: f"{study.scenario}-{robot}" for robot in others}
 
 
 class Trainings:

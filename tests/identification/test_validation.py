@@ -9,7 +9,8 @@ from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
 from recalib.identification.observations import Observations
-from recalib.identification.soundness import Implausible, OnePosture, TooFewRows
+from recalib.identification.postures import find_postures
+from recalib.identification.soundness import Implausible, TooFewPostures
 from recalib.identification.validation import (
     GEOMETRIC,
     HYBRID,
@@ -91,29 +92,61 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
     assert found.chosen == GEOMETRIC and found.unsettled
 
 
-def test_each_target_and_each_socket_is_in_all_parts():
+def postures_of(joints):
+    return find_postures(joints, np.zeros(joints.shape[1], dtype=bool), 1e-4)
+
+
+def test_each_target_and_each_socket_is_in_all_random_parts():
     joints = np.random.default_rng(2).uniform(-1, 1, (60, 6))
-    numbers = np.arange(60) % 3
+    numbers, postures = np.arange(60) % 3, postures_of(joints)
     for seen in (
         Observations(joints, joints[:, :3], numbers),
         Observations(joints, sockets=numbers),
     ):
-        for folds in (random_folds(seen), blocks(seen)):
-            for number in range(3):
-                assert set(folds[numbers == number]) == set(range(FOLDS))
-    assert np.ptp(np.bincount(random_folds(seen))) <= 1
+        for number in range(3):
+            folds = random_folds(seen, postures)
+            assert set(folds[numbers == number]) == set(range(FOLDS))
+        assert np.ptp(np.bincount(folds)) <= 1
+
+
+@pytest.mark.parametrize("divide", [random_folds, blocks])
+def test_a_posture_is_held_out_with_all_its_targets_and_repetitions(divide):
+    random = np.random.default_rng(2)
+    joints = np.repeat(random.uniform(-1, 1, (12, 6)), 5, axis=0)
+    postures = postures_of(joints + 2e-5 * random.standard_normal(joints.shape))
+    assert np.array_equal(postures.numbers, np.repeat(np.arange(12), 5))
+    folds = divide(Observations(joints, joints[:, :3], np.arange(60) % 5), postures)
+    assert (folds.reshape(12, 5) == folds[::5, None]).all()
+    assert set(folds) == set(range(FOLDS))
+
+
+def test_a_path_of_small_steps_is_not_one_posture():
+    path = np.linspace(0, 1, 1000)[:, None] * np.ones(6)  # half the way to the next is alike
+    numbers = postures_of(path).numbers
+    assert 100 < numbers.max() < 1000 and (np.diff(numbers) >= 0).all()
+
+
+def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
+    centres = np.repeat(np.eye(6)[:FOLDS], 8, axis=0)
+    joints = centres + np.random.default_rng(3).normal(0, 0.01, (40, 6))
+    targets = np.repeat([0, 1, 0], [16, 8, 16])
+    folds = blocks(Observations(joints, joints[:, :3], targets), postures_of(joints))
+    assert len(set(folds[targets == 1])) == FOLDS
+    assert len(np.unique(folds[targets == 0].reshape(4, 8), axis=1).T) == 1
 
 
 def test_blocks_lie_together():
     centres = np.repeat(np.eye(6)[:FOLDS], 8, axis=0)
-    folds = blocks(Observations(centres + np.random.default_rng(3).normal(0, 0.01, (40, 6)), 0))
+    joints = centres + np.random.default_rng(3).normal(0, 0.01, (40, 6))
+    folds = blocks(Observations(joints, 0), postures_of(joints))
     assert len(np.unique(folds.reshape(FOLDS, 8), axis=1).T) == 1 and len(set(folds)) == FOLDS
 
 
 def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
     joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
     units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
-    assert np.array_equal(blocks(Observations(joints, 0)), blocks(Observations(joints * units, 0)))
+    here, there = (blocks(Observations(q, 0), postures_of(q)) for q in (joints, joints * units))
+    assert np.array_equal(here, there)
 
 
 @pytest.mark.parametrize("count", [16, 30])
@@ -147,7 +180,7 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
 
 
 def test_few_rows_are_refused(arm):
-    with pytest.raises(TooFewRows, match="9 rows; valid: at least 10"):
+    with pytest.raises(TooFewPostures, match="9 rows of 9 postures; valid: at least 10"):
         validate(arm, seen_of(Real(arm, 6), 9))
 
 
@@ -161,7 +194,7 @@ def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
 
 def test_rows_of_one_posture_are_refused_as_such(arm):
     seen = seen_of(Real(arm, 6), 12)
-    with pytest.raises(OnePosture, match="all rows are of one posture"):
+    with pytest.raises(TooFewPostures, match="12 rows of 1 posture; valid: at least 10 postures"):
         validate(arm, seen[np.zeros(12, dtype=int)])
 
 
@@ -169,5 +202,13 @@ def test_rows_of_one_posture_are_refused_as_such(arm):
 def test_of_so_many_rows_the_least_that_covers_95_percent_of_others_is_taken(rows, rank):
     """A further one is at most the k-th of n with a probability of k / (n + 1)."""
     ratios = np.random.default_rng(1).permutation(rows) + 1.0
-    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(rows), np.arange(rows) % 5)
+    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(rows), np.zeros(rows, dtype=int))
     assert held.factor() == pytest.approx(rank)
+
+
+def test_the_worst_part_decides_how_wide_intervals_are():
+    ratios, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
+    ratios[folds == 1] *= 3
+    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(200), folds)
+    assert held.factor() == pytest.approx(3 * 96)
+    assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)

@@ -89,7 +89,8 @@ def test_a_calibration_is_a_folder_of_files(calibrated):
     told = json.loads((calibrated / "parameters.json").read_text())
     best = [row for row in told["errors"] if row["chosen"] and row["folds"] == "at random"]
     assert best[0]["mean"] < 4e3 * NOISE
-    assert (calibrated / "summary.txt").read_text().startswith("On rows that were not learned from")
+    _, verdict, *_ = (calibrated / "summary.txt").read_text().splitlines()
+    assert verdict.startswith("On rows that were not learned from")
 
 
 def test_data_decide_no_more_parameters_than_they_can_tell_apart(calibrated):
@@ -175,12 +176,6 @@ def test_candidates_none_of_which_is_of_use_are_refused(calibrated, folder, caps
     assert main(["next", str(calibrated), str(folder / "away.csv")]) == REFUSED
     told = capsys.readouterr().err
     assert told.startswith("recalib: candidates is '2, none of use'; valid: some within reach")
-
-
-def test_that_results_have_no_folder_is_told_before_the_work(seen, folder, capsys):
-    arguments = [str(folder / "arm.urdf"), str(folder / "measurements.csv")]
-    assert main(["calibrate", *arguments, f"--out={arguments[1]}"]) == REFUSED
-    assert capsys.readouterr().err == f"recalib: cannot use {arguments[1]}: it is no folder\n"
 
 
 def test_an_arm_without_errors_is_left_alone(arm, seen, folder, capsys):

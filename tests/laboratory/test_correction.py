@@ -1,16 +1,25 @@
+import tempfile
+import warnings
+import zipfile
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from recalib.errors import InvalidFile
 from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
+from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import Correction, load_correction
 from recalib.laboratory.measurements import Measurements
 from recalib.nominal.arms import find_urdf, load_arm
+from tests.laboratory.test_command_line import ARM, MIDDLE, SEEN
+from tests.spoiling import spoil
 
 HOME = np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
 
@@ -81,3 +90,41 @@ def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
+
+
+@settings(max_examples=60)
+@given(st.data())
+def test_a_file_that_was_tampered_with_ends_in_a_sentence(small, data):
+    """Whatever was replaced in it, also where it was sealed anew; and so with the commands."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "correction.npz"
+        path.write_bytes(small)
+        spoil(data.draw, path)
+        (Path(folder) / "desired.csv").write_text("swing [deg],lift [deg],elbow [deg]\n0,-40,60\n")
+        for command in (
+            ["correct", folder, f"{folder}/desired.csv"],
+            ["next", folder, "--count=2"],
+        ):
+            with warnings.catch_warnings(action="ignore"):  # of NumPy, about numbers out of range
+                assert main([*command, f"--out={folder}/{command[0]}.csv"]) in (DONE, REFUSED)
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    """The file of a correction of a small arm, with a pattern in what is left."""
+    folder = tmp_path_factory.mktemp("small")
+    (folder / "arm.urdf").write_text(ARM)
+    arm = load_arm(folder / "arm.urdf")
+    joints = MIDDLE + SEEN * np.random.default_rng(3).uniform(-1, 1, (60, 3))
+    seen = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
+    calibration = calibrate(arm, (OFFSETS,), seen)
+    assert calibration.residual is not None
+    Correction(ARM.encode(), calibration, joints).save(folder / "correction.npz")
+    return (folder / "correction.npz").read_bytes()
+
+
+def test_an_archive_that_unpacks_to_more_than_memory_is_refused(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.npz", "w", zipfile.ZIP_DEFLATED) as packed:
+        packed.writestr("header.npy", bytes(300_000_000))
+    with pytest.raises(InvalidFile, match="it unpacks to 300 MB; expected: 256"):
+        load_correction(tmp_path / "a.npz")

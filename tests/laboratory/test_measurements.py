@@ -271,6 +271,11 @@ WRONG = {
         '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
         "distance.sockets is ['a', 'a']; valid: the names of two sockets",
     ),
+    "a distance twice": (
+        '[[distance]]\nsockets = ["a", "b"]\nlength = "254.95 mm"\n'
+        '[[distance]]\nsockets = ["b", "a"]\nlength = "900 mm"\n',
+        "distance between a and b is '254.95 mm and 900 mm'; valid: one length",
+    ),
     "one distance": ("distance = 5\n", "distance is 5; valid: parts that begin with [[distance]]"),
     "a length below zero": (
         '[[distance]]\nsockets = ["a", "b"]\nlength = "-25 mm"\n',

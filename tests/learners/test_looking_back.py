@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from recalib.errors import BadMeasurement
-from recalib.learners.experience import Experience
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
@@ -68,8 +67,8 @@ def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_comm
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, -1e6])
 def test_no_move_is_kept_that_measured_nothing(number):
-    experience, spoilt = Experience(2), ACHIEVED.copy()
+    learner, spoilt = GaussianProcessLearner(2), ACHIEVED.copy()
     spoilt[1, 3, 2] = number
     with pytest.raises(BadMeasurement, match="move 3 of run 1"):
-        experience.add(SENT, spoilt, EXECUTED)
-    assert experience.moves == 0
+        learner.observe(SENT, spoilt, EXECUTED)
+    assert [len(run["moves"]["executed"]) for run in learner.state()] == [0, 0]

@@ -28,14 +28,15 @@ PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_built
 from recalib.errors import RecalibError
 from recalib.study.layout import RESULTS, SEARCHED, Layout
 from recalib.study.plan import Plan
-from recalib.study.studies import read_studies
+from recalib.study.studies import ask_robots, read_studies
 from recalib.study.trainings import Trainings
 from workflow.dependencies import code
 
 try:
     # by the folder of their results: the shipped one, those of workflow/studies, and this call's
+    settings = workflow.config_settings
     MAIN, STUDIES = read_studies(
-        ROOT, workflow.config_settings.configfiles, workflow.config_settings.config
+        ROOT, settings.configfiles, settings.config, asking=workflow.is_main_process
     )
 except RecalibError as error:
     raise WorkflowError(str(error)) from None

@@ -22,10 +22,17 @@ onstart:
     # cluster is not to be flooded.
     if workflow.local_exec:
         workflow.scheduler.job_rate_limiter = None
+    jobs = list(workflow.dag.needrun_jobs())
     try:
-        hold({folder_of(job) for job in workflow.dag.needrun_jobs() if job.output})
+        hold({folder_of(job) for job in jobs if job.output})
     except RecalibError as error:
         raise WorkflowError(str(error)) from None
+    planned = [job.wildcards for job in jobs if job.rule.name == "scenario"]
+    for root, study_ in STUDIES.items():
+        asked_before = TRAININGS[root].scenarios() if root == MAIN else ()
+        others = {its.scenario for its in planned if its.root == root}.difference(asked_before)
+        if others and (mistakes := ask_robots(study_, sorted(others))):
+            raise WorkflowError("\n".join(map(str, mistakes)))
 
 
 onsuccess:

@@ -22,8 +22,8 @@ def universe_of(wildcards):
 
 def setups(table):
     """In how many universes a table is measured."""
-    plan = STUDIES[MAIN].universes
-    return {"outcomes": plan.count, "horizon": plan.horizons}[table]
+    horizons = min(STUDIES[MAIN].universes.horizons, len(designed()))
+    return {"outcomes": len(designed()), "horizon": horizons}[table]
 
 
 def pieces(table):
@@ -130,10 +130,16 @@ rule piece:
 
 rule universes:
     input:
-        pieces("outcomes"),
-        pieces("horizon"),
+        lambda w: pieces("outcomes"),
     message:
         "What was measured in every universe: {input}; `make universes` ships it"
+
+
+rule horizons:
+    input:
+        lambda w: pieces("horizon"),
+    message:
+        "How long Ritter's takes in universes: {input}; `make horizons` ships it"
 
 
 rule reference_replicate:
@@ -178,7 +184,6 @@ rule reference:
         Layout(MAIN).campaign("reference"),
     params:
         code=code("piece.py"),
-        design=lambda w: digest(ROOT / DESIGN),
     localrule: True
     script:
         "../scripts/piece.py"
@@ -191,7 +196,6 @@ rule efforts:
         Layout(MAIN).campaign("efforts"),
     params:
         code=code("piece.py"),
-        design=lambda w: digest(ROOT / DESIGN),
     localrule: True
     script:
         "../scripts/piece.py"

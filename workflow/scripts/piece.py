@@ -1,4 +1,4 @@
-"""Put some tables of the campaign together, with a digest of the design that they follow."""
+"""Put tables of the campaign together, with a digest of the design if they follow it."""
 
 import pandas as pd
 
@@ -10,5 +10,6 @@ with job(snakemake), whole(snakemake.output[0]) as path:
     table = pd.concat(map(pd.read_csv, snakemake.input.chunks), ignore_index=True)
     if "intact" in table:  # below, every machine finds another error
         table["intact"] = table["intact"].clip(lower=NONE)
-    table.insert(0, "design", snakemake.params.design)
+    if design := snakemake.params.get("design"):
+        table.insert(0, "design", design)
     table.to_csv(path, index=False, float_format="%.6g")

@@ -16,7 +16,7 @@ from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.entrants import MOVES, PEERS
 from recalib.study.plan import Plan
-from recalib.study.trainings import elsewhere, scenario_of, training
+from recalib.study.trainings import training
 
 IN_HALVES = 4  # searches: fewer, and an interval from half of them would be none
 
@@ -114,25 +114,14 @@ def _meanings(study: Study) -> Iterator[Mistake]:
 def _amounts(study: Study) -> Iterator[Mistake]:
     """More of something than there can be, or less than it takes."""
     yield from _budgets(study)
-    yield from _scales(study)
-    if study.robot in study.experiments.robots:
-        path = "experiments", "robots", study.experiments.robots.index(study.robot)
-        yield unlike(path, study.robot, "robots beside the study's own")
+    if study.experiments.evidence:  # nothing else is scaled
+        yield from _scales(study)
     for name, entries in study.scenarios.items():
         kinds = [type(entry) for entry in entries]
         for index, (entry, kind) in enumerate(zip(entries, kinds, strict=True)):
             if entry in entries[:index] or (kind in DISTURBANCES and kind in kinds[:index]):
                 what = next(iter(describe(entry)))
                 yield Mistake(("scenarios", name, index), f": {what} again; valid: once")
-    robots = {name: study.robots[name] for name in assigned_robots(study)}
-    links = {name: len(robot.links) for name, robot in robots.items()}
-    joints = {name: len(robot.home) for name, robot in robots.items()}
-    for key, places in (("shorten", links), ("shift", joints)):
-        amounts = getattr(study.paper_damage, key)
-        fewest = min(places, key=places.get, default=None)
-        if fewest and len(amounts) > places[fewest]:
-            fault = f" is a list of {len(amounts)}; valid: at most {places[fewest]} on the {fewest}"
-            yield Mistake(("paper_damage", key), fault)
 
 
 def _budgets(study: Study) -> Iterator[Mistake]:
@@ -160,23 +149,6 @@ def _scales(study: Study) -> Iterator[Mistake]:
     for place, scale in places.items():
         if scale > most * (1 + 1e-9):
             yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")
-
-
-def used_scenarios(study: Study) -> list[tuple[str, str]]:
-    """The scenarios that are trained on, each with its robot."""
-    plan = study.experiments
-    names = [*plan.scenarios, *elsewhere(study).values(), *study.benchmark.scenarios]
-    return list(dict.fromkeys(scenario_of(study, name) for name in names))
-
-
-def assigned_robots(study: Study) -> list[str]:
-    """The robots to which the paper's damage is assigned."""
-    assigned = (
-        robot
-        for scenario, robot in used_scenarios(study)
-        if any(isinstance(entry, Assigned) for entry in study.scenarios[scenario])
-    )
-    return list(dict.fromkeys(assigned))
 
 
 def _is_idle(entry: Entry | None) -> bool:

@@ -15,7 +15,7 @@ from recalib.damaged.disturbances import Disturbances
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.words import Described, words
 from recalib.quantities import ANGLE, COMPLIANCE, LENGTH
-from recalib.study.configuration.messages import nearest
+from recalib.spelling import nearest
 from recalib.study.configuration.part import Frozen, Part
 from recalib.study.configuration.units import (
     Amount,

@@ -1,13 +1,12 @@
 """Mistakes in a configuration as sentences: the key, what stood there, what would be valid."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any, NamedTuple
 
 from recalib.errors import RecalibError
+from recalib.spelling import instead
 
-MOST_SHOWN = 10  # mistakes, or names beside the one that was meant
-MOST_LISTED = 20  # names where none was meant
+MOST_SHOWN = 10  # mistakes
 LONGEST = 60  # characters of a value that are shown
 
 
@@ -29,24 +28,27 @@ KeyPath = tuple[str | int, ...]
 
 
 class Mistake(NamedTuple):
-    """What is wrong at the path of a key: the rest of a sentence that begins with the path."""
+    """What is wrong at the path of a key.
+
+    Attributes:
+        path: of the key.
+        fault: the rest of a sentence that begins with the path.
+        other: the same from the side of another key that does not go together with this one: it is
+            told instead where that key alone was said by whom it is told to.
+    """
 
     path: KeyPath
     fault: str
+    other: "Mistake | None" = None
 
     def __str__(self) -> str:
-        return f"{dotted(self.path)}{self.fault}"
+        return f"{dotted(self.path) or 'the study'}{self.fault}"
 
 
 def dotted(path: KeyPath) -> str:
     """A path as people write it: scenarios.translation[0].shorten."""
     parts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return "".join(parts).removeprefix(".")
-
-
-def nearest(word: str, valid: Iterable[str]) -> str | None:
-    """The valid word that may have been meant."""
-    return next(iter(get_close_matches(word, list(valid), 1)), None)
 
 
 def unlike(path: KeyPath, stood: Any, valid: str) -> Mistake:
@@ -56,16 +58,8 @@ def unlike(path: KeyPath, stood: Any, valid: str) -> Mistake:
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
     """A name that is not among the valid ones; the path may end with it."""
-    valid = list(valid)
-    near = nearest(name, valid)
     stood = ": unknown name" if path[-1] == name else f" is {shown(name)}"
-    if near and len(valid) > MOST_SHOWN:
-        return Mistake(path, f"{stood}; did you mean {near}?")
-    first = (
-        [*valid[:MOST_LISTED], f"another of {len(valid)}"] if len(valid) > MOST_LISTED else valid
-    )
-    hint = f"; did you mean {near}?" if near else ""
-    return Mistake(path, f"{stood}; valid: {listed(first, 'or') or 'none'}{hint}")
+    return Mistake(path, f"{stood}; {instead(name, valid)}")
 
 
 def shown(value: Any) -> str:
@@ -88,9 +82,3 @@ def shown(value: Any) -> str:
 
 def _sized(value: Sequence) -> str:
     return f"a list of {len(value)}" if value else "an empty list"
-
-
-def listed(words: Iterable[str], last: str) -> str:
-    """Words with commas, and `last` before the last."""
-    *rest, end = list(words) or [""]
-    return f"{', '.join(rest)} {last} {end}" if rest else end

@@ -1,6 +1,6 @@
 """From configuration files to a study."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from os import PathLike
 
@@ -24,16 +24,20 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
             mappings key by key, anything else as a whole.
         checks: what to ask of the study beyond its types, each where those before found nothing.
 
-    Raises InvalidConfiguration, with file, line and column of every mistake.
+    Raises InvalidConfiguration, with file, line and column of every mistake. The file is taken to
+    be right by itself: what stands in it and does not go together with an overlay is told of the
+    last overlay, without a line.
     """
-    whole = reduce(Placed.under, map(placed, (path, *overlays)))
+    sources = [*map(placed, (path, *overlays))]
+    whole = reduce(Placed.under, sources)
+    own = [source.place[0] for source in (sources[1:] or sources)]
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
-        raise _at_its_place(refusals(error), whole) from None
+        raise _at_its_place(refusals(error, whole.plain()), whole, own) from None
     for each in checks:
         if mistakes := list(each(study)):
-            raise _at_its_place(mistakes, whole)
+            raise _at_its_place(mistakes, whole, own)
     return study
 
 
@@ -47,11 +51,20 @@ def placed(source: Source) -> Placed:
     return from_file(source)
 
 
-def _at_its_place(mistakes: Iterable[Mistake], whole: Placed) -> InvalidConfiguration:
-    """The mistakes where they stand, in that order; what many uses of an anchor share, once."""
+def _at_its_place(
+    mistakes: Iterable[Mistake], whole: Placed, own: Sequence[str]
+) -> InvalidConfiguration:
+    """The mistakes where they stand, in that order; what many uses of an anchor share, once.
+
+    Args:
+        own: the sources that somebody wrote who is told of it.
+    """
     lines = {}
     for mistake in mistakes:
-        value = whole.at(mistake.path)
-        lines.setdefault((value.origin, mistake.fault), (value.place, mistake))
+        sides = [(side, whole.at(side.path)) for side in (mistake, mistake.other) if side]
+        said = [(side, value) for side, value in sides if value.place[0] in own]
+        side, value = (said or sides)[0]
+        place = value.place if said else (own[-1],)
+        lines.setdefault((value.origin, side.fault), (place, side))
     ordered = sorted(lines.values(), key=lambda line: line[0])
     return InvalidConfiguration([f"{shown(place)}: {mistake}" for place, mistake in ordered])

@@ -1,15 +1,23 @@
 """What the types refuse, as mistakes: pydantic's errors without its prose."""
 
-from collections.abc import Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from functools import reduce
+from operator import getitem
+from typing import Any
 
 from pydantic import ValidationError
 
-from recalib.study.configuration.messages import KeyPath, Mistake, listed, nearest, shown, unlike
+from recalib.spelling import listed, nearest
+from recalib.study.configuration.messages import KeyPath, Mistake, shown, unlike
 from recalib.study.configuration.schema import Schema, json_schema
 
 
-def refusals(error: ValidationError) -> list[Mistake]:
-    """A mistake for each error. A misspelt key is no missing one, too."""
+def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
+    """What is wrong with the `whole` configuration: a mistake for what belongs together.
+
+    A misspelt key is no missing one, too.
+    """
     schema = Schema(json_schema())
     errors = error.errors(include_url=False)
     found: dict[KeyPath, Mistake] = {}
@@ -19,6 +27,10 @@ def refusals(error: ValidationError) -> list[Mistake]:
     for path, meant in _misspelt(schema, errors).items():
         found[path] = Mistake(path, f": unknown key; did you mean {meant}?")
         found.pop((*path[:-1], meant), None)
+    for mistake in (*_mixed(schema, errors), *_several(schema, errors, found, whole)):
+        for path in [path for path in found if path[:-1] == mistake.path]:
+            del found[path]
+        found[mistake.path] = mistake
     return list(found.values())
 
 
@@ -38,6 +50,38 @@ def _misspelt(schema: Schema, errors: Iterable[Mapping]) -> dict[KeyPath, str]:
         if near:
             meant[*path, key] = near
     return meant
+
+
+def _mixed(schema: Schema, errors: Iterable[Mapping]) -> Iterator[Mistake]:
+    """Entries with words of two kinds: a shifted encoder that is shortened."""
+    unknown = (each["loc"] for each in errors if each["type"] == "extra_forbidden")
+    for *parent, kind, key in (location for location in unknown if len(location) > 1):
+        path, its = schema.find(parent)
+        kinds = [schema.keys(choice) for choice in schema.resolved(its).get("oneOf", ())]
+        if others := [keys for keys in kinds if key in keys]:
+            own = schema.keys(schema.find((*parent, kind))[1])
+            valid = listed((" + ".join(keys) for keys in (own, *others)), "or")
+            yield Mistake(path, f" has {own[0]} with {key}; valid: {valid}")
+
+
+def _several(
+    schema: Schema, errors: Iterable[Mapping], found: Collection[KeyPath], whole: Any
+) -> Iterator[Mistake]:
+    """Several keys that one part lacks, and several values of one list that are none."""
+    lacking, wrong = defaultdict(list), defaultdict(list)
+    for each in errors:
+        path, _ = schema.find(each["loc"])
+        if path in found and each["type"] == "missing":
+            lacking[path[:-1]].append(path[-1])
+        elif path in found and isinstance(path[-1], int):
+            wrong[each["loc"][:-1]].append(path[-1])
+    for path, keys in lacking.items():
+        if len(keys) > 1:
+            yield Mistake(path, f" lacks {listed(keys, 'and')}; valid: with all of them")
+    for location, indices in wrong.items():
+        if len(indices) > 1:
+            path, its = schema.find(location)
+            yield unlike(path, reduce(getitem, path, whole), schema.valid(its))
 
 
 def _refusal(schema: Schema, error: Mapping) -> Mistake:

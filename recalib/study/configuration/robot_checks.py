@@ -1,7 +1,6 @@
 """Whether the robots of a study can have its damages and serve its workspaces.
 
-This takes a second, since it loads them: apart from the other checks, so that its outcome may be
-remembered.
+Apart from the other checks, since it loads the robots, and asks of them what is to be run.
 """
 
 from collections.abc import Iterable, Iterator
@@ -9,59 +8,70 @@ from functools import cache
 
 import numpy as np
 
-from recalib.damaged.damage import Damage, apply
+from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.quantities import LENGTH
-from recalib.study import jobs
+from recalib.spelling import instead, listed
 from recalib.study.assignments import Ways
-from recalib.study.configuration.checks import assigned_robots, used_scenarios
-from recalib.study.configuration.damages import describe
-from recalib.study.configuration.messages import Mistake, unknown, unlike
+from recalib.study.configuration.damages import Assigned, describe
+from recalib.study.configuration.messages import Mistake, shown, unknown, unlike
 from recalib.study.configuration.study import Study
-from recalib.study.plants import nominal_controller, nominal_robot
+from recalib.study.plan import Plan
+from recalib.study.plants import nominal_robot
+from recalib.study.trainings import scenario_of
 
 
-def check_robots(study: Study) -> list[Mistake]:
-    """The mistakes that only the robots know of. The study must have passed `check`."""
-    used = used_scenarios(study)
-    working = {*(robot for _, robot in used), study.real.robot, *study.universes.factors.robot}
+def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
+    """The mistakes that only the robots know of: in what describes them, and in scenarios.
+
+    Args:
+        study: one that has passed `check`.
+        scenarios: those that are to be run, each on the study's robot or NAME-ROBOT.
+    """
+    used = list(dict.fromkeys(scenario_of(study, scenario) for scenario in scenarios))
     robots: dict[str, Robot] = {}
     found: list[Mistake] = []
     for name, entry in study.robots.items():
-        nominal = jobs.Nominal(name=name, robot=entry, controller=study.controller)
         try:
-            robots[name] = _loaded(nominal.model_dump_json(), name in working)
+            robots[name] = nominal_robot(Plan(study).nominal(name))
         except RecalibError as error:
             found.append(_of_robot(name, error))
         else:
             found += _of_links(robots[name], entry.links)
             found += _of_slides(robots[name])
-    if not found:
-        for scenario, robot in used:
-            found += _of_scenario(study, scenario, robots[robot])
-        found += _of_assignment(study, [robots[name] for name in assigned_robots(study)])
-        if study.experiments.evidence and not found:
-            found += _of_mapping(robots[study.robot])
-            found += _of_series(study, robots[study.robot])
+    if found:
+        return found
+    for name in dict.fromkeys(robot for _, robot in used):
+        try:
+            Controller(robots[name], study.controller.greatest_condition)
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+            continue
+        its = [scenario for scenario, robot in used if robot == name]
+        for scenario in its:
+            found += _of_scenario(study, scenario, robots[name])
+        if any(isinstance(entry, Assigned) for each in its for entry in study.scenarios[each]):
+            found += _of_assignment(study, robots[name])
+    if study.experiments.evidence and not found:
+        found += _of_mapping(robots[study.robot])
+        found += _of_series(study, robots[study.robot])
     return found
-
-
-@cache
-def _loaded(nominal: str, works: bool) -> Robot:
-    """The robot; if it works, once it is known that its controller serves its workspace."""
-    job = jobs.Nominal.model_validate_json(nominal)
-    return nominal_controller(job).robot if works else nominal_robot(job)
 
 
 def _of_robot(name: str, error: RecalibError) -> Mistake:
     match error:
         case UnknownName():
             keys = ("tool", "home", "limits")
-            key = next((key for key in keys if key in error.kind), "urdf")
+            key = next((key for key in keys if key in error.kind), None)
             path = (key, error.name) if key in ("home", "limits") else (key,)
-            return unknown(("robots", name, *path), error.name, error.valid)
+            if key:
+                return unknown(("robots", name, *path), error.name, error.valid)
+            stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
+            return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
         case InvalidSetting(key="home"):
             return Mistake(("robots", name, "home"), f" lacks joints; valid: {error.valid}")
         case InvalidSetting():
@@ -80,15 +90,33 @@ def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | Non
 
 
 def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
-    """Links and joints that the robot lacks, and amounts that are too much for it."""
+    """Links and joints that the robot lacks, amounts that are too much for it, and a base from
+    which it does not even reach the middle of its workspace.
+    """
+    moved: list[BaseShift] = []
     for index, entry in enumerate(study.scenarios[scenario]):
-        if isinstance(entry, Damage) and (error := _refused(robot, entry)):
+        path = "scenarios", scenario, index
+        if isinstance(entry, BaseShift):
+            moved.append(entry)
+            if not _reaches_middle(robot, moved):
+                key, stood = next(iter(describe(entry).items()))
+                where = f"the middle of the workspace within reach of the {robot.name}"
+                yield unlike((*path, key), stood, f"less, so that it leaves {where}")
+                return
+        elif isinstance(entry, Damage) and (error := _refused(robot, entry)):
             keys = [word.key for word in words(type(entry)).values()]
-            path = "scenarios", scenario, index
             if isinstance(error, UnknownName):
                 yield unknown((*path, keys[0]), error.name, error.valid)
             else:
                 yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
+
+
+def _reaches_middle(robot: Robot, moved: Iterable[BaseShift]) -> bool:
+    """Whether a command takes the moved robot to the middle of its workspace."""
+    home = robot.home[None]
+    middle, now = (apply(robot, shifts).forward(home) for shifts in ((), moved))
+    angles, left = Chain.of(robot.arm).solve(middle @ np.linalg.inv(now) @ middle, home)
+    return bool(left[0] <= TOLERANCE and np.all((robot.lower <= angles) & (angles <= robot.upper)))
 
 
 def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
@@ -105,18 +133,28 @@ def _of_slides(robot: Robot) -> Iterator[Mistake]:
             yield Mistake(("robots", robot.name, "home", joint), " slides; valid: joints that turn")
 
 
-def _of_assignment(study: Study, robots: Iterable[Robot]) -> Iterator[Mistake]:
-    """Links that are too short for the paper's damage."""
-    whole = {}
-    for robot in robots:
-        for link in study.robots[robot.name].links:
-            end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
-            whole[robot.name, link] = np.linalg.norm(end)
-    name, link = min(whole, key=whole.get, default=(None, None))
-    for index, length in enumerate(study.paper_damage.shorten):
-        if whole and length >= whole[name, link]:
-            valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
-            yield unlike(("paper_damage", "shorten", index), LENGTH.write(length), valid)
+def _of_assignment(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """Too few links or joints, or links that are too short, for the paper's damage."""
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    path, key = ("robots", robot.name, "links"), ("paper_damage", "shorten")
+    if len(damage.shift) > len(robot.joints):
+        fault = f" is a list of {len(damage.shift)}; valid: at most {len(robot.joints)} on the"
+        yield Mistake(("paper_damage", "shift"), f"{fault} {robot.name}")
+    if len(damage.shorten) > len(links):
+        few = f" is a list of {len(links)}; valid: {len(damage.shorten)} or more, one for each"
+        fault = f" is a list of {len(damage.shorten)}; valid: at most {len(links)} on the"
+        other = Mistake(path, f"{few} length of paper_damage.shorten")
+        yield Mistake(key, f"{fault} {robot.name}", other)
+    ends = (link_end(robot.arm.model, robot.arm.tool, robot.links[link]) for link in links)
+    whole = dict(zip(links, (100 * np.linalg.norm(end) for end in ends), strict=True))
+    most, shortest = max(damage.shorten), min(whole, key=whole.get)
+    if 100 * most >= whole[shortest]:
+        valid = f"below {whole[shortest]:.2f} cm, the length of {shortest} on the {robot.name}"
+        short = (f"{link}, {its:.2f} cm long" for link, its in whole.items() if 100 * most >= its)
+        longer = f"longer than {LENGTH.write(most)}, which paper_damage.shorten takes off"
+        other = Mistake(path, f" has {listed(short, 'and')}; valid: {longer}")
+        key = (*key, damage.shorten.index(most))
+        yield unlike(key, LENGTH.write(most), valid)._replace(other=other)
 
 
 def _of_mapping(robot: Robot) -> Iterator[Mistake]:

@@ -13,8 +13,9 @@ from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema
 
+from recalib.spelling import listed
 from recalib.storage import whole
-from recalib.study.configuration.messages import KeyPath, listed
+from recalib.study.configuration.messages import KeyPath
 from recalib.study.configuration.part import Part
 from recalib.study.configuration.study import Study
 

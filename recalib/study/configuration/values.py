@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import pairwise
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ import yaml
 
 from recalib.study.configuration.messages import InvalidConfiguration, KeyPath, dotted
 
+DIGITS = re.compile(r"\d")
 COMMAND_LINE = "the command line"
 Place = tuple[str | int, ...]  # file, line, column
 
@@ -63,16 +65,16 @@ class Placed:
         return Placed(self.content | laid, self.place, self.origin)
 
 
-def from_mapping(data: Any) -> Placed:
-    """Values from the command line."""
+def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
+    """Values that stand in no line of a file, such as those from the command line."""
     match data:
         case Mapping():
-            content = {str(key): from_mapping(each) for key, each in data.items()}
+            content = {str(key): from_mapping(each, place) for key, each in data.items()}
         case list() | tuple():
-            content = [from_mapping(each) for each in data]
+            content = [from_mapping(each, place) for each in data]
         case _:
             content = data
-    return Placed(content, (COMMAND_LINE,))
+    return Placed(content, place)
 
 
 def from_file(path: str | PathLike) -> Placed:
@@ -96,8 +98,8 @@ def _parsed(name: str, text: str) -> Placed:
     loader, start = _Loader(text), (name, 1, 1)
     loader.name = name
     node = loader.get_single_node()
-    value = loader.value(node, start, ()) if node else Placed({}, start)
-    if not isinstance(value.content, dict):
+    value = loader.value(node, start, ()) if node else Placed(None, start)
+    if not isinstance(value.content, dict) or not value.content:
         problem = f"{shown(start)}: no configuration; valid: keys with their values"
         raise InvalidConfiguration([problem])
     if loader.twice:
@@ -169,11 +171,20 @@ class _Loader(yaml.SafeLoader):
                 stands = f"{dotted((*path, key.value))} stands twice, first in line {line}"
                 self.twice.append(f"{where}: {stands}")
             first[key.value] = key
+        self._check_commas(node)
         self.flatten_mapping(node)  # puts in what is merged by <<
         return {
             key.value: self.value(each, _place(self.name, key.start_mark), (*path, key.value))
             for key, each in node.value
         }
+
+    def _check_commas(self, node: yaml.MappingNode) -> None:
+        """Where a number is written with a comma, YAML sees a key behind it that says nothing."""
+        for (_, number), (key, nothing) in pairwise(node.value):
+            if nothing.value == "" and isinstance(number.value, str) and DIGITS.match(key.value):
+                meant = f"{number.value}.{key.value}"
+                problem = f"{number.value},{key.value} has a comma; valid: a point, as in {meant}"
+                raise yaml.MarkedYAMLError(problem=problem, problem_mark=number.start_mark)
 
 
 for kind, pattern, first in (

@@ -6,7 +6,7 @@ from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import brief, in_universes, n, pair, typical_errors, verdicts
+from recalib.study.evidence.words import headline, n, one, pair, typical_errors, verdicts
 from recalib.study.measured import ERRORS, UNITS
 from recalib.study.statistics import first_within
 
@@ -36,26 +36,17 @@ def _on_its_way(evidence: Evidence) -> str:
     return f"after {first:,.0f} iterations"
 
 
-def _tuned_anew(factor: float | None, iterations: int) -> str:
-    """The same where Ritter's is tuned for each number of iterations: the claim's factor."""
-    if factor is None:
-        return "in none of those that were tried"
-    return f"after {iterations * factor:,.0f} iterations"
-
-
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary, claims = evidence.summary().to_dict("records"), evidence.claims()
     rows = {(row["scenario"], row["learner"]): row for row in summary}
     by_id = {claim["id"]: claim for claim in claims}
-    factor = by_id["speed-up"]["measured"][f"factor, {CELLS[RITTER]}"]
     return {
         "n": n,
         "pair": pair,
-        "brief": brief,
+        "headline": headline,
         "verdicts": verdicts,
-        "in_universes": in_universes,
-        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims),
+        "setups": max(claim["universes"].get("setups", 0) for claim in claims),
         "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
         "typical": typical_errors(by_id["figure-1"]),
         "published": " and ".join(
@@ -65,5 +56,6 @@ def context(evidence: Evidence) -> dict:
         "claims": claims,
         "summary": summary,
         "on_its_way": _on_its_way(evidence),
-        "tuned_anew": _tuned_anew(factor, evidence.fact("iterations")),
+        "tuned_anew": one(by_id["speed-up"], f"factor, as many cells as {CELLS[RITTER]}"),
+        "iterations": evidence.fact("iterations"),
     }

@@ -7,21 +7,20 @@ from recalib.study.evidence.words import amounts
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.setups("outcomes")
     ask.assignments()
     for scenario in (None, "translation", "rotation"):
         ask.scenario(scenario)
     ask.sample(ask.fact("improved"))
-    for fact in ("short_searches", "searches_long"):
+    for fact in ("short_searches", "searches_long", "setups"):
         ask.fact(fact)
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    improved, outcomes = evidence.fact("improved"), evidence.setups("outcomes")
+    improved = evidence.fact("improved")
     searches = evidence.searched_for(improved).searches
     return {
-        "universes": 0 if outcomes is None else len(outcomes),
+        "setups": evidence.fact("setups")["outcomes"],
         "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
         "assignments": len(evidence.assignments()),
         "translation": amounts(evidence.scenario("translation")["damages"][0]),

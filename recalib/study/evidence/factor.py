@@ -10,7 +10,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.verdicts import Verdict, of_published
 from recalib.study.measured import ERRORS
-from recalib.study.multiverse.efforts import LONG
+from recalib.study.multiverse.lengths import LONG
 from recalib.study.statistics import Draws, Estimate
 
 if TYPE_CHECKING:
@@ -34,28 +34,29 @@ def factor_table(evidence: Evidence) -> list[dict]:
     for (learner, cells), (effort, pair), definition in product(
         CELLS.items(), EFFORTS.items(), (ANEW, ON_THE_WAY)
     ):
-        luck = evidence.rng("factor", learner, effort, definition)
+        rng = evidence.rng("factor", learner, effort, definition)
         fast = errors_of(table, IMPROVED, pair[0])[own]
         slow = errors_of(table, learner, pair[1])
+        longest = max(slow)
         if definition == ANEW and pair == ("full", "full"):
             estimate = leading(evidence, learner)  # as figures and claims have it
         elif definition == ANEW:
             final = {rung: errors[:, :, -1] for rung, errors in slow.items()}
-            estimate = speed_up(final, {own: fast[:, :, -1]}, [own], luck)[0]
+            estimate = speed_up(final, {own: fast[:, :, -1]}, [own], rng)[0]
         else:
-            grids = watched(table, learner, pair[1])
-            estimate = on_the_way(slow, grids, fast[:, :, -1], own, luck)
+            grids = watched(table, learner)
+            longest, estimate = on_the_way(slow, grids, fast[:, :, -1], own, rng)
         about = {"cells": cells, "effort": effort, "definition": definition}
-        longest = max(slow) / own
-        rows.append(about | {"factor": estimate, "longest": longest, "verdict": verdict(estimate)})
+        judged = {"factor": estimate, "longest": longest / own, "verdict": in_words(estimate)}
+        rows.append(about | judged)
     return rows
 
 
 def leading(evidence: Evidence, learner: str) -> Estimate:
     """The factor by the study's own ladders: equal and full effort, tuned anew."""
     ladders = evidence.ladder(learner), evidence.ladder(IMPROVED)
-    luck = evidence.rng("speed-up", learner)
-    return speed_up(*ladders, [evidence.fact("iterations")], luck)[0]
+    rng = evidence.rng("speed-up", learner)
+    return speed_up(*ladders, [evidence.fact("iterations")], rng)[0]
 
 
 def verdict(estimate: Estimate) -> Verdict:
@@ -63,23 +64,37 @@ def verdict(estimate: Estimate) -> Verdict:
     return of_published(PUBLISHED, estimate)
 
 
+def in_words(estimate: Estimate) -> str:
+    """That verdict, and on which side of the published factor an interval without it lies."""
+    judged = verdict(estimate)
+    if judged is not Verdict.CONTRADICTED:
+        return str(judged)
+    return f"{judged}: the factor is {'larger' if estimate.low > PUBLISHED else 'smaller'}"
+
+
 def errors_of(table: "pd.DataFrame", learner: str, effort: str) -> dict[int, np.ndarray]:
-    """Errors (search, seed, measurement, 2) of a learner's trainings, by number of iterations."""
-    named = table["training"].str.rpartition("_")[0] == learner
-    own = table[named & (table["effort"] == effort)]
+    """Errors (search, seed, measurement, 2) of a learner's trainings, by number of iterations.
+
+    The rough searches within a full one share its poses. So they count as more seeds of it, and
+    not as searches of their own.
+    """
     found = {}
-    for iterations, its in own.groupby("iterations"):
-        its = its.sort_values(["search", "seed", "iteration"])
-        shape = its["search"].nunique(), its["seed"].nunique(), its["iteration"].nunique(), 2
-        found[int(iterations)] = its[list(ERRORS)].to_numpy().reshape(shape)
+    for iterations, its in _trainings(table, learner).groupby("iterations"):
+        own = its[its["effort"] == effort].sort_values(["search", "seed", "iteration"])
+        searches = its.loc[its["effort"] == "full", "search"].nunique()
+        shape = searches, -1, own["iteration"].nunique(), len(ERRORS)
+        found[int(iterations)] = own[list(ERRORS)].to_numpy().reshape(shape)
     return found
 
 
-def watched(table: "pd.DataFrame", learner: str, effort: str) -> dict[int, np.ndarray]:
+def watched(table: "pd.DataFrame", learner: str) -> dict[int, np.ndarray]:
     """The iterations (measurement,) at which those errors were measured."""
-    named = table["training"].str.rpartition("_")[0] == learner
-    own = table[named & (table["effort"] == effort)]
-    return {int(n): np.sort(its["iteration"].unique()) for n, its in own.groupby("iterations")}
+    groups = _trainings(table, learner).groupby("iterations")["iteration"]
+    return {int(iterations): np.sort(its.unique()) for iterations, its in groups}
+
+
+def _trainings(table: "pd.DataFrame", learner: str) -> "pd.DataFrame":
+    return table[table["training"].str.rpartition("_")[0] == learner]
 
 
 def on_the_way(
@@ -88,8 +103,8 @@ def on_the_way(
     goal: np.ndarray,
     own: int,
     random: np.random.Generator,
-) -> Estimate:
-    """When a long training reaches both errors of another, over `own` iterations.
+) -> tuple[int, Estimate]:
+    """How long a training is, and when it reaches both errors of another, over `own` iterations.
 
     Args:
         slow: errors (search, seed, measurement, 2) by number of iterations.
@@ -97,7 +112,7 @@ def on_the_way(
         goal: (search, seed, 2) final errors of the other.
 
     It is the shortest of at least LONG iterations that reaches them on average; the longest, where
-    none does. Infinite where it does not.
+    none does. Infinite where it does not reach them.
     """
     target = goal.mean(axis=(0, 1))
     long = [rung for rung in sorted(slow) if rung >= LONG]
@@ -106,4 +121,4 @@ def on_the_way(
     draws = Draws(random)
     within = (draws.means(slow[rung]) <= draws.means(goal)[:, None]).all(axis=-1)
     first = np.where(within.any(axis=1), grids[rung][within.argmax(axis=1)], np.inf)
-    return draws.estimate(first / own)
+    return rung, draws.estimate(first / own)

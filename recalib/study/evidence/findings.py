@@ -2,20 +2,59 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.evidence.claims import CLAIMS, speed_up
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.factor import CELLS, PUBLISHED, factor_table
 from recalib.study.evidence.needs import Request
+from recalib.study.evidence.reference import (
+    schedules,
+    speed_of_two_maps,
+    spread_of_luck,
+    two_maps,
+    width_order,
+)
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import depends, in_universes, measured, n, verdicts
+from recalib.study.evidence.verdicts import Verdict
+from recalib.study.evidence.words import (
+    depends,
+    estimated,
+    measured,
+    n,
+    over_setups,
+    short,
+    verdicts,
+)
 from recalib.study.measured import ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd
 
 SHORT = ("cm", "deg")
-PARTS = (0.1, 0.25, 0.5, 0.75, 0.9)  # of the universes
+ENOUGH = 0.8  # of the simulated campaigns
+# What the first campaign counted, by column of its outcomes: the limit, and on which side it held.
+FIRST = {
+    "two maps, improved system": ("maps_improved", 1, True),
+    "two maps, Ritter's": ("maps_ritter", 1, True),
+    "increments of theta, improved system": ("theta_improved", 1, True),
+    "increments of theta, Ritter's": ("theta_ritter", 1, True),
+    "increments of the Jacobians, improved system": ("jacobian_improved", 1, True),
+    "increments of the Jacobians, Ritter's": ("jacobian_ritter", 1, True),
+    "equal visits, improved system": ("schedule_improved", 1, True),
+    "equal visits, Ritter's": ("schedule_ritter", 1, True),
+    "both orders of widths": ("width_order", 1, True),
+    "a factor above 50": ("factor", 50, False),
+}
+ORDER = Verdict.CONTRADICTED, Verdict.NO_EFFECT, Verdict.UNDECIDED, Verdict.SUPPORTED
+ONCE = {  # what a single search compares, by column of the reference study
+    "two maps, improved system": "maps_improved",
+    "two maps, Ritter's": "maps_ritter",
+    "increments of theta, improved system": "theta_improved",
+    "increments of theta, Ritter's": "theta_ritter",
+    "increments of the Jacobians, improved system": "jacobian_improved",
+    "increments of the Jacobians, Ritter's": "jacobian_ritter",
+    "equal visits, improved system": "schedule_improved",
+    "equal visits, Ritter's": "schedule_ritter",
+}
 ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
 
 
@@ -23,8 +62,14 @@ def needs(ask: Request) -> None:
     """What the page reads."""
     ask.summary()
     ask.claims()
-    ask.coverage()
-    ask.outcomes()
+    ask.setups("outcomes")
+    ask.reference()
+    ask.efforts()
+    ask.power()
+    ask.first_campaign()
+    for learner in (IMPROVED, *CELLS):
+        ask.ladder(learner)
+    ask.fact("seed")
     for series in ("assignments", "scaled"):
         ask.ensemble(IMPROVED, series)
     ask.ensemble(RITTER, "assignments")
@@ -66,21 +111,36 @@ def _refused(summary: "pd.DataFrame") -> str:
     return "; ".join(cases) or "none"
 
 
-def _multiverse(evidence: Evidence) -> dict:
-    """What is said of the universes beside the claims; empty for a study without any."""
-    outcomes = evidence.outcomes()
+def _campaign(evidence: Evidence) -> dict:
+    """What is said of the alternative setups beside the claims; empty where none is measured."""
+    outcomes = evidence.setups("outcomes")
     if outcomes is None:
         return {}
-    factors = outcomes["factor"].quantile(PARTS, interpolation="lower")
-    design = evidence.whole_design()
+    design, power = evidence.whole_design(), evidence.power()
+    none = power[(power["effect"] == 1) & (power["heterogeneity"] == 0)].iloc[0]
+    found = power[power["heterogeneity"] == 0].set_index("effect")["supported"]
+    own = power[power["effect"] == 1].set_index("heterogeneity")["found"]
     return {
-        "count": len(outcomes),
-        "refused": design["row"].max() + 1 - len(design),
+        "setups": outcomes["universe"].nunique(),
+        "replicates": outcomes["replicate"].nunique(),
+        "factors": evidence.design().shape[1],
         "homes": design["homes_refused"].sum(),
-        "factors": {f"{100 * p:.0f} %": f"{f:.0f}" for p, f in factors.items() if np.isfinite(f)},
-        "beyond": int(np.isinf(outcomes["factor"]).sum()),
-        "most": f"{speed_up.CLAIM.limits['factor']:g}",
+        "power": power.to_dict("records"),
+        "none": none,
+        "smallest_effect": 1 - found[found >= ENOUGH].index.max(),
+        "smallest_heterogeneity": own[own >= ENOUGH].index.min(),
     }
+
+
+def _first_campaign(evidence: Evidence) -> list[dict]:
+    """What the first campaign counted, by claim."""
+    _, outcomes = evidence.first_campaign()
+    rows = []
+    for name, (column, limit, below) in FIRST.items():
+        values = outcomes[column]
+        holds = (values < limit) if below else (values > limit)
+        rows.append({"what": name, "holds": int(holds.sum()), "of": len(values)})
+    return rows
 
 
 def _said(claim: dict) -> dict:
@@ -102,26 +162,35 @@ def figures() -> list[str]:
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary, scaled = evidence.summary(), evidence.ensemble(IMPROVED, "scaled")
-    coverage = evidence.coverage()
+    reference = evidence.reference()
     ensembles = [evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
     improved = evidence.fact("improved")
     sample, searched_for = evidence.sample(improved), evidence.searched_for(improved)
     return {
         "n": n,
+        "short": short,
         "measured": measured,
         "verdicts": verdicts,
-        "in_universes": in_universes,
+        "over_setups": over_setups,
         "depends": depends,
-        "rule": RULE,
-        "universes": _multiverse(evidence),
+        "estimated": estimated,
+        "campaign": _campaign(evidence),
         "claims": [_said(claim) for claim in evidence.claims()],
+        "groups": [str(each) for each in ORDER],
+        "factors": factor_table(evidence),
+        "published": PUBLISHED,
+        "two_maps": two_maps(reference),
+        "speed_of_two_maps": speed_of_two_maps(reference),
+        "schedules": schedules(reference),
+        "widths": width_order(sample, evidence.rng("exchange of widths")),
+        "once": spread_of_luck(reference, ONCE),
+        "replicates": len(reference),
+        "first_campaign": _first_campaign(evidence),
         "iterations": evidence.fact("iterations"),
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),
-        "coverage": 100 * coverage["inside"].mean(),
-        "once": coverage.to_dict("records"),
         "trials": len(sample) // searched_for.searches,
         "searches": searched_for.searches,
         "ensemble": _ensemble(*ensembles),

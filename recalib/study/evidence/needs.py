@@ -58,6 +58,10 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "ladder": lambda study, trainings: {
         each: list(map(list, trainings.ladder(each).items())) for each in study.experiments.ladder
     },
+    "setups": lambda study, _: {
+        "outcomes": study.universes.count,
+        "horizon": study.universes.horizons,
+    },
     "rough_trials": lambda study, _: study.universes.rough_trials,
     "coupling_poses": lambda study, _: study.mapping.poses,
     "balls": lambda study, _: study.mapping.balls,
@@ -230,9 +234,7 @@ class Request:
         Args:
             table: outcomes; or horizon, how long Ritter's takes.
         """
-        plan = self.study.universes
-        count = {"outcomes": plan.count, "horizon": plan.horizons}[table]
-        measured = pieces(table, count, self._layout.shipped(SECOND))
+        measured = pieces(table, self.fact("setups")[table], self._layout.shipped(SECOND))
         if self._is_shipped and all(Path(path).exists() for path in measured):
             for path in (DESIGN, *measured):
                 self._result(path)

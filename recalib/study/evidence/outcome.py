@@ -6,7 +6,7 @@ from tabulate import tabulate
 
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts, brief, pair, verdicts
+from recalib.study.evidence.words import amounts, headline, pair, verdicts
 
 WIDE = 60  # characters of a column
 
@@ -45,7 +45,7 @@ def _verdict(claim: Mapping) -> dict[str, str]:
     return {
         "the paper": claim["statement"],
         "here": verdicts(claim).replace("*", ""),
-        "measured": brief(claim),
+        "measured": headline(claim),
     }
 
 

@@ -1,12 +1,20 @@
-"""What the README says of the results: the three that matter, and a verdict on every claim."""
+"""What the README says of the results: those that matter, and a verdict on every claim."""
 
 from collections.abc import Mapping
 
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.factor import PUBLISHED
+from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import n, one, typical_errors
+from recalib.study.evidence.verdicts import Verdict
+from recalib.study.evidence.words import headline, n, one, percent, short, typical_errors
+from recalib.study.statistics import Estimate
+
+ORDINARY = {
+    Verdict.SUPPORTED: f"so {PUBLISHED} is ordinary",
+    Verdict.CONTRADICTED: f"so {PUBLISHED} is not",
+    Verdict.UNDECIDED: f"so {PUBLISHED} is possible, and little is certain",
+}
 
 
 def needs(ask: Request) -> None:
@@ -17,26 +25,44 @@ def needs(ask: Request) -> None:
         ask.fact(fact)
 
 
-def _in_a_line(claims: Mapping[str, Mapping]) -> dict[str, str]:
-    """Each claim in short with the first number measured for it, by its id."""
-    first = {name: one(claim, next(iter(claim["measured"]))) for name, claim in claims.items()}
-    return {claim.id: claim.short.format(first[claim.id]) for claim in CLAIMS if claim.id in claims}
+def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
+    """Each claim with the number that judges it, by its id."""
+    return {
+        claim.id: claim.short.format(
+            number=headline(claims[claim.id], short), percent=headline(claims[claim.id], percent)
+        )
+        for claim in CLAIMS
+        if claim.id in claims
+    }
+
+
+def _readings(claim: Mapping) -> dict[str, dict[str, str]]:
+    """Under which reading of the paper the published factor is ordinary."""
+    found = {}
+    for name, cells in CELLS.items():
+        label = f"factor, as many cells as {cells}"
+        estimate = Estimate(claim["measured"][label], *claim["interval"][label])
+        found[name] = {"factor": one(claim, label), "so": ORDINARY[verdict(estimate)]}
+    return found
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary = evidence.summary().set_index(["scenario", "learner"])
     claims = {claim["id"]: claim for claim in evidence.claims()}
+    measured = [claim["universes"] for claim in claims.values()]
     return {
         "n": n,
-        "one": one,
+        "headline": headline,
+        "percent": percent,
         "shipped": evidence.shipped,
         "figures": "figures" if evidence.shipped else "../figures",
         "own": summary.loc[(evidence.fact("scenario"), evidence.fact("improved"))],
         "typical": typical_errors(claims["figure-1"]),
         "claims": claims,
-        "in_a_line": _in_a_line(claims),
-        "universes": max((claim["universes"] or {"of": 0})["of"] for claim in claims.values()),
+        "sentences": in_a_sentence(claims),
+        "verdicts": [str(each) for each in Verdict],
+        "setups": max((its.get("setups", 0) for its in measured), default=0),
         "published": PUBLISHED,
-        "enough": f"{CLAIM.limits['factor']:g}",
+        "readings": _readings(claims["speed-up"]),
     }

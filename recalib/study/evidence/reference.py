@@ -5,14 +5,13 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.stats import rankdata
 
 from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO, Verdict
 from recalib.study.hierarchy import student
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.multiverse.reference import LENGTHS, SYSTEMS
+from recalib.study.multiverse.lengths import MAPS
 from recalib.study.statistics import Estimate, combined
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ def _geometric(values: np.ndarray) -> Estimate:
 def two_maps(reference: "pd.DataFrame") -> list[dict]:
     """By system and iterations: the error with two maps over that with one."""
     rows = []
-    for system, iterations in product(SYSTEMS, LENGTHS):
+    for system, iterations in product(NAMES, MAPS):
         one, two = (
             combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two")
         )
@@ -54,10 +53,10 @@ def speed_of_two_maps(reference: "pd.DataFrame") -> list[dict]:
     always within it. `unknown` replicates are not within it either, and left out.
     """
     rows = []
-    for system, iterations in product(SYSTEMS, LENGTHS[1:3]):
+    for system, iterations in product(NAMES, MAPS[1:3]):
         goal = _errors(reference, "one", system)[iterations]
         ladder = np.stack(list(_errors(reference, "two", system).values()), axis=1)
-        factors = iterations_needed(np.array(LENGTHS), ladder, goal) / iterations
+        factors = iterations_needed(np.array(MAPS), ladder, goal) / iterations
         known = np.isfinite(factors)
         estimate = (
             _geometric(factors[known]) if known.sum() > 1 else Estimate(np.nan, np.nan, np.nan)
@@ -73,7 +72,7 @@ def _errors(reference: "pd.DataFrame", maps: str, system: str) -> dict[int, np.n
         iterations: np.stack(
             [reference[f"{maps}_{system}_{iterations}_{error}"] for error in ERRORS], axis=-1
         )
-        for iterations in LENGTHS
+        for iterations in MAPS
     }
 
 
@@ -98,6 +97,8 @@ def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dic
     Both widths of a trial have the same distribution. If they mattered alike, their log ratio could
     have had either sign.
     """
+    from scipy.stats import rankdata  # half a second, which only this page needs
+
     first, rows = trials[trials["round"] == 1], []
     for kind, error, sign in zip(KINDS, ERRORS, (1, -1), strict=True):
         ranks = first.groupby("search")[error].transform(lambda its: rankdata(its) - its.size / 2)

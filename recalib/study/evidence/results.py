@@ -22,6 +22,7 @@ from recalib.study.layout import (
     SECOND,
     SHIPPED,
     Layout,
+    pieces,
 )
 from recalib.study.measured import errors_of
 
@@ -173,9 +174,10 @@ class Evidence:
         """
         import pandas as pd
 
-        first = f"{self._layout.shipped(SECOND)}/{table}_"
-        paths = [path for path in self._needs.files if path.startswith(first)]
-        return pd.concat(map(self._table, paths), ignore_index=True) if paths else None
+        paths = pieces(table, self.fact("setups")[table], self._layout.shipped(SECOND))
+        if not set(paths) & set(self._needs.files):
+            return None
+        return pd.concat(map(self._table, paths), ignore_index=True)
 
     def efforts(self) -> "pd.DataFrame":
         """A row for each training, effort, search, seed and measurement."""

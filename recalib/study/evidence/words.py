@@ -33,7 +33,7 @@ def percent(value: float) -> str:
 def ranged(middle: float, bounds: Sequence[float], said=short) -> str:
     """A number with its interval."""
     low, high = map(said, bounds)
-    return f"{said(middle)} ({low} to {high})"
+    return f"{said(middle)} ({low} to {high})" if low != high else said(middle)
 
 
 def estimated(estimate: Estimate, longest: float = np.inf) -> str:
@@ -118,6 +118,18 @@ def over_setups(its: Mapping) -> str:
             f" {its['holds_by_luck_alone']:.1f}"
         )
     return text
+
+
+def depends(its: Mapping) -> str:
+    """The choice that moves a claim's number most, and by how much; empty where none is known."""
+    if its["status"] != "measured":
+        return ""
+    its = its["depends_on"]
+    if its["effect"] <= its["chance"]:
+        return "No choice moves it by more than chance would show."
+    factor, least, largest = (its[key].replace("_", " ") for key in ("factor", "from", "to"))
+    effect = ranged(its["effect"], its["interval"])
+    return f"The choice that moves it most is {factor}: {effect} from {least} to {largest}."
 
 
 def amounts(entry: Mapping) -> str:

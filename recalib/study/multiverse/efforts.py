@@ -14,14 +14,14 @@ from recalib.study import jobs
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
+from recalib.study.multiverse.lengths import LONG
 from recalib.study.plants import Resolved
-from recalib.training import measuring_grid, train
+from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
 
-LONG = 10_000  # iterations: what the paper names; as long a training is watched on its way
-WATCHED = 150  # measurements of it
+FIRST, WATCHED = 1000, 60  # iterations and measurements: nobody gets there earlier
 
 
 def efforts(job: jobs.Efforts, scenario: str | Path, sample: str | Path) -> "pd.DataFrame":
@@ -61,7 +61,7 @@ def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -
     seeds = list(range(job.seeds)) * len(winners)
     grid = [iterations]
     if iterations >= LONG:
-        grid = [n for n in measuring_grid(iterations, 1, 0, WATCHED) if n]
+        grid = np.geomspace(FIRST, iterations, WATCHED).round().astype(int).tolist()
     settings = np.repeat(winners.to_dict("records"), job.seeds)
     history = train(
         resolved.plant(resolved.controller(), job.seed, seeds),

@@ -10,6 +10,7 @@ import numpy as np
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.measured import ERRORS
+from recalib.study.multiverse import lengths
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.measuring import measured, one_and_two_maps, ratio
 from recalib.study.multiverse.universe import Universe, universe
@@ -17,7 +18,6 @@ from recalib.study.multiverse.world import World
 from recalib.study.plants import Resolved
 
 NUMBER = -1  # it is none of the design
-LENGTHS = 200, 1000, 2000, 5000  # iterations after which two maps are compared with one
 MAPS, SCHEDULE = SWITCHES[0], SWITCHES[-1]
 SYSTEMS = {"improved": (MAPS.without, IMPROVED), "ritter": (RITTER, MAPS.added)}
 
@@ -74,7 +74,7 @@ def _schedules(setup: Universe, replicate: int) -> dict[str, float]:
 def _maps(world: World) -> dict[str, float]:
     """Mean final errors with one map and with two, by system and number of iterations."""
     found = {}
-    for (system, pair), iterations in product(SYSTEMS.items(), LENGTHS):
+    for (system, pair), iterations in product(SYSTEMS.items(), lengths.MAPS):
         for maps, errors in zip(
             ("one", "two"), one_and_two_maps(world, *pair, iterations), strict=True
         ):

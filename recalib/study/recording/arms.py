@@ -7,7 +7,10 @@ import pinocchio as pin
 import rerun as rr
 
 from recalib.damaged.damage import Damage, apply
+from recalib.errors import InvalidFile
+from recalib.nominal.descriptions import MOST
 from recalib.nominal.robots import Robot
+from recalib.storage import read_file
 from recalib.study.recording.clocks import clocks
 from recalib.study.recording.colours import BELIEVED, SHORT, WRONG
 from recalib.study.recording.marks import Mark, base_shift, circle, marks
@@ -35,7 +38,10 @@ def send_arms(
     unit = unit_of(robot.workspace)
     wrong = marks(robot, damages, unit)
     short = [mark.link for mark in wrong if mark.axis is None]
-    visuals = log_meshes(rec, robot.urdf, learner)
+    source = read_file(robot.urdf, MOST)
+    visuals, missing = log_meshes(rec, source, robot.urdf, learner)
+    if missing:
+        raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
     for entity in (entity for link in short for entity in visuals.get(link, ())):
         rec.log(entity, rr.Asset3D.from_fields(albedo_factor=SHORT), static=True)
     acts, learning = clocks(watched, motion)

@@ -36,8 +36,8 @@ def write_recording(
             experiment.
         seed: of the poses that are visited.
 
-    Returns what was watched, by learner. Raises BrokenRecording where the robot's meshes are not
-    found, and where the experiment measured anything else than what was watched.
+    Returns what was watched, by learner. Raises InvalidFile where a mesh of the robot is not found,
+    BrokenRecording where the experiment measured anything else than what was watched.
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():

@@ -8,8 +8,10 @@ import pytest
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.findings import (
+    FIRST,
+    _campaign,
     _ensemble,
-    _multiverse,
+    _first_campaign,
     _refused,
     _said,
     _scaled,
@@ -74,18 +76,37 @@ def test_of_scaled_damages_the_larger_part_that_is_left_counts():
     assert (large["final_cm"], large["final_deg"], large["left"]) == (2, 3, 0.75)
 
 
-def test_universes_are_counted_with_those_that_were_replaced():
-    """Of ten, a tenth lies below the first by its factor, and half below the fifth."""
-    factors = pd.DataFrame({"factor": [5.0, 1, 9, 3, np.inf, 7, 2, 8, 4, 6]})
-    design = pd.DataFrame({"row": [0, 1, 2, 3, 4, 6, 7, 8, 9, 12], "homes_refused": [2, 1] * 5})
-    said = _multiverse(SimpleNamespace(outcomes=lambda: factors, whole_design=lambda: design))
-    assert (said["count"], said["beyond"], said["refused"], said["homes"]) == (10, 1, 3, 15)
-    parts = {"10 %": "1", "25 %": "3", "50 %": "5", "75 %": "7", "90 %": "9"}
-    assert said["factors"] == parts
-    half = pd.DataFrame({"factor": np.where(np.arange(10) < 5, 2.0, np.inf)})
-    said = _multiverse(SimpleNamespace(outcomes=lambda: half, whole_design=lambda: design))
-    assert said["factors"] == {"10 %": "2", "25 %": "2", "50 %": "2"} and said["beyond"] == 5
-    assert _multiverse(SimpleNamespace(outcomes=lambda: None)) == {}
+def test_the_power_of_the_campaign_is_read_from_its_table():
+    effects, own = (1.0, 0.95, 0.9), (0.0, 0.1, 0.2)
+    rows = [
+        {
+            "effect": effect,
+            "heterogeneity": spread,
+            "supported": {1.0: 0.01, 0.95: 0.5, 0.9: 0.99}[effect],
+            "found": {0.0: 0.03, 0.1: 0.7, 0.2: 0.9}[spread],
+        }
+        for effect in effects
+        for spread in own
+    ]
+    evidence = SimpleNamespace(
+        setups=lambda table: pd.DataFrame({"universe": [0, 0, 1, 1], "replicate": [0, 1, 0, 1]}),
+        power=lambda: pd.DataFrame(rows),
+        design=lambda: pd.DataFrame({"one": [1, 2], "two": [1, 2]}),
+        whole_design=lambda: pd.DataFrame({"homes_refused": [2, 3]}),
+    )
+    said = _campaign(evidence)
+    assert (said["setups"], said["replicates"], said["factors"], said["homes"]) == (2, 2, 2, 5)
+    assert said["smallest_effect"] == pytest.approx(0.1)
+    assert said["smallest_heterogeneity"] == 0.2 and said["none"]["found"] == 0.03
+    assert _campaign(SimpleNamespace(setups=lambda table: None)) == {}
+
+
+def test_the_first_campaign_is_counted_on_the_side_where_a_claim_held():
+    columns = {column: [0.9, 1.1, 0.8] for column, _, _ in FIRST.values()}
+    outcomes = pd.DataFrame(columns | {"factor": [40.0, 60.0, np.inf]})
+    rows = _first_campaign(SimpleNamespace(first_campaign=lambda: (None, outcomes)))
+    assert {row["holds"] for row in rows[:-1]} == {2} and rows[-1]["holds"] == 2
+    assert {row["of"] for row in rows} == {3} and len(rows) == len(FIRST)
 
 
 def test_what_is_said_of_a_claim_besides_is_its_own():
@@ -103,5 +124,5 @@ def test_the_rest_is_counted_in_the_results(made_up):
     assert (said["trials"], said["searches"]) == (100, 4)
     assert (said["iterations"], said["ritter_iterations"]) == (200, 10_000)
     assert said["scaled_robots"] == said["ensemble"]["robots"] == 12
-    assert said["coverage"] == pytest.approx(95) and said["universes"] == {}
+    assert len(said["factors"]) == 12
     assert said["figures"] == [f"figure{number}" for number in (4, 5, 6, 7, 8, 9, 10)]

@@ -1,9 +1,11 @@
 """What pages say of numbers and claims, word for word."""
 
+import numpy as np
 import pytest
 
 from recalib.study.evidence import words
 from recalib.study.measured import ERRORS
+from recalib.study.statistics import Estimate
 
 
 @pytest.mark.parametrize(
@@ -15,7 +17,7 @@ from recalib.study.measured import ERRORS
         (0.01, "0.01"),
         (0.00994, "9.9e-03"),
         (-0.004, "-4.0e-03"),
-        (1e-6, "1.0e-06"),
+        (1.1e-6, "1.1e-06"),
         (9.9e-7, "below 1e-6"),
         (-3e-12, "below 1e-6"),
     ],
@@ -33,56 +35,89 @@ def test_a_pair_is_both_errors_with_their_units():
     assert words.pair(row, "final") == "0.13 cm, below 1e-6 degrees"
 
 
-def share(holds=100, times=1.5, chance=1.2, to="urdf"):
-    its = {"factor": "rate_law", "from": "paper", "to": to, "times": times, "chance": chance}
-    return {"holds": holds, "of": 128, "depends_on": its | {"interval": [1.32, 1.78]}}
+def setups(effect=1.5, **others):
+    its = {"factor": "rate_law", "from": "paper", "to": "urdf", "effect": effect, "chance": 1.2}
+    return {
+        "status": "measured",
+        "setups": 64,
+        "mean": 0.9,
+        "mean_interval": [0.85, 0.95],
+        "heterogeneity": 0.05,
+        "heterogeneity_interval": [0.0, 0.1],
+        "luck": 0.2,
+        "luck_interval": [0.18, 0.22],
+        "another_setup": [0.8, 1.0],
+        "depends_on": its | {"interval": [1.32, 1.78]},
+    } | others
 
 
 OF_ONE = {
+    "id": "some",
     "verdict": "supported",
-    "measured": {"factor": 33.24, "difference": 2e-8, "final cm": 0.3149, "final degrees": 0.2},
-    "interval": {"factor": [20.1, None], "difference": [0.0, 1e-7]},
-    "universes": share(),
-    "systems": {},
+    "measured": {"factor": 100.0, "difference": 2e-8, "final error [cm]": 0.3149}
+    | {"final error [degrees]": 0.2},
+    "interval": {"factor": [40.6, 100.0], "difference": [0.0, 1e-7]},
+    "bounds": {"factor": ["mean", "high"]},
+    "universes": setups(),
+    "systems": {"ours": {"verdict": "supported", "universes": setups()}},
 }
 OF_TWO = OF_ONE | {
-    "verdict": "not supported",
+    "verdict": "no effect",
     "systems": {
-        "ours": {"verdict": "not supported", "universes": share(40, times=1.1)},
-        "Ritter's": {"verdict": "undecided", "universes": share(87, times=1)},
+        "ours": {"verdict": "no effect", "universes": setups()},
+        "Ritter's": {"verdict": "undecided", "universes": setups()},
+        "others": {"verdict": "no effect", "universes": setups()},
     },
 }
 
 
-def test_what_was_measured_is_said_with_its_interval():
-    factor, difference = "factor: 33.2 (20.1 to more)", "difference: below 1e-6 (0 to below 1e-6)"
-    assert words.brief(OF_ONE) == factor
+def test_what_was_measured_is_said_with_its_interval_and_bounds_are_called_so():
+    factor = "factor: at least 100 (40.6 to at least 100)"
     assert words.measured(OF_ONE) == (
-        f"{factor}; {difference}; final cm: 0.315; final degrees: 0.2"
+        f"{factor}; difference: below 1e-6 (0 to below 1e-6);"
+        " final error [cm]: 0.315; final error [degrees]: 0.2"
     )
     assert words.typical_errors(OF_ONE) == "0.31 cm and 0.20 degrees"
 
 
-def test_a_verdict_is_said_of_each_system_where_they_differ():
+def test_the_setups_judge_a_claim_where_they_are_measured():
+    assert words.headline(OF_ONE) == "0.9 (0.85 to 0.95)"
+    assert words.headline(OF_ONE, words.percent) == "90 % (85 % to 95 %)"
+    alone = OF_ONE | {"universes": {"status": "cannot vary"}}
+    assert words.headline(alone) == "at least 100 (40.6 to at least 100)"
+    assert words.headline(OF_ONE | {"id": "speed-up"}) == words.headline(alone)
+
+
+def test_a_verdict_is_said_of_other_systems_where_they_differ():
     assert words.verdicts(OF_ONE) == "**supported**"
-    said = "**not supported** (not supported for ours, undecided for Ritter's)"
-    assert words.verdicts(OF_TWO) == said
-    ours = OF_TWO["systems"]["ours"]
-    assert words.verdicts(OF_TWO | {"systems": {"ours": ours}}) == "**not supported**"
+    assert words.verdicts(OF_TWO) == "**no effect** (ours); Ritter's: undecided"
+    assert words.verdicts(OF_ONE | {"systems": {}}) == "**supported**"
 
 
-def test_in_how_many_universes_a_claim_holds_is_said_of_each_system():
-    assert words.in_universes(OF_ONE) == "100 of 128"
-    assert words.in_universes(OF_TWO) == "40 of 128 (ours), 87 of 128 (Ritter's)"
-    assert words.in_universes(OF_ONE | {"universes": None}) == "cannot vary"
+def test_setups_are_said_by_mean_heterogeneity_and_luck():
+    text = (
+        "mean 0.9 (0.85 to 0.95), heterogeneity 0.05 (0 to 0.1), luck 0.2 (0.18 to 0.22);"
+        " another setup: 0.8 to 1"
+    )
+    assert words.over_setups(setups()) == text
+    counted = setups(holds=60, holds_by_luck_alone=61.24)
+    assert words.over_setups(counted) == f"{text}; holds in 60 of 64, by luck alone in 61.2"
+    assert words.over_setups({"status": "not measured"}) == "not measured"
 
 
 def test_a_choice_is_said_to_matter_where_it_matters_more_than_chance():
-    text = "rate law, 1.5 times (1.32 to 1.78) as large for urdf as for paper"
-    assert words.depends(OF_ONE) == text
-    weak = "no choice, by more than chance would show"
-    assert words.depends(OF_TWO) == f"ours: {weak}; Ritter's: none, it is the same in all"
-    assert words.depends(OF_ONE | {"universes": share(times=1.2)}) == weak
+    text = "The choice that moves it most is rate law: 1.5 (1.32 to 1.78) from paper to urdf."
+    assert words.depends(setups()) == text
+    assert words.depends(setups(1.2)) == "No choice moves it by more than chance would show."
+    assert words.depends({"status": "cannot vary"}) == ""
+
+
+def test_an_estimate_is_said_with_its_interval_and_the_end_of_what_was_tried():
+    nan = float("nan")
+    assert words.estimated(Estimate(33.24, 20.1, 38.9)) == "33.2 (20.1 to 38.9)"
+    assert words.estimated(Estimate(90, 80, np.inf), 100) == "90 (80 to more than 100)"
+    assert words.estimated(Estimate(2.0, nan, nan)) == "2"
+    assert words.estimated(Estimate(nan, nan, nan)) == "not known"
 
 
 def test_a_damage_is_its_amounts():

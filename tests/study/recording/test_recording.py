@@ -1,6 +1,5 @@
 import json
 import subprocess
-from contextlib import nullcontext
 from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
@@ -15,10 +14,11 @@ from PIL import Image
 from rerun.chunk import RrdReader
 from scipy.spatial.transform import Rotation
 
-from recalib import viewing
+from recalib import meshes
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Sag
+from recalib.errors import InvalidFile
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
@@ -575,10 +575,8 @@ def test_a_recording_of_other_results_is_refused(recording, results):
 
 
 def test_missing_meshes_leave_no_recording(write, tmp_path, monkeypatch):
-    monkeypatch.setattr(viewing, "_packages", lambda urdf: nullcontext())
-    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
-    with pytest.raises(BrokenRecording, match="no mesh for"):
+    monkeypatch.setattr(meshes, "KINDS", ())
+    with pytest.raises(InvalidFile, match="mesh 'package:.* is in none of its packages"):
         write(tmp_path / "bare.rrd", DAMAGES)
     assert not list(tmp_path.iterdir())
 

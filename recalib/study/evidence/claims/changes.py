@@ -76,8 +76,8 @@ THETA = claim(
     section="5",
     quotation="the information propagated to neighboring units can be modified to improve their"
     " cooperation",
-    statement="Increments of theta are better to share than values.",
-    short="Increments of theta make the error {} times that with values.",
+    statement="Cells should share changes of their commands, not commands.",
+    short="error x {number}",
     reason=ON_TWO_MAPS.format(5),
     figures=("figure4",),
 )
@@ -86,8 +86,8 @@ JACOBIAN = claim(
     id="jacobian-increments",
     section="5",
     quotation="in all the relevant aspects for us, the problem is the same",
-    statement="Increments of the Jacobians are better to share than values.",
-    short="Increments of the Jacobians make the error {} times that with values.",
+    statement="They should share changes of their Jacobians, not Jacobians.",
+    short="error x {number}",
     reason=ON_TWO_MAPS.format(5),
     figures=("figure4",),
 )
@@ -97,8 +97,8 @@ SCHEDULE = claim(
     section="6",
     quotation="The neighborhood scheduling proposed by Ritter et al. does not take into account"
     " this fact.",
-    statement="A schedule with equal visits at every width is better than Ritter's.",
-    short="Equal visits at every width make the error {} times that of Ritter's schedule.",
+    statement="Widths should fall so that a cell is visited equally often at each of them.",
+    short="error x {number}",
     reason=ON_TWO_MAPS.format(6)
     + " The input space of f has n = 6 dimensions, that of each net n ="
     " 3; the rate may fall by two laws: both are choices of the setups, and told apart in the"

@@ -58,7 +58,7 @@ class Finding:
         A bound is the end of what could be measured, and `bounds` says which numbers are bounds. An
         interval that is not known, as that of a single search, is left out.
         """
-        measured, interval, bounds = dict(self.numbers), {}, {}
+        measured, interval, bounds = {}, {}, {}
         for label, estimate in self.estimates.items():
             least, most = self.ends.get(label, (-np.inf, np.inf))
             within = [
@@ -76,7 +76,9 @@ class Finding:
             if parts:
                 bounds[label] = parts
         return {
-            "measured": {label: rounded(value) for label, value in measured.items()},
+            "measured": {
+                label: rounded(value) for label, value in (measured | self.numbers).items()
+            },
             "interval": interval,
             "bounds": bounds,
             "note": self.note,

@@ -23,8 +23,8 @@ CLAIM = Claim(
     section="8",
     quotation="the system can work without substituting the original controller in commercial"
     " robots",
-    statement="The method works on top of the controller, which is not substituted.",
-    short="Learning from a table of commands and poses differs by {}.",
+    statement="The robot's controller stays as it is.",
+    short="difference {number}",
     limits={"difference": Limit(0.0)},
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"
     " learns bit for bit the same.",

@@ -11,8 +11,8 @@ CLAIM = Claim(
     section="4",
     quotation="changes in position coordinates influence very slowly the orientation commands, and"
     " the same can be said about orientation coordinates with respect to position commands",
-    statement="Position hardly influences orientation commands, and the reverse.",
-    short="The off-diagonal blocks of the mapping's Jacobian are {} of the diagonal ones.",
+    statement="Positions hardly influence orientation commands, nor the reverse.",
+    short="{percent} of what their own coordinates do, at most",
     limits={"ratio": RATIO, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",

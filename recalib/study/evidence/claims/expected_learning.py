@@ -32,9 +32,8 @@ CLAIM = Claim(
     section="6",
     quotation="The second equality results from assuming Gaussian neighborhoods and a uniform p(w),"
     " and it is valid for w_r's not too close to the border",
-    statement="The expected learning of a cell in one iteration is sigma^n (2 pi)^(n/2) / volume,"
-    " not too close to the border.",
-    short="Away from the border, the expected learning of a cell differs from (10) by at most {}.",
+    statement="A formula, (10), says how much a cell learns in an iteration.",
+    short="off by {number} at most",
     published="equation (10)",
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
     criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"

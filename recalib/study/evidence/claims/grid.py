@@ -5,7 +5,6 @@ import numpy as np
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
 from recalib.study.hierarchy import student
-from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.statistics import Estimate
 
 
@@ -20,7 +19,7 @@ def measure(evidence, limits):
     def over(placement: str) -> Estimate:
         return Estimate(*np.exp(student((distances["boxes"] - distances[placement]).to_numpy())))
 
-    kohonen, least = over(f"kohonen_{max(ITERATIONS)}"), over("kmeans")
+    kohonen, least = over("kohonen_10000"), over("kmeans")
     verdict = RATIO.side(kohonen)
     if verdict is Verdict.SUPPORTED:
         verdict = Comparison(limits["worse"]).verdict(least)
@@ -37,8 +36,8 @@ CLAIM = Claim(
     section="3",
     quotation="we can directly place the centers of the cells in a regular grid covering it, in"
     " order to minimize the quantization error. These centers do not need to move",
-    statement="A regular grid has the least quantisation error, and needs no Kohonen step.",
-    short="The grid's quantisation error is {} times that after 10,000 steps of Kohonen's rule.",
+    statement="A regular grid of cells covers the workspace best.",
+    short="quantisation error x {number} against cells placed by Kohonen's rule",
     limits={"worse": Limit(1.1)},
     criterion="The quantisation error of the regular grid is below that of cells placed by"
     " Kohonen's rule, and at most {worse} times the least that k-means finds.",

@@ -34,8 +34,8 @@ CLAIM = Claim(
     id="identity",
     section="3",
     quotation="For the intact robot, this mapping is the identity.",
-    statement="For the intact robot the mapping is the identity, and learning leaves it there.",
-    short="The largest error on the intact robot is {} cm.",
+    statement="The intact robot needs no correction, and learns none.",
+    short="{number} cm off at most",
     limits={"error": ERROR},
     criterion="The improved system's errors on the intact robot stay below {error} cm and {error}"
     " degrees in every measurement.",

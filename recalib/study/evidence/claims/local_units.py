@@ -8,8 +8,8 @@ CLAIM = Claim(
     section="8",
     quotation="other neural network algorithms based on local units can also benefit from these"
     " improvements",
-    statement="Other networks of local units benefit from increments, too.",
-    short="Radial units that share increments end at {} times the error of those with values.",
+    statement="Other networks of local units gain by sharing changes, too.",
+    short="error x {number}",
     criterion="The error of radial units that share increments of their commands over that of"
     " those that share values is below 1, both tuned.",
     reason="Radial units without Jacobians are the smallest other kind of local unit. Increments"

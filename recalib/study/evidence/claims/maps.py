@@ -11,8 +11,8 @@ SEPARATE = Claim(
     id="separate-maps",
     section="4",
     quotation="This modification leads to a significant increase in learning speed.",
-    statement="Two maps, one for position and one for orientation commands, learn faster than one.",
-    short="With two maps the error is {} times that with one.",
+    statement="Two maps, one for positions and one for orientations, learn faster than one.",
+    short="error x {number}",
     criterion="Ritter's error after 1,000 iterations with two maps over that with one is below 1."
     " Both searches go on from the same winner with as many trials.",
     reason="The paper makes it within Ritter's framework. After 200 iterations most of Ritter's"
@@ -36,7 +36,7 @@ WIDTHS = {
         section="4",
         quotation=words,
         statement=f"The {kind} map wants {wanted}.",
-        short=f"The {kind} error correlates by {{}} with how far the widths are from that order.",
+        short="rank correlation {number}",
         criterion=f"The rank correlation of the {kind} error with log({over}) is above 0.",
         reason=ORDER,
         across={"improved system": Across(f"order_{kind}", "rank correlation", CORRELATION, False)},
@@ -46,13 +46,13 @@ WIDTHS = {
         (
             "position",
             "one with a narrow g_k and a wide g_kl to compute only position commands",
-            "a narrow g_k and a wide g_kl",
+            "narrow neighbourhoods of positions and wide ones of orientations",
             "g_k / g_kl",
         ),
         (
             "orientation",
             "another with a wide g_k and a narrow g_kl to compute only orientation commands",
-            "a wide g_k and a narrow g_kl",
+            "wide neighbourhoods of positions and narrow ones of orientations",
             "g_kl / g_k",
         ),
     )
@@ -63,8 +63,8 @@ LARGE = Claim(
     section="4",
     quotation="too large neighborhoods in the position coordinates space are counterproductive to"
     " learn position commands",
-    statement="Too large neighbourhoods of positions hurt position commands.",
-    short="As tuned, the position error is {} times that with g_k as wide as the workspace.",
+    statement="Too wide neighbourhoods of positions hurt position commands.",
+    short="error x {number} without them",
     criterion="The position error as tuned is below that with the position map's g_k kept as wide"
     " as the workspace, and all else tuned anew.",
     reason="No neighbourhood is larger than the workspace. " + EQUIVALENT,
@@ -76,29 +76,24 @@ CELLS = {
         id=f"cells-{kind}",
         section="4",
         quotation=words,
-        statement=f"The {kind} map needs fewer cells in the {spared}.",
-        short=f"With fewer cells in the {spared} the {kind} error is {{}} times that with fewer in"
-        f" the {other}.",
-        criterion=f"The {kind} error with 2 x 2 x 2 cells in the {spared} over that with 2 x 2 x 2"
-        f" in the {other} is below 1, both tuned.",
+        statement=f"The {kind} map can spare cells for {kind}s.",
+        short=f"error x {{number}} against sparing cells for {other}s",
+        criterion=f"The {kind} error with 2 x 2 x 2 cells in the {net} over that with 2 x 2 x 2"
+        " in the other net is below 1, both tuned.",
         reason="What needs fewer cells loses less by having fewer. " + EQUIVALENT,
-        across={
-            "improved system": Across(
-                f"cells_{kind}", f"error, fewer in the {spared} / in the {other}"
-            )
-        },
+        across={"improved system": Across(f"cells_{kind}", "error, fewer here / in the other net")},
     )
-    for kind, spared, other, words in (
+    for kind, other, net, words in (
         (
             "position",
+            "orientation",
             "supernet",
-            "subnets",
             "the position network needs less units in the supernet",
         ),
         (
             "orientation",
+            "position",
             "subnets",
-            "supernet",
             "the orientation network saves neurons at the subnet level",
         ),
     )

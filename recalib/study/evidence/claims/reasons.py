@@ -81,18 +81,16 @@ def claim(kind: str, **said) -> Claim:
 THETA = claim(
     "theta",
     id="theta-reason",
-    quotation="this kind of cooperation works better than Ritter et al.'s when the new function is"
-    " more similar to the original one than to a constant function",
-    statement="Increments are better when the new mapping is nearer to the old one than to a"
-    " constant.",
-    short="The new update is better in a share of {} of the balls with that condition.",
+    quotation="this kind of cooperation works better than Ritter et al.'s when the new function"
+    " is more similar to the original one than to a constant function",
+    statement="Changes are better if the new mapping is nearer to the old one than to a constant.",
+    short="true in {percent} of the regions tried",
 )
 JACOBIAN = claim(
     "jacobian",
     id="jacobian-reason",
     quotation="The new update version is better than the classical one when the Jacobian function"
     " of f' is more similar to df/dw than to a constant matrix.",
-    statement="Increments are better when the new Jacobian is nearer to the old one than to a"
-    " constant.",
-    short="The new update is better in a share of {} of the balls with that condition.",
+    statement="The same holds for Jacobians.",
+    short="true in {percent} of the regions tried",
 )

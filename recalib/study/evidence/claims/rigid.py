@@ -36,8 +36,8 @@ CLAIM = Claim(
     section="7",
     quotation="The results were in complete agreement with the simulation results for the same"
     " situation",
-    statement="On translations and rotations, the real robot agreed with the simulation.",
-    short="In simulation, {} of a translation's error remains; the real robot is not here.",
+    statement="A real robot, moved and turned as a whole, agreed with the simulation.",
+    short="no real robot here; {percent} of the error remains in simulation",
     criterion="A real robot, moved and turned as a whole, learns as the simulation does.",
     reason="That is what the paper says. The technical report has the numbers.",
     needs=needs,

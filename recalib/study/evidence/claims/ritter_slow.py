@@ -24,8 +24,8 @@ CLAIM = Claim(
     section="3",
     quotation="was not as quick as expected, even if the neighborhood widths were tuned in order to"
     " maximize learning speed",
-    statement="Ritter's algorithm on a fixed grid is slow, even with its widths tuned.",
-    short="After 200 iterations of Ritter's map, {} of the error remains.",
+    statement="Ritter's map is slow, even with its widths tuned.",
+    short="{percent} of the error remains after 200 iterations",
     limits={"left": LEFT},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"
     " a {left:word} of the initial ones.",

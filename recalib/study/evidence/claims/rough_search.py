@@ -15,8 +15,8 @@ CLAIM = Claim(
     id="rough-search",
     section="7",
     quotation="The parameters were selected after a very rough search",
-    statement="A very rough search is enough to find the parameters.",
-    short="After a search of 16 trials, {} of the error remains.",
+    statement="A very rough search finds the parameters.",
+    short="{percent} of the error remains after the best of 16 random trials",
     limits={"left": LEFT},
     criterion="With the best of {rough_trials} quasi-random trials, both errors end below"
     " a {left:word} of the initial ones.",

@@ -45,8 +45,8 @@ CLAIM = Claim(
     section="7, abstract",
     quotation="two hierarchical networks which, as a whole, had the same number of neurons as the"
     " Ritter et al.'s model [...] required more than 10,000 iterations",
-    statement="Ritter's needs about 70 times as many iterations for the same pair of errors.",
-    short="Ritter's needs {} times the iterations.",
+    statement="Ritter's needs about 70 times as many iterations for the same errors.",
+    short="{number} times",
     published=f"a factor of {PUBLISHED}, near to 2 orders of magnitude",
     limits={"long": LONG},
     criterion=f"{PUBLISHED} lies in the interval of the factor at the errors that the improved"

@@ -1,0 +1,98 @@
+"""What a command writes: new, whole, and at once. Nothing that is there is ever touched."""
+
+import fcntl
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from recalib.errors import InvalidFile, InvalidSetting
+from recalib.storage import IN_THE_MAKING
+
+
+def check_new(path: str | os.PathLike, folder: bool = False) -> None:
+    """Raise unless `new` may put a file, or a folder, at `path`.
+
+    Raises InvalidSetting (no name), InvalidFile (something is there, or nothing can be put there),
+    OSError (a name that no file can have).
+    """
+    if not os.fspath(path) or "\0" in os.fspath(path):
+        raise InvalidSetting("--out", os.fspath(path), "the name of a file or folder")
+    if is_taken(path, folder):
+        raise InvalidFile(path, "it is there already, and nothing is replaced; try: another --out")
+    top, making = _places(path)
+    if not top.parent.is_dir() or not os.access(top.parent, os.W_OK):
+        raise InvalidFile(path, f"nothing can be made in {top.parent}; try: another --out")
+    if os.path.lexists(making) and not _is_left(making, top.name):
+        raise InvalidFile(making, "it is in the way of what will be made; try: another --out")
+
+
+def is_taken(path: str | os.PathLike, folder: bool = False) -> bool:
+    """Whether something is there that a file, or a folder, may not replace.
+
+    A folder may replace an empty one, but not a link, another disk, or the one we are in.
+    """
+    path = Path(path)
+    if not folder or path.is_symlink() or not path.is_dir() or os.path.ismount(path):
+        return os.path.lexists(path)
+    return any(path.iterdir()) or path.samefile(Path.cwd())
+
+
+@contextmanager
+def new(path: str | os.PathLike, folder: bool = False) -> Iterator[Path]:
+    """Where to make a file, or a folder, which appears at `path` when the block ends well.
+
+    It appears at once, with those of its parents that are not there, and replaces nothing. What a
+    killed process left in the making goes when the next one makes the same.
+
+    Raises as `check_new`, and InvalidFile where another process makes the same.
+    """
+    check_new(path, folder)
+    top, making = _places(path)
+    made = making / Path(os.path.abspath(path)).relative_to(top.parent)
+    making.mkdir(exist_ok=True)
+    with _held(making):
+        try:
+            _remove(making / top.name)
+            (made if folder else made.parent).mkdir(parents=True, exist_ok=True)
+            yield made
+            check_new(path, folder)
+            os.rename(making / top.name, top)
+        finally:
+            shutil.rmtree(making, ignore_errors=True)
+
+
+def _places(path: str | os.PathLike) -> tuple[Path, Path]:
+    """The uppermost part of a path that is not there, and the hidden folder in which it is made."""
+    top = Path(os.path.abspath(path))
+    while not os.path.lexists(top.parent):
+        top = top.parent
+    return top, top.with_name(f".{top.name}{IN_THE_MAKING}")
+
+
+def _is_left(making: Path, name: str) -> bool:
+    """Whether a killed process left this folder."""
+    folder = making.is_dir() and not making.is_symlink()
+    return folder and {path.name for path in making.iterdir()} <= {name}
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+@contextmanager
+def _held(folder: Path) -> Iterator[None]:
+    """Keep other processes out of a folder; the system lets go of it however this one ends."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise InvalidFile(folder, "another process fills it; try: another --out") from None
+        yield
+    finally:
+        os.close(descriptor)

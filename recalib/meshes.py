@@ -1,0 +1,84 @@
+"""The meshes of a URDF: files of its own packages and folders, and no others."""
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree import ElementTree
+
+from recalib.nominal.descriptions import parsed
+
+KINDS = ".dae", ".glb", ".gltf", ".obj", ".stl"
+MOST = 100_000_000  # bytes of one
+PACKAGE = "package://"
+
+
+def with_own_meshes(source: bytes, urdf: Path) -> tuple[bytes, list[str]]:
+    """A URDF to be drawn, whose meshes are named by where they lie.
+
+    It may name any file, so what lies elsewhere is left out, and so is what nobody draws: shapes
+    for collisions and textures.
+
+    Args:
+        source: what was read of the URDF at `urdf`.
+
+    Returns it in UTF-8, and the names of the meshes that were left out.
+    """
+    robot, left_out = parsed(source, urdf), []
+    for link in robot.iter("link"):
+        for shape in link.findall("collision"):
+            link.remove(shape)
+        for shape in link.findall("visual"):
+            if (mesh := shape.find("geometry/mesh")) is None:
+                continue
+            name = mesh.get("filename", "")
+            if file := _find(name, urdf.resolve()):
+                mesh.set("filename", str(file))
+            else:
+                link.remove(shape)
+                left_out.append(name)
+    for material in robot.iter("material"):
+        for texture in material.findall("texture"):
+            material.remove(texture)
+    return ElementTree.tostring(robot, encoding="utf-8"), left_out
+
+
+def _find(name: str, urdf: Path) -> Path | None:
+    """The file of a mesh; None unless it lies, with all links followed, where it may."""
+    package, _, path = name.removeprefix(PACKAGE).lstrip("/").partition("/")
+    if name.startswith(PACKAGE):
+        places = [(folder, folder / path) for folder in _packages(package, urdf)]
+    else:
+        places = [(_home(urdf), urdf.parent / name.removeprefix("file://"))]
+    try:
+        for folder, place in places:
+            file = place.resolve()
+            inside = file.is_relative_to(folder.resolve()) and file.suffix.lower() in KINDS
+            if inside and file.is_file() and file.stat().st_size <= MOST:
+                return file
+    except (OSError, RuntimeError):  # a name that no file can have, a circle of links
+        pass
+    return None
+
+
+def _home(urdf: Path) -> Path:
+    """The package that a URDF lies in, or else its folder."""
+    return next((folder for folder in urdf.parents if _is_package(folder)), urdf.parent)
+
+
+def _packages(name: str, urdf: Path) -> Iterator[Path]:
+    """Where a package may be: about the URDF, beside it, or where ROS looks for it."""
+    if name in ("", ".", ".."):
+        return
+    for folder in urdf.parents:
+        if folder.name == name and (_is_package(folder) or folder in urdf.parents[:2]):
+            yield folder
+        if folder == urdf.parent or _is_package(folder / name):
+            yield folder / name
+    for folder in map(Path, filter(None, os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep))):
+        yield folder if folder.name == name else folder / name
+    for prefix in filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
+        yield Path(prefix, "share", name)
+
+
+def _is_package(folder: Path) -> bool:
+    return (folder / "package.xml").is_file()

@@ -1,0 +1,98 @@
+"""Files that describe robots (URDF): where they are, what they are called, and what they say."""
+
+import codecs
+import hashlib
+import importlib
+import importlib.metadata
+import os
+import re
+from functools import cache
+from os import PathLike, fspath
+from pathlib import Path
+from xml.etree import ElementTree
+
+from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
+
+DATA = "example-robot-data"
+FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
+MOST = 16_000_000  # bytes
+MOST_JOINTS = 1000  # Pinocchio takes one after the other by recursion, on a stack that ends
+_DECLARED = re.compile(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([\w.-]+)["']""")
+_MARKED = dict.fromkeys((codecs.BOM_UTF16_LE, b"<\0"), "utf-16-le")
+_MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
+
+
+def find_urdf(urdf: str | PathLike) -> Path:
+    """The file of a URDF. One of the user's own comes before one of a package.
+
+    Args:
+        urdf: a path; the name of a file of example-robot-data, such as ur10_robot.urdf; or that of
+            a description in robot_descriptions.py, such as panda_description, if it is installed.
+
+    Raises UnknownName, or InvalidFile where that is no name but a path.
+    """
+    package = package_of(urdf)
+    if package is None:
+        return Path(urdf)
+    if package == DATA:
+        return _packaged_urdfs()[fspath(urdf)]
+    try:
+        return Path(importlib.import_module(f"{FETCHED}.{fspath(urdf)}").URDF_PATH)
+    except (ImportError, AttributeError):
+        valid = f"a path, or a URDF of {FETCHED}, which has to be installed"
+        raise InvalidSetting("urdf", fspath(urdf), valid) from None
+
+
+def package_of(urdf: str | PathLike) -> str | None:
+    """The package that a name is of; None for a path to a file. Raises as `find_urdf`."""
+    path, name = Path(urdf), fspath(urdf)
+    if os.path.lexists(path) and not path.is_dir():
+        return None
+    if name in _packaged_urdfs():
+        return DATA
+    if name.endswith("_description") and name.isidentifier():
+        return FETCHED
+    if path.is_dir():
+        raise InvalidFile(urdf, "it is a folder; expected: a file")
+    if path.name != name:
+        raise InvalidFile(urdf, "there is no such file")
+    raise UnknownName("file or URDF of example-robot-data", name, _packaged_urdfs())
+
+
+@cache
+def _packaged_urdfs() -> dict[str, Path]:
+    files = importlib.metadata.files(DATA) or []
+    return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
+
+
+def origin(urdf: str | PathLike, source: bytes) -> str:
+    """Which file it is, for people: its name, its package if it is of one, and its digest."""
+    package = package_of(urdf)
+    name = f"{find_urdf(urdf).name} of the package {package}" if package else fspath(urdf)
+    return f"{name} (sha256 {hashlib.sha256(source).hexdigest()[:12]})"
+
+
+def encoding(source: bytes) -> str:
+    """The encoding that a URDF is in: what its first bytes mark or declare, or else UTF-8."""
+    if declared := _DECLARED.match(source):
+        return declared[1].decode("ascii")
+    return _MARKED.get(source[:2], "utf-8")
+
+
+def parsed(source: bytes, path: Path) -> ElementTree.Element:
+    """The root of a URDF.
+
+    Args:
+        path: of the file, for messages.
+
+    Raises UnsuitableRobot: not XML, in another encoding than it says, or a robot of too many parts.
+    """
+    try:
+        robot = ElementTree.fromstring(source.decode(encoding(source)))
+    except (LookupError, UnicodeError):
+        raise UnsuitableRobot(f"{path} is no URDF: its text is not {encoding(source)}") from None
+    except ElementTree.ParseError:
+        raise UnsuitableRobot(f"{path} is no URDF: it is not XML") from None
+    if (count := len(robot.findall("joint"))) > MOST_JOINTS:
+        raise UnsuitableRobot(f"{path} has {count} joints; expected: at most {MOST_JOINTS}")
+    return robot
