@@ -96,7 +96,7 @@ def test_rerun_is_imported_by_the_recordings_alone():
 def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
     """The workflow does it whenever it starts."""
     declaring = "import recalib.study.evidence.pages, recalib.study.evidence.report"
-    declaring += ", recalib.study.plots.registry, recalib.study.evidence.coverage"
+    declaring += ", recalib.study.plots.registry"
     declaring += ", recalib.study.multiverse.universe, recalib.study.multiverse.design"
     heavy = {"pandas", "scipy", "matplotlib", "jinja2", "pinocchio", "numba"}
     assert loaded_with(declaring, heavy) == set()

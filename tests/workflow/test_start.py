@@ -25,12 +25,14 @@ HEAVY = {
 }
 ARMS = {"numba", "pinocchio", "scipy.spatial"}
 STARTS = {
-    "claims concat gather outcome page report_pages study_coverage": set(),
-    "benchmark_table check expect outcomes real_table search_sample study_visits summarise": {
+    "claims concat gather outcome page report_pages": set(),
+    "benchmark_table check expect piece real_table search_sample study_visits summarise": {
         "pandas"
     },
+    "power": {"scipy.stats"},
     "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
-    "study_mapping study_replay train universe": ARMS,
+    "study_mapping study_replay train universe efforts": ARMS,
+    "horizon reference": ARMS,
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
     "film pictures": {"rerun"},

@@ -6,8 +6,6 @@ from scipy.stats import norm, sem
 from scipy.stats import t as student
 
 from recalib.study import statistics
-from recalib.study.evidence import coverage
-from recalib.study.evidence.results import Evidence
 from recalib.study.statistics import (
     Draws,
     bootstrap,
@@ -16,10 +14,9 @@ from recalib.study.statistics import (
     first_within,
     geometric,
     ratio,
-    ratio_searched_once,
     typical,
 )
-from tests.made_up import OF_SEARCHES, OF_SEEDS, MadeUp
+from tests.made_up import OF_SEARCHES, OF_SEEDS
 
 SEEDS = 5
 
@@ -53,18 +50,6 @@ def test_the_interval_holds_repetitions_as_often_as_it_says(searches, compared, 
     assert 0.905 <= np.mean(inside) <= 0.99
 
 
-@pytest.mark.parametrize("searches", [2, 4])
-def test_studies_with_one_search_find_their_number_as_often_as_it_says(searches):
-    inside = []
-    for number in range(4000):
-        random = rng(6, searches, number)
-        scales = 6, 2
-        low, high = ratio_searched_once(*(each * training(random, searches) for each in scales))
-        ours, theirs = (np.log(training(random, 1)).mean() for _ in range(2))
-        inside.append(low <= 3 * np.exp(ours - theirs) <= high)
-    assert np.mean(inside) == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / 4000))
-
-
 @pytest.mark.parametrize("searches", [(8,), (12,), (12, 4), (4, 12, 6), (4, 4)])
 def test_of_normal_means_an_interval_is_students_of_the_fewest_searches(searches):
     """With as many degrees of freedom as the two trainings of the fewest have; for a repetition."""
@@ -81,7 +66,6 @@ def test_of_normal_means_an_interval_is_students_of_the_fewest_searches(searches
 
 
 def test_of_a_single_search_nothing_is_said_of_another():
-    assert np.isnan(ratio_searched_once(np.ones((1, SEEDS)), np.ones((2, SEEDS)))).all()
     values = training(rng(2), 1)
     found = estimate(values, rng(1))
     assert found.mean == pytest.approx(values.mean()) and np.isnan(found[1:]).all()
@@ -169,18 +153,6 @@ def test_the_typical_search_is_the_median_one_of_two_the_better():
     assert typical(errors[:3]) == 2
 
 
-def test_coverage_tells_how_often_half_of_the_searches_foretell_the_other(
-    study, tmp_path, monkeypatch, quick
-):
-    monkeypatch.setattr(coverage, "SPLITS", 25)
-    made_up = MadeUp(tmp_path, study)
-    table = coverage.coverage(Evidence(made_up.needs(coverage.needs)))
-    assert len(table) == 8 and table["inside"].mean() >= 0.9
-    monkeypatch.setattr(statistics, "LEVEL", 0.3)
-    narrow = coverage.coverage(Evidence(made_up.needs(coverage.needs)))
-    assert narrow["inside"].mean() < 0.7
-
-
 def test_the_interval_over_seeds_covers_their_mean_as_often_as_it_says():
     covered = 0
     for repetition in range(200):
@@ -208,12 +180,3 @@ def test_a_threshold_counts_where_all_errors_are_within():
     iterations, errors = np.array([0, 10, 20]), np.array([[3, 3], [1, 3], [1, 1.0]])
     assert first_within(iterations, errors, np.array([1, 2])) == 20
     assert first_within(iterations, errors, np.array([0.5, 2])) == np.inf
-
-
-def test_a_study_is_split_into_halves_of_its_searches_each_time_others():
-    searches = np.arange(8.0)[:, None].repeat(3, axis=1)
-    halves = coverage._split(searches, np.random.default_rng(1).permuted)
-    assert [half.shape for half in halves] == [(4, 3, coverage.SPLITS)] * 2
-    for own in np.moveaxis(np.concatenate(halves), -1, 0):
-        assert np.array_equal(np.sort(own[:, 0]), searches[:, 0]) and np.ptp(own, axis=1).max() == 0
-    assert len(np.unique(np.sort(halves[0][:, 0], axis=0), axis=1).T) > 40, "of 70 halves"

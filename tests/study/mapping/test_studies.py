@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.study.evidence.claims.integrals import integral_ratios
+from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.mapping.coupling import coupling, couplings
 from recalib.study.mapping.propagation import (
     ball,

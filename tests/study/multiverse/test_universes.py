@@ -13,15 +13,13 @@ from recalib.errors import RecalibError, UnfitWorkspace
 from recalib.nominal.poses import pose_errors
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.universes import Factors
-from recalib.study.evidence.claims import CLAIMS
 from recalib.study.experiments.settings import rules_of
 from recalib.study.layout import DESIGN
-from recalib.study.multiverse import homes, measuring
+from recalib.study.multiverse import homes
 from recalib.study.multiverse.design import read_design, write_design
 from recalib.study.multiverse.drawing import draw, draw_design, moved
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
-from recalib.study.multiverse.measuring import World, measure
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import metric, universe, wider, width_units
 from recalib.study.plants import nominal_controller, nominal_robot
@@ -164,20 +162,24 @@ def test_a_universe_is_what_its_levels_say(study, design, universes):
         initial = its.budget.initial
         assert initial.position_error_cm == pytest.approx(8.3 * scale)
         assert initial.orientation_error_deg == 4.7
-        assert its.budget.score == its.rough.score == levels["score"]
+        assert its.budget.score == levels["score"]
         lost = [damage.length for damage in each.damage if hasattr(damage, "length")]
         assert sorted(lost) == pytest.approx(sorted(scale * each for each in (0.01, 0.01, 0.04)))
         assert {damage.along for damage in each.damage if hasattr(damage, "along")} == {
             levels["shortening"]
         }
         single = [3, 6, 3] if levels["cells"] == "whole" else [3, 3, 3]
-        assert len(its.learners) == 10
-        for learner in its.learners.values():
-            assert list(learner.supernet) == ([3, 3, 3] if learner.maps == "separate" else single)
+        assert len(its.learners) == 12
+        for net in ("supernet", "subnet"):
+            small = its.learners[f"improved_small_{net}"]
+            assert small == its.learners["improved"].model_copy(update={net: (2, 2, 2)})
+        for name, learner in its.learners.items():
+            if "small" not in name:
+                cells = [3, 3, 3] if learner.maps == "separate" else single
+                assert list(learner.supernet) == cells
         trials = its.budget.rounds * its.budget.trials
         assert trials == (16 if levels["effort"] == "rough" else 192)
         wide = levels["ranges"] == "wider"
-        assert its.budget.ranges == its.rough.ranges
         assert its.budget.ranges == (wider if wide else lambda same: same)(study.search.ranges)
         assert (its.error, its.order) == (levels["error"], levels["order"])
         assert its.budget.seed == its.seed == each.seed
@@ -238,48 +240,6 @@ def test_the_first_campaign_is_still_read_and_drawn_the_same(plan):
         levels = each.levels | {name: new[name] for name in set(FACTORS) - {*each.levels}}
         again = draw(job, each.universe, Row(each.row, levels, 0.0))
         assert again.model_copy(update={"levels": each.levels}) == each
-
-
-@pytest.fixture
-def small(universes):
-    """A universe with searches of two trials and trainings of a few iterations."""
-    its = universes[0]
-    budget = its.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
-    learners = {
-        name: learner.model_copy(update={"iterations": 4}) for name, learner in its.learners.items()
-    }
-    less = {"budget": budget, "rough": budget, "learners": learners, "tests": 3, "seeds": 2}
-    return its.model_copy(update=less | {"rungs": (4, 8, 16)})
-
-
-def test_a_universe_measures_what_the_claims_ask_for(small):
-    row = measure(small)
-    assert {across.column for claim in CLAIMS for across in claim.across.values()} <= {*row}
-    assert all(value > 0 for value in row.values())
-    assert row == measure(small), "its luck is its own"
-    other = measure(small.model_copy(update={"seed": small.seed + 1}))
-    assert all(other[key] != row[key] for key in ("left", "maps_improved", "theta_ritter"))
-
-
-@pytest.mark.parametrize(
-    ("reaches", "tried", "expected"),
-    [(None, [8, 16], np.inf), (4, [8, 4], 1.0), (8, [8, 4], 2**0.5), (16, [8, 16], 2**1.5)],
-)
-def test_the_horizon_is_sought_up_to_the_first_rung_that_reaches(
-    small, monkeypatch, reaches, tried, expected
-):
-    seen = []
-
-    def tuned(world, name, iterations):
-        if name == "improved":
-            return np.array([1.0, 1.0])
-        seen.append(iterations)
-        missed = reaches is None or iterations < reaches
-        return np.array([0.5, 2.0 if missed else 0.5])
-
-    monkeypatch.setattr(measuring, "_tuned", tuned)
-    assert measuring._factor(World(small)) == pytest.approx(expected)
-    assert seen == tried
 
 
 def test_every_universe_has_luck_of_its_own(design):

@@ -1,0 +1,277 @@
+"""What is measured in a replicate of a setup, and with which luck, in tiny setups."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.learners.radial import RadialLearner
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.experiments import search, trials
+from recalib.study.experiments.settings import rules_of
+from recalib.study.experiments.trials import Search, best_of
+from recalib.study.layout import DESIGN
+from recalib.study.multiverse import horizon, measuring, world
+from recalib.study.multiverse.design import read_design
+from recalib.study.multiverse.measuring import measured, width_order
+from recalib.study.multiverse.reference import reference_universe
+from recalib.study.multiverse.rules import rules_in
+from recalib.study.multiverse.universe import Universe, universe
+from recalib.study.multiverse.world import World
+from recalib.study.plants import resolve
+from tests.conftest import ROOT
+
+ITERATIONS = 4
+
+
+def made_small(its: Universe, **update) -> Universe:
+    """With searches of two trials and trainings of a few iterations."""
+    budget = its.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
+    learners = {
+        name: learner.model_copy(update={"iterations": ITERATIONS})
+        for name, learner in its.learners.items()
+    }
+    less = {"budget": budget, "learners": learners, "tests": 3, "seeds": 2, "rungs": (4, 8, 16)}
+    return its.model_copy(update=less | update)
+
+
+@pytest.fixture(scope="module")
+def design():
+    return read_design(ROOT / DESIGN)
+
+
+@pytest.fixture(scope="module")
+def each(study, design) -> Universe:
+    """A small one in which each map has the cells of the nets."""
+    first = next(its for its in design if its.levels["cells"] == "each")
+    return made_small(universe(study, first))
+
+
+@pytest.fixture
+def untrained(monkeypatch) -> list:
+    """What would be trained, in the order of asking; nothing is."""
+    asked = []
+
+    def train(robots, learner, desired, tests, grid, **how):
+        asked.append(SimpleNamespace(learner=learner, desired=desired, tests=tests, grid=grid))
+        errors = np.ones((len(desired), len(grid), 2))
+        return SimpleNamespace(position=errors, orientation=errors)
+
+    for module in (world, trials):
+        monkeypatch.setattr(module, "train", train)
+    return asked
+
+
+@pytest.fixture(scope="module")
+def replicate(each):
+    """A replicate measured once, with all searches that it made: its row, and they."""
+    searches, ask = [], World.search
+
+    def noted(self, learner, *arguments, **how):
+        searches.append((learner, ask(self, learner, *arguments, **how)))
+        return searches[-1][1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(World, "search", noted)
+        patch.setattr(measuring, "LATE", 2 * ITERATIONS)
+        return measured(World(each, 0)), searches
+
+
+def test_a_replicate_measures_what_the_claims_ask_for(replicate):
+    row, _ = replicate
+    columns = {its.column for claim in CLAIMS for its in claim.across.values()}
+    assert columns - {"factor"} <= {*row}
+    assert all(np.isfinite(value) for value in row.values())
+    assert all(value > 0 for name, value in row.items() if not name.startswith("order"))
+    assert row["intact"] < 1e-6
+
+
+def test_every_search_of_a_replicate_has_the_effort_of_its_setup_and_luck_of_its_own(
+    replicate, each
+):
+    _, searches = replicate
+    assert all(its.budget == each.budget for _, its in searches)
+    names = [name for name, _ in searches]
+    assert {*each.learners} <= {*names}
+    # one map and two, three times; Ritter's once more; the improved system with a wide g_k
+    assert len(searches) - len({its.scope for _, its in searches}) == 3 + 1 + 1
+
+
+def test_radial_units_are_sought_for_increments_and_for_values(replicate, each):
+    _, searches = replicate
+    radial = [(name, its) for name, its in searches if its.learner is RadialLearner]
+    assert [name for name, _ in radial] == ["improved", "improved_theta_values"]
+    assert len({its.scope for _, its in radial}) == 2
+    ours, theirs = (its.rules for _, its in radial)
+    assert ours.theta_increments and not theirs.theta_increments
+
+
+def trial(rules, number=1) -> pd.DataFrame:
+    ranges = {"initial_width": [1, 2], "final_width": [0.5, 1]}
+    ranges |= {"initial_rate": [0.5, 1], "final_rate": [0.1, 0.5]}
+    drawn = search.draw(rules, ranges, number, np.random.default_rng(0))
+    return drawn.assign(score=np.arange(number))
+
+
+def test_replicates_share_neither_poses_nor_trials_and_what_is_compared_shares_poses(
+    each, untrained
+):
+    found = []
+    for number in range(2):
+        its = World(each, number)
+        drawn = its.search("improved", ITERATIONS).all_rounds()
+        for name in ("improved", "ritter"):
+            its.train(name, ITERATIONS, trial(rules_in(each, name)))
+        searching, ours, theirs = untrained[-3:]
+        for poses in ("desired", "tests"):
+            assert np.array_equal(getattr(ours, poses), getattr(theirs, poses))
+            seen = getattr(searching, poses), getattr(ours, poses)
+            found += [np.unique(each.reshape(-1, each.shape[-1]), axis=0) for each in seen]
+        found.append(drawn[["initial_width"]].to_numpy())
+    first, second = found[:5], found[5:]
+    for one, other in zip(first, second, strict=True):
+        assert not {*map(tuple, one)} & {*map(tuple, other)}
+    for poses in (first, second):  # nor does a search know what its winner is trained on
+        assert not {*map(tuple, poses[0])} & {*map(tuple, poses[1])}
+
+
+def test_the_search_for_two_maps_has_the_poses_and_the_trials_of_that_for_one(each, untrained):
+    its, winner = World(each, 0), {}
+    alone, both = its.search("ritter", 4), its.search("ritter_separate_maps", 4, like="ritter")
+    for one in (alone, both):
+        winner |= trial(one.rules).iloc[0].to_dict()
+    tried = [one.further(winner) for one in (alone, both)]
+    ours, theirs = untrained
+    assert np.array_equal(ours.desired, theirs.desired) and len(tried[0]) == len(tried[1])
+
+
+def test_two_maps_of_equal_widths_are_one_map_bit_for_bit(each):
+    """Before any further trial: so the larger search has no disadvantage, and no advantage."""
+    its, seen = World(each, 0), []
+
+    def further(self, start):
+        seen.append((self, pd.DataFrame([dict(start)])))
+        return seen[-1][1]
+
+    for pair in (("ritter", "ritter_separate_maps"), ("improved_single_map", "improved")):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Search, "further", further)
+            one, two = measuring.one_and_two_maps(its, *pair, ITERATIONS)
+        assert np.array_equal(one, two) and one.shape == (each.seeds, 2)
+        (alone, _), (both, start) = seen[-2:]
+        assert alone.scope == both.scope
+        for kind in ("position", "orientation"):
+            for net in search.NETS:
+                assert (start[f"{kind}/{net}"] == start[f"pose/{net}"]).all()
+
+
+def test_g_k_and_g_kl_correlate_with_errors_as_the_paper_has_it():
+    """Position wants a narrow g_k and a wide g_kl, orientation the reverse."""
+    ratios = np.linspace(0.2, 5, 9)
+    table = pd.DataFrame({"round": 1, "position_error_cm": ratios, "position/g_k": ratios})
+    table = table.assign(**{"orientation_error_deg": ratios, "orientation/g_kl": ratios})
+    table = table.assign(**{"position/g_kl": 1.0, "orientation/g_k": 1.0})
+    assert width_order(table) == pytest.approx({"order_position": 1, "order_orientation": 1})
+    swapped = {"position/g_k": "position/g_kl", "position/g_kl": "position/g_k"}
+    swapped |= {
+        f"orientation/{a}": f"orientation/{b}" for a, b in (("g_k", "g_kl"), ("g_kl", "g_k"))
+    }
+    found = width_order(table.rename(columns=swapped))
+    assert found == pytest.approx({"order_position": -1, "order_orientation": -1})
+    later = table.rename(columns=swapped).assign(round=2)
+    both = pd.concat([table, later])
+    assert width_order(both) == width_order(table), "later rounds surround what was good before"
+
+
+REACHED = [
+    (None, [8, 16], 4.0, 1),  # nowhere: at least the longest rung
+    (1, [8, 4], 1.0, -1),  # in the shortest: at most that
+    (4, [8, 4], 1.0, -1),
+    (8, [8, 4], 2**0.5, 0),
+    (16, [8, 16], 2**1.5, 0),
+]
+
+
+@pytest.mark.parametrize(("reaches", "tried", "factor", "bound"), REACHED)
+def test_the_horizon_is_sought_up_to_the_first_rung_that_reaches(
+    each, monkeypatch, reaches, tried, factor, bound
+):
+    seen = []
+
+    def tuned(_, name, iterations):
+        if name == "improved":
+            return np.array([1.0, 1.0])
+        seen.append(iterations)
+        missed = reaches is None or iterations < reaches
+        return np.array([0.5, 2.0 if missed else 0.5])
+
+    monkeypatch.setattr(horizon, "_tuned", tuned)
+    found = horizon._factor(World(each, 0))
+    assert found == {"factor": pytest.approx(factor), "bound": bound}
+    assert seen == tried
+
+
+def test_the_horizon_seeks_both_systems_with_the_effort_of_the_setup(
+    study, design, monkeypatch, untrained
+):
+    spent = []
+
+    def all_rounds(self):
+        spent.append((self.rules, self.budget))
+        return trial(self.rules)
+
+    monkeypatch.setattr(Search, "all_rounds", all_rounds)
+    for effort, many in (("full", 192), ("rough", 16)):
+        its = universe(study, next(its for its in design if its.levels["effort"] == effort))
+        its = its.model_copy(update={"rungs": (4, 8, 16), "seeds": 1, "replicates": 1})
+        spent.clear()
+        horizon.horizon(its)
+        assert all(budget == its.budget for _, budget in spent)
+        assert its.budget.rounds * its.budget.trials == many
+        systems = [rules for rules, _ in spent]
+        assert systems[0] == rules_in(its, "improved")
+        assert {*map(repr, systems[1:])} == {repr(rules_in(its, "ritter"))}
+
+
+def test_the_direction_in_which_the_robot_is_moved_reaches_no_number_of_the_factor(study, design):
+    """The negative control: byte by byte, in a tiny setup."""
+    first = next(its for its in design if its.levels["displacement"] == "configured")
+    other = next(its for its in design if its.levels["displacement"] == "random")
+    levels = first.levels | {"displacement": "random"}
+    moved = first.model_copy(update={"moved": other.moved, "levels": levels})
+    assert first.moved != moved.moved
+    less = {"replicates": 1, "rungs": (4, 8)}
+    ours, theirs = (
+        horizon.horizon(made_small(universe(study, it), **less)) for it in (first, moved)
+    )
+    assert repr(ours) == repr(theirs)
+    assert universe(study, first).scenarios != universe(study, moved).scenarios
+
+
+def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(study, plan, robot):
+    resolved = resolve(plan.scenario("links"), [])
+    its = reference_universe(study, resolved)
+    assert its.seed == its.budget.seed == study.seed and its.number == -1
+    assert its.scenarios[its.own] == tuple(resolved.damages)
+    own = plan.nominal(study.robot).robot
+    assert its.nominal.robot.model_copy(update={"home": own.home}) == own
+    assert [*its.nominal.robot.home.values()] == pytest.approx([*own.home.values()])
+    for name in ("improved", "ritter"):
+        rules = rules_of(study.learners[name])
+        found = rules_in(its, name)
+        assert found.rate == rules.law_of_rate
+        for part in ("centres", "spread", "dimensions", "theta_increments", "initial"):
+            assert getattr(found, part) == getattr(rules, part)
+    budget = plan.budget().model_copy(update={"seed": study.seed})
+    assert its.budget == budget
+
+
+def test_further_trials_begin_with_the_one_given_and_are_as_many_as_a_round(each, untrained):
+    its = World(each, 0).search("improved", ITERATIONS)
+    start = best_of(trial(its.rules, 4))
+    found = its.further(start)
+    assert len(found) == its.budget.trials
+    columns = search.columns(its.rules)
+    assert found[columns].iloc[0].to_dict() == start[columns].to_dict()
+    assert (found[columns].iloc[1:] != start[columns]).any(axis=None)
