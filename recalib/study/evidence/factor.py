@@ -9,8 +9,8 @@ from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.verdicts import Verdict, of_published
+from recalib.study.lengths import LONG
 from recalib.study.measured import ERRORS
-from recalib.study.multiverse.lengths import LONG
 from recalib.study.statistics import Draws, Estimate
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO, Verdict
 from recalib.study.hierarchy import student
+from recalib.study.lengths import MAPS
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.multiverse.lengths import MAPS
 from recalib.study.statistics import Estimate, combined
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from recalib.study import jobs
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
-from recalib.study.multiverse.lengths import LONG
+from recalib.study.lengths import LONG
 from recalib.study.plants import Resolved
 from recalib.training import train
 
