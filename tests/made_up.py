@@ -28,10 +28,10 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
 from recalib.study.experiments.samples import write_sample
 from recalib.study.layout import EFFORTS, PIECES, REFERENCE, SECOND, Layout, pieces
+from recalib.study.lengths import LONG
 from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.measured import ERRORS
 from recalib.study.multiverse import lengths
-from recalib.study.multiverse.efforts import LONG
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, training
 

@@ -25,11 +25,10 @@ HEAVY = {
 }
 ARMS = {"numba", "pinocchio", "scipy.spatial"}
 STARTS = {
-    "claims concat gather outcome page report_pages": set(),
+    "claims concat gather outcome page power report_pages": set(),
     "benchmark_table check expect piece real_table search_sample study_visits summarise": {
         "pandas"
     },
-    "power": {"scipy.stats"},
     "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
     "study_mapping study_replay train universe efforts": ARMS,
     "horizon reference": ARMS,
