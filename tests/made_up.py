@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study import jobs, statistics
+from recalib.study import jobs, lengths, statistics
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence import effects
@@ -28,10 +28,8 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
 from recalib.study.experiments.samples import write_sample
 from recalib.study.layout import EFFORTS, PIECES, REFERENCE, SECOND, Layout, pieces
-from recalib.study.lengths import LONG
 from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.measured import ERRORS
-from recalib.study.multiverse import lengths
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, training
 
@@ -210,7 +208,7 @@ class MadeUp:
         tables = []
         for (name, iterations), (effort, worse) in product(cases, (("full", 1.0), ("rough", 1.5))):
             searches, seeds = (4 if effort == "full" else 8), self.study.training.seeds
-            whens = np.linspace(0.1, 1, 10) if iterations >= LONG else np.ones(1)
+            whens = np.linspace(0.1, 1, 10) if iterations >= lengths.LONG else np.ones(1)
             keys = product(range(searches), range(seeds), np.rint(whens * iterations).astype(int))
             table = pd.DataFrame(keys, columns=["search", "seed", "iteration"])
             rng = generator(0, "made up", "efforts", name, iterations, effort)

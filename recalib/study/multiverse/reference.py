@@ -7,10 +7,10 @@ from itertools import product
 
 import numpy as np
 
+from recalib.study import lengths
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.measured import ERRORS
-from recalib.study.multiverse import lengths
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.measuring import measured, one_and_two_maps, ratio
 from recalib.study.multiverse.universe import Universe, universe
