@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from recalib.study.evidence import choices, guidance
-from recalib.study.evidence.all_results import _on_its_way, _tuned_anew
+from recalib.study.evidence.all_results import _on_its_way
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS
 
@@ -15,7 +15,7 @@ def test_choices_say_how_much_was_searched(made_up):
     """A hundred trials of each search were made up, and 41 assignments."""
     said = choices.context(Evidence(made_up.needs(choices.needs)))
     assert said == {
-        "universes": 0,
+        "setups": 64,
         "damages": "forearm_link 4 cm",
         "assignments": 41,
         "translation": "5 cm, -5 cm, 4.3 cm",
@@ -44,11 +44,6 @@ def test_ritters_is_said_to_have_both_errors_of_the_improved_one_on_its_way(last
     histories = {"improved": ours, "ritter_own": ritters}
     roles = {"improved": "improved", "ritter": "ritter_own"}
     assert _on_its_way(SimpleNamespace(history=histories.get, fact=roles.get)) == text
-
-
-def test_tuned_anew_it_needs_as_many_times_the_iterations_as_the_claim_says():
-    assert _tuned_anew(70.0, 200) == "after 14,000 iterations"
-    assert _tuned_anew(None, 200) == "in none of those that were tried"
 
 
 def test_guidance_says_of_what_it_is_and_where_the_hybrid_is_not_the_best(made_up, few):

@@ -11,9 +11,17 @@ import pytest
 
 from recalib.study.evidence import deviations
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.deviations import REMOVED, Deviations, context, digests, needs
+from recalib.study.evidence.deviations import (
+    REGISTERED,
+    REMOVED,
+    Deviations,
+    context,
+    digests,
+    needs,
+)
 from recalib.study.evidence.pages import render
 from recalib.study.evidence.results import Evidence
+from recalib.study.layout import DESIGN, DEVIATIONS
 from tests.conftest import ROOT
 
 FILE = ROOT / "workflow" / "deviations.yaml"
@@ -42,31 +50,32 @@ def test_each_criterion_choice_and_design_is_the_one_named_last(told):
     )
 
 
-def test_digests_are_of_criteria_of_the_rule_of_choices_and_of_designs(tmp_path, monkeypatch):
-    (tmp_path / "workflow" / "universes" / "second").mkdir(parents=True)
+def test_digests_are_of_criteria_of_choices_and_of_what_is_registered(tmp_path):
     shipped = {"search": "a" * 16, "benchmark": "b" * 16}
+    (tmp_path / "workflow").mkdir()
     (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped))
-    for name in ("design.csv", "outcomes.csv", "second/power.yaml", "second/outcomes_1.csv"):
-        (tmp_path / "workflow" / "universes" / name).write_text(name)
+    for name in REGISTERED:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(name)
     before = digests(tmp_path)
-    designs = {f"workflow/universes/{name}" for name in ("design.csv", "second/power.yaml")}
-    names = {claim.id for claim in CLAIMS} | {"rule of verdicts", "config.yaml: search"} | designs
+    names = {claim.id for claim in CLAIMS} | {"config.yaml: search", *REGISTERED}
     assert set(before) == names and len(set(before.values())) == len(names)
 
-    monkeypatch.setattr(deviations, "RULE", "As one likes.")
-    (tmp_path / "workflow" / "universes" / "design.csv").write_text("drawn anew")
+    (tmp_path / DESIGN).write_text("drawn anew")
     (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped | {"search": "c"}))
-    changed = {"rule of verdicts", "config.yaml: search", "workflow/universes/design.csv"}
     now = digests(tmp_path)
-    assert {name for name in now if now[name] != before[name]} == changed
+    changed = {name for name in now if now[name] != before[name]}
+    assert changed == {"config.yaml: search", DESIGN}
 
 
 @pytest.mark.parametrize("part", ["statement", "criterion", "limits"])
 def test_a_claim_has_another_digest_if_any_part_of_its_criterion_changes(part, monkeypatch):
     first, *others = CLAIMS
+    before = digests(ROOT)
     other = {"limits": {name: 2 * its for name, its in first.limits.items()}}.get(part, "other")
     monkeypatch.setattr(deviations, "CLAIMS", (replace(first, **{part: other}), *others))
-    assert [*Deviations.read(FILE).unnamed(digests(ROOT))] == [first.id]
+    now = digests(ROOT)
+    assert [name for name in now if now[name] != before[name]] == [first.id]
 
 
 def test_what_an_entry_names_replaces_what_was_registered(told):
@@ -78,9 +87,11 @@ def test_what_an_entry_names_replaces_what_was_registered(told):
 
 
 def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
-    (tmp_path / "workflow" / "universes").mkdir(parents=True)
-    for name in ("shipped.json", "deviations.yaml"):
-        (tmp_path / "workflow" / name).write_bytes((ROOT / "workflow" / name).read_bytes())
+    for name in (*REGISTERED, "workflow/shipped.json"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    told = "registered: {gone: it}\ndeviations: []\nreread: []\n"
+    (tmp_path / DEVIATIONS).write_text(told)
     ran = subprocess.run(
         [sys.executable, "-m", "recalib.study.evidence.deviations"],
         cwd=tmp_path,
@@ -89,7 +100,8 @@ def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
         capture_output=True,
         check=True,
     )
-    assert '"workflow/universes/design.csv": "removed"\n' in ran.stdout
+    expected = digests(ROOT) | {"gone": REMOVED}
+    assert ran.stdout.splitlines() == [f'"{name}": "{its}"' for name, its in expected.items()]
 
 
 def test_entries_are_in_the_order_of_time_and_only_the_last_is_without_a_commit(told):

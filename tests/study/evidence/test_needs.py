@@ -43,6 +43,11 @@ def test_facts_of_the_shipped_study_are_those_of_its_file(study):
             ]
             for name, rungs in ladder.items()
         },
+        "setups": {
+            "outcomes": its["universes"]["count"],
+            "horizon": its["universes"]["horizons"],
+        },
+        "rough_trials": its["universes"]["rough_trials"],
         "coupling_poses": its["mapping"]["poses"],
         **{name: its["mapping"][name] for name in ("balls", "points", "radius")},
         "assignment_poses": its["paper_damage"]["poses"],

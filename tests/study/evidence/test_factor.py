@@ -1,0 +1,143 @@
+"""The factor of 70, asked in twelve ways, where what each would find is known."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.study.evidence.factor import (
+    ANEW,
+    CELLS,
+    EFFORTS,
+    errors_of,
+    factor_table,
+    in_words,
+    on_the_way,
+    watched,
+)
+from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.verdicts import Verdict
+from recalib.study.measured import ERRORS
+from recalib.study.multiverse.efforts import rough
+from recalib.study.statistics import Estimate
+from tests.made_up import MadeUp
+
+
+def needs(ask):
+    for learner in ("improved", *CELLS):
+        ask.ladder(learner)
+    ask.efforts()
+    for fact in ("iterations", "seed"):
+        ask.fact(fact)
+
+
+@pytest.fixture(scope="module")
+def table(few, tmp_path_factory):
+    made_up = MadeUp(tmp_path_factory.mktemp("factor"), few)
+    rows = factor_table(Evidence(made_up.needs(needs)))
+    return {(row["cells"], row["effort"], row["definition"]): row for row in rows}
+
+
+def test_there_are_twelve_and_the_papers_own_reading_leads(table):
+    full, _, papers = EFFORTS
+    assert len(table) == 12 and next(iter(table)) == ("both maps together", full, ANEW)
+    assert EFFORTS[papers] == ("rough", "full")
+
+
+def test_each_is_what_was_made_up(table):
+    """Errors fall by the iterations, and a rough search leaves half as much again."""
+    for (_, effort, definition), row in table.items():
+        fast, slow = EFFORTS[effort]
+        expected = 70 / (1.5 if fast == "rough" else 1) * (1.5 if slow == "rough" else 1)
+        # on the way there are ten measurements, and the next one counts
+        off = 0.05 if definition == ANEW else 0.16
+        assert row["factor"].mean == pytest.approx(expected, rel=off), (effort, definition)
+        assert row["factor"].low <= row["factor"].mean <= row["factor"].high
+        assert row["longest"] == 100
+        assert row["verdict"] == in_words(row["factor"])
+
+
+def test_a_contradiction_says_on_which_side_the_factor_is():
+    assert in_words(Estimate(40, 30, 50)) == f"{Verdict.CONTRADICTED}: the factor is smaller"
+    assert in_words(Estimate(90, 80, np.inf)) == f"{Verdict.CONTRADICTED}: the factor is larger"
+    assert in_words(Estimate(70, 60, 80)) == Verdict.SUPPORTED
+
+
+def rising(iterations, ends):
+    """Errors (4 searches, 3 seeds, measurement, 2) that fall to an end, and when."""
+    grid = np.linspace(0.1, 1, 10) * iterations
+    errors = ends * iterations / grid[None, None, :, None] * np.ones((4, 3, 1, 2))
+    return errors, grid
+
+
+@pytest.mark.parametrize(
+    ("ends", "longest", "factor"),
+    [
+        ({10_000: 0.5, 20_000: 0.1}, 10_000, 25.0),  # the shortest that gets there
+        ({10_000: 2.0, 20_000: 0.5}, 20_000, 50.0),
+        ({5_000: 0.1, 10_000: 2.0, 20_000: 1.0}, 20_000, 100.0),  # no short training counts
+        ({10_000: 3.0, 20_000: 2.0}, 20_000, np.inf),  # nobody gets there
+    ],
+)
+def test_on_the_way_the_shortest_long_training_that_gets_there_counts(ends, longest, factor):
+    slow, grids = {}, {}
+    for iterations, end in ends.items():
+        slow[iterations], grids[iterations] = rising(iterations, end)
+    found = on_the_way(slow, grids, np.ones((4, 3, 2)), 200, np.random.default_rng(0))
+    assert found[0] == longest
+    assert found[1] == pytest.approx((factor,) * 3)
+
+
+def test_both_errors_have_to_be_reached():
+    errors, grid = rising(10_000, 0.5)
+    errors[..., 1] *= 1.5
+    rng, goal = np.random.default_rng(0), np.ones((4, 3, 2))
+    _, found = on_the_way({10_000: errors}, {10_000: grid}, goal, 200, rng)
+    assert found.mean == 40
+
+
+def of_efforts() -> pd.DataFrame:
+    """Two full searches with two rough ones each, two seeds and two measurements."""
+    rows = [
+        {"training": f"{learner}_{n}", "effort": effort, "iterations": n}
+        | {"search": search, "seed": seed, "iteration": n // part}
+        | dict.fromkeys(ERRORS, 1000 * (effort == "rough") + 100 * search + 10 * seed + 1 / part)
+        for learner, n in (("ritter", 20), ("ritter", 10), ("ritter_double", 10))
+        for effort, searches in (("full", 2), ("rough", 4))
+        for search in range(searches)
+        for seed in range(2)
+        for part in (2, 1)
+    ]
+    return pd.DataFrame(rows).sample(frac=1, random_state=0)
+
+
+def test_rough_searches_count_as_seeds_of_the_full_one_that_holds_them():
+    full, its = (errors_of(of_efforts(), "ritter", each)[20] for each in ("full", "rough"))
+    assert full.shape == (2, 2, 2, 2) and its.shape == (2, 4, 2, 2)
+    assert full[1, 1, :, 0].tolist() == [110.5, 111]
+    assert its[0, :, -1, 0].tolist() == [1001, 1011, 1101, 1111]
+    assert its[1, :, -1, 0].tolist() == [1201, 1211, 1301, 1311]
+
+
+def test_trainings_of_one_learner_are_no_trainings_of_another():
+    assert [*errors_of(of_efforts(), "ritter", "full")] == [10, 20]
+    assert [*errors_of(of_efforts(), "ritter_double", "full")] == [10]
+    assert {n: its.tolist() for n, its in watched(of_efforts(), "ritter").items()} == {
+        10: [5, 10],
+        20: [10, 20],
+    }
+
+
+def test_the_first_round_of_a_full_search_holds_rough_ones_that_share_no_trial():
+    random = np.random.default_rng(0)
+    trials = pd.DataFrame(
+        [(search, round_) for search in (1, 2) for round_ in (1, 2) for _ in range(64)],
+        columns=["search", "round"],
+    ).assign(score=random.permutation(256))
+    trials.loc[trials["round"] == 2, "score"] -= 1000
+    winners = rough(trials, 16)
+    assert len(winners) == 2 * 4 and winners.index.is_unique
+    assert (winners["round"] == 1).all() and winners["search"].tolist() == [1] * 4 + [2] * 4
+    for search in (1, 2):
+        first = trials[(trials["search"] == search) & (trials["round"] == 1)]
+        best = [first["score"].iloc[k : k + 16].idxmin() for k in range(0, 64, 16)]
+        assert winners[winners["search"] == search].index.tolist() == best
