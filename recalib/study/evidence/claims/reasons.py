@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
@@ -40,16 +38,15 @@ def found(evidence: Evidence, limits: Mapping[str, Limit], kind: str) -> Finding
     table = evidence.mapping("propagation").dropna().query("kind == @kind")
     meets = table["to_original"] < EQUAL * table["to_constant"]
     better = table["updated"] < EQUAL * table["classic"]
-    share = float(better[meets].mean()) if meets.any() else np.nan
-    numbers = {
-        "share of balls in which the new update is better, where the condition holds": share,
-        "share of balls in which the condition holds": float(meets.mean()),
-    }
+    numbers, verdict = {}, Verdict.UNDECIDED
+    if meets.any():
+        share = float(better[meets].mean())
+        verdict = Verdict.SUPPORTED if share >= limits["share"] else Verdict.CONTRADICTED
+        about = "share of balls in which the new update is better, where the condition holds"
+        numbers[about] = share
+    numbers["share of balls in which the condition holds"] = float(meets.mean())
     if (~meets).any():
         numbers["share in which it is better where it does not"] = float(better[~meets].mean())
-    verdict = Verdict.UNDECIDED
-    if meets.any():
-        verdict = Verdict.SUPPORTED if share >= limits["share"] else Verdict.CONTRADICTED
     neutral = table.query("start == 'intact'")
     equal = (neutral["to_original"] >= EQUAL * neutral["to_constant"]).all()
     note = (
