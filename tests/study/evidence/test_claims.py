@@ -322,42 +322,29 @@ def test_unusual_initial_errors_change_the_verdict(few, tmp_path):
     assert judged["statement"] == "This damage gives initial errors of 30.0 cm and 4.7 degrees."
 
 
+SLOW = {"ritter_double_5000": 0.103, "ritter_double": 0.102, "ritter_double_20000": 0.101}
+
+
 @pytest.mark.parametrize(
     ("final", "verdict", "number", "bounds", "said"),
     [
         # it never gets there: the factor is above 100
-        (
-            {"ritter_double": 5.0},
-            "contradicted",
-            100,
-            ["mean", "low", "high"],
-            "does not get there",
-        ),
+        ({}, "contradicted", 100, {"mean", "low", "high"}, "does not get there in 20,000"),
         # in many repetitions of the study it would
-        ({"ritter_double": 0.101}, "undecided", 100, ["mean", "high"], "does not get there"),
+        (SLOW, "undecided", 100, {"high"}, "iterations"),
         # nothing less was tried than what gets there: nobody knows
-        (
-            {"ritter_double_200": 0.05},
-            "undecided",
-            1,
-            [],
-            "needs at most 200 iterations, the first",
-        ),
+        ({"ritter_double_200": 0.02}, "undecided", 1, {"mean"}, "needs at most 200 iterations"),
     ],
 )
 def test_the_end_of_a_ladder_is_a_bound_and_is_called_so(
     few, tmp_path, final, verdict, number, bounds, said
 ):
-    if "ritter_double" in final:
-        rungs = few.experiments.ladder["ritter_double"]
-        names = [f"ritter_double_{rung}" for rung in rungs]
-        names[rungs.index(few.learners["ritter_double"].iterations)] = "ritter_double"
-        worst = dict.fromkeys(names, 5.0)
-        final = worst | {"ritter_double_20000": final["ritter_double"]}
-    judged = MadeUp(tmp_path, few, final).judged("speed-up")
+    rungs = few.experiments.ladder["ritter_double"]
+    never = dict.fromkeys(["ritter_double", *(f"ritter_double_{rung}" for rung in rungs)], 5.0)
+    judged = MadeUp(tmp_path, few, never | final).judged("speed-up")
     assert judged["verdict"] == verdict
-    assert judged["measured"][FACTORS[0]] == number
-    assert [each for each in judged["bounds"].get(FACTORS[0], []) if each in bounds] == bounds
+    assert judged["measured"][FACTORS[0]] == pytest.approx(number, rel=0.1)
+    assert bounds <= {*judged["bounds"][FACTORS[0]]}
     assert FACTORS[1] not in judged["bounds"]
     assert said in judged["note"].split(" and, ")[0]
     assert "null" not in json.dumps(judged, allow_nan=False)
