@@ -100,7 +100,7 @@ REFUSED = {
     ),
     "a joint is unknown": (
         lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
-        "nobody knows column 'elbow'; valid: rail, wrist, x, y, z",
+        "unknown column 'elbow'; valid: one of 20, such as rail, wrist and x",
     ),
     "no unit": (
         lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},

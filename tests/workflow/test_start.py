@@ -30,7 +30,7 @@ STARTS = {
         "pandas"
     },
     "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
-    "study_mapping study_replay train universe": ARMS,
+    "study_mapping study_replay train universe": ARMS - {"scipy.spatial"},
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
     "film pictures": {"rerun"},

@@ -22,7 +22,7 @@ rule design:
     output:
         LAYOUT.design,
     params:
-        code=code("design.py"),
+        code=made_from("design.py"),
         job=lambda w: as_text(plan(w).design()),
     threads: 1
     resources:
@@ -37,7 +37,7 @@ rule universe:
     output:
         LAYOUT.universe("{number}"),
     params:
-        code=code("universe.py"),
+        code=made_from("universe.py"),
         job=lambda w: as_text(universe_of(w)),
     wildcard_constraints:
         number=r"\d+",
@@ -56,7 +56,7 @@ rule outcomes:
     output:
         LAYOUT.outcomes,
     params:
-        code=code("outcomes.py"),
+        code=made_from("outcomes.py"),
     localrule: True
     message:
         "Put the outcomes of all universes together"
