@@ -15,6 +15,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.quantities import Quantity
+from recalib.spelling import instead
 from recalib.storage import read_file
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
@@ -74,9 +75,7 @@ class Table:
         """Raise InvalidFile where a column is not among the valid ones."""
         for column in self.cells:
             if column not in valid:
-                raise InvalidFile(
-                    self.path, f"nobody knows column {column!r}; valid: {', '.join(valid)}"
-                )
+                raise InvalidFile(self.path, f"unknown column {column!r}; {instead(column, valid)}")
 
 
 def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -> Table:

@@ -13,6 +13,7 @@ from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.description import FARTHEST, Description
 from recalib.nominal.kinematics import Arm
 from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.spelling import listed
 
 POSITION = "x", "y", "z"
 NOMINAL = "x_nominal", "y_nominal", "z_nominal"
@@ -145,13 +146,13 @@ def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
 
 
 def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray | None:
-    there = [name for name in group if name in table]
-    if not there:
+    missing = [name for name in group if name not in table]
+    if len(missing) == len(group):
         return None
-    if missing := [name for name in group if name not in table]:
-        raise InvalidFile(
-            table.path, f"it has {', '.join(there)} and lacks {', '.join(missing)} beside it"
-        )
+    if missing:
+        absent, whole = listed(missing, "and"), listed(group, "and")
+        are = "is" if len(missing) == 1 else "are"
+        raise InvalidFile(table.path, f"{absent} {are} missing: {whole} are needed together")
     return np.stack([_within(table, name, kind) for name in group], axis=1)
 
 
@@ -166,8 +167,7 @@ def _within(table: Table, column: str, kind: Quantity) -> np.ndarray:
             raise InvalidFile(
                 table.path,
                 f"row {beyond.argmax() + 1} of column {table.shown(column)!r} is {cell}"
-                f" {table.units[column]};"
-                f" valid: up to {text}, so that the unit may be another one",
+                f" {table.units[column]}; valid: up to {text}. Is its unit right?",
             )
     return numbers
 

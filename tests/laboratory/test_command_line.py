@@ -175,7 +175,7 @@ def test_candidates_none_of_which_is_of_use_are_refused(calibrated, folder, caps
     write(folder / "away.csv", {"x [m]": [9, 8], "y [m]": [0, 0], "z [m]": [0, 0]})
     assert main(["next", str(calibrated), str(folder / "away.csv")]) == REFUSED
     told = capsys.readouterr().err
-    assert told.startswith("recalib: candidates is '2, none of use'; valid: some within reach")
+    assert told.startswith("recalib: candidates is '2 postures of no use'; valid: within reach")
 
 
 def test_an_arm_without_errors_is_left_alone(arm, seen, folder, capsys):
