@@ -80,8 +80,9 @@ def test_a_drift_is_named(arm):
     assert fault.kind == DRIFT and fault.size == pytest.approx(1e-3, rel=0.2)
 
 
-def test_so_few_rows_that_nothing_can_be_told_are_left_alone(arm):
-    assert found(arm, 4, on_a_path=False, rows=10, lag=0.05) == []
+def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(arm):
+    assert [fault.kind for fault in found(arm, 4, False, rows=10, lag=0.05)] == [LAG]
+    assert found(arm, 4, on_a_path=False, rows=10) == []
 
 
 @pytest.mark.slow
