@@ -14,6 +14,7 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.openness import Open, open_parameters
+from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import GEOMETRIC, NOTHING, RANDOM, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
@@ -72,6 +73,11 @@ class Calibrated:
     def left_open(self) -> list[Open]:
         """The parameters of geometry that were not told apart."""
         return open_parameters(self.geometry, self.seen)
+
+    @cached_property
+    def faults(self) -> list[Fault]:
+        """What the order of the rows shows: a lag, a drift, a jump."""
+        return faults(self.geometry, self.seen, self.validation.counted)
 
     @property
     def calibration(self) -> Calibration:

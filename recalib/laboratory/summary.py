@@ -6,6 +6,7 @@ import numpy as np
 
 from recalib.identification.validation import GEOMETRIC, HYBRID, KINDS, NOTHING, RANDOM, WAYS
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.doubts import doubts
 from recalib.laboratory.parameters import open_directions
 from recalib.meshes import with_own_meshes
 
@@ -44,7 +45,11 @@ def summary(result: Calibrated) -> str:
 
 
 def verdict(result: Calibrated) -> str:
-    """In one sentence, what it is worth."""
+    """In one sentence what it is worth, then what makes that doubtful."""
+    return " ".join([_worth(result), *doubts(result)])
+
+
+def _worth(result: Calibrated) -> str:
     before, after = (
         1e3 * result.validation.errors(RANDOM, kind)[result.validation.counted, 0].mean()
         for kind in (NOTHING, result.validation.chosen)
