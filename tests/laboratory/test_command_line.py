@@ -1,6 +1,7 @@
 """The commands from a table to the commands of a controller, on an arm that the tests bend."""
 
 import csv
+import hashlib
 import json
 import os
 
@@ -89,7 +90,9 @@ def test_a_calibration_is_a_folder_of_files(calibrated):
     told = json.loads((calibrated / "parameters.json").read_text())
     best = [row for row in told["errors"] if row["chosen"] and row["folds"] == "at random"]
     assert best[0]["mean"] < 4e3 * NOISE
-    _, verdict, *_ = (calibrated / "summary.txt").read_text().splitlines()
+    first, verdict, *_ = (calibrated / "summary.txt").read_text().splitlines()
+    digest = hashlib.sha256(ARM.encode()).hexdigest()[:12]
+    assert first == f"{calibrated.parent / 'arm.urdf'} (sha256 {digest}), link_4 in base"
     assert verdict.startswith("On rows that were not learned from")
 
 
