@@ -187,7 +187,8 @@ class MadeUp:
     def horizon(self, factor: float = 100.0) -> pd.DataFrame:
         """How long Ritter's takes in the setups."""
         plan, rng = self.study.universes, generator(0, "made up", "horizon")
-        table = _numbered(plan.horizons, plan.replicates)
+        table = _numbered(len(plan.horizons), plan.replicates)
+        table["universe"] = np.repeat(plan.horizons, plan.replicates)
         return table.assign(factor=factor * _spread(rng, len(table)), bound=0)
 
     def campaign(self, **tables: pd.DataFrame) -> Self:
@@ -195,8 +196,9 @@ class MadeUp:
         for name in PIECES:
             table = tables[name] if name in tables else getattr(self, name)()
             paths = pieces(name, table["universe"].nunique(), self.layout.shipped(SECOND))
+            piece = pd.factorize(table["universe"])[0] // PIECES[name]
             for number, path in enumerate(paths):
-                self.write(path, table[table["universe"] // PIECES[name] == number])
+                self.write(path, table[piece == number])
         return self
 
     def efforts(self) -> pd.DataFrame:

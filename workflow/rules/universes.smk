@@ -21,20 +21,21 @@ def universe_of(wildcards):
 
 
 def setups(table):
-    """In how many universes a table is measured."""
-    horizons = min(STUDIES[MAIN].universes.horizons, len(designed()))
-    return {"outcomes": len(designed()), "horizon": horizons}[table]
+    """The universes in which a table is measured."""
+    every = range(len(designed()))
+    sought = set(STUDIES[MAIN].universes.horizons)
+    return [n for n in every if n in sought] if table == "horizon" else [*every]
 
 
 def pieces(table):
     """All pieces of a table."""
-    return Layout(MAIN).campaign_pieces(table, setups(table))
+    return Layout(MAIN).campaign_pieces(table, len(setups(table)))
 
 
 def piece_of(wildcards):
     """The chunks of a piece."""
     size, table = PIECES[wildcards.table], wildcards.table
-    numbers = range(setups(table))[int(wildcards.piece) * size :][:size]
+    numbers = setups(table)[int(wildcards.piece) * size :][:size]
     return [Layout(MAIN).campaign_chunk(table, number) for number in numbers]
 
 

@@ -60,7 +60,7 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     },
     "setups": lambda study, _: {
         "outcomes": study.universes.count,
-        "horizon": study.universes.horizons,
+        "horizon": len(study.universes.horizons),
     },
     "rough_trials": lambda study, _: study.universes.rough_trials,
     "coupling_poses": lambda study, _: study.mapping.poses,

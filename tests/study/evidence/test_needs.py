@@ -45,7 +45,7 @@ def test_facts_of_the_shipped_study_are_those_of_its_file(study):
         },
         "setups": {
             "outcomes": its["universes"]["count"],
-            "horizon": its["universes"]["horizons"],
+            "horizon": its["universes"]["count"] // 2,
         },
         "rough_trials": its["universes"]["rough_trials"],
         "coupling_poses": its["mapping"]["poses"],

