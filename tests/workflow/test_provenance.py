@@ -91,7 +91,6 @@ DEPENDS = {
     "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
     "training.*": "train recording",
     "universes.count": f"design {EVIDENCE}",  # of how many setups all have to be there
-    "universes.horizons": f"design {EVIDENCE}",
     "universes.rough_trials": "design claims",
     "universes.*": "design",
     "search.short": "page",
