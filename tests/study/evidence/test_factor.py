@@ -8,6 +8,7 @@ from recalib.study.evidence.factor import (
     ANEW,
     CELLS,
     EFFORTS,
+    ON_THE_WAY,
     errors_of,
     factor_table,
     in_words,
