@@ -6,7 +6,6 @@ import pytest
 
 from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.layout import PIECES, REFERENCE, SECOND, Layout, pieces
-from recalib.study.plots.registry import drawn
 from tests.made_up import MadeUp
 
 
@@ -57,4 +56,3 @@ def test_another_study_has_no_campaign(few, tmp_path):
     assert ask.needs.files == ()
     ask.reference()
     assert ask.lacking == ["experiments.evidence: true"]
-    assert not {"figure14", "figure15"} & {*drawn(other.study, other.request)}

@@ -1,5 +1,7 @@
 """What the reference study's replicates say in more detail, where it was made up."""
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -12,6 +14,7 @@ from recalib.study.evidence.reference import (
     width_order,
 )
 from recalib.study.lengths import MAPS
+from recalib.study.measured import ERRORS
 from tests.made_up import LUCK, MadeUp
 
 
@@ -31,9 +34,14 @@ def test_two_maps_are_compared_with_one_for_both_systems_and_all_lengths(referen
 
 def test_two_maps_are_as_many_times_as_fast_as_their_errors_say(reference):
     """Half of the error, which falls by the root of the iterations: in a quarter of them."""
-    for row in speed_of_two_maps(reference):
-        assert row["factor"].mean == pytest.approx(0.25, rel=0.4)
-        assert row["unknown"] < 8
+    exact = {
+        f"{maps}_{system}_{length}_{error}": level / length**0.5
+        for maps, level in (("one", 20), ("two", 10))
+        for system, length, error in product(("improved", "ritter"), MAPS, ERRORS)
+    }
+    for row in speed_of_two_maps(reference.assign(**exact)):
+        assert row["factor"] == pytest.approx((0.25,) * 3)
+        assert row["unknown"] == 0
 
 
 def test_replicates_that_are_not_within_the_ladder_are_counted_and_left_out(reference):
