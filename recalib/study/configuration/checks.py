@@ -15,10 +15,7 @@ from recalib.study.configuration.sizes import check_sizes
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.entrants import MOVES, PEERS
-from recalib.study.plan import Plan
 from recalib.study.trainings import training
-
-IN_HALVES = 4  # searches: fewer, and an interval from half of them would be none
 
 
 def check(study: Study) -> list[Mistake]:
@@ -178,7 +175,3 @@ def _evidence(study: Study) -> Iterator[Mistake]:
     if lacking := missing(study):
         with_ = "; ".join(lacking)
         yield unlike(("experiments", "evidence"), True, f"false, or true with {with_}")
-    elif (searches := Plan(study).searches(IMPROVED)) < IN_HALVES:
-        short = study.learners[IMPROVED].iterations <= study.search.short
-        path = "search", "searches" if short else "searches_long"
-        yield unlike(path, searches, f"{IN_HALVES} or more {when}: halves are compared")

@@ -8,6 +8,7 @@ from recalib.study.evidence.factor import (
     ANEW,
     CELLS,
     EFFORTS,
+    ON_THE_WAY,
     errors_of,
     factor_table,
     in_words,
@@ -52,7 +53,9 @@ def test_each_is_what_was_made_up(table):
         off = 0.05 if definition == ANEW else 0.16
         assert row["factor"].mean == pytest.approx(expected, rel=off), (effort, definition)
         assert row["factor"].low <= row["factor"].mean <= row["factor"].high
-        assert row["longest"] == 100
+        # Ritter's with full effort gets there in 10,000 iterations, and counts what it is asked
+        soon = definition == ON_THE_WAY and (fast, slow) == ("rough", "full")
+        assert row["longest"] == (50 if soon else 100)
         assert row["verdict"] == in_words(row["factor"])
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import binom
 
 from recalib.study import statistics
 from recalib.study.evidence import effects
@@ -29,19 +30,18 @@ def verdicts(study, tmp_path, monkeypatch):
     plain = made_up.reference(), made_up.outcomes(), made_up.horizon()
     luck = pd.read_csv(DESIGN)["effort"].map(LUCK).to_numpy()[:, None, None]
 
-    def planted(table, ratio, spread, size, random, own=0.0):
+    def planted(table, ratio, spread, size, random):
         """A table with the ratio in each of the columns."""
-        setups = own * random.normal(size=(size[0], 1, len(COLUMNS)))
-        values = ratio * np.exp(setups + spread * random.normal(size=(*size, len(COLUMNS))))
+        values = ratio * np.exp(spread * random.normal(size=(*size, len(COLUMNS))))
         return table.assign(**dict(zip(COLUMNS, values.reshape(-1, len(COLUMNS)).T, strict=True)))
 
-    def verdicts(ratio: float, repetitions: int, own: float = 0.0) -> np.ndarray:
+    def verdicts(ratio: float, repetitions: int) -> np.ndarray:
         found = []
         for repetition in range(repetitions):
             random = np.random.default_rng([repetition, 20])
             reference = planted(plain[0], ratio, LUCK["full"], (REPLICATES, 1), random)
             size = study.universes.count, study.universes.replicates
-            outcomes = planted(plain[1], ratio, luck, size, random, own)
+            outcomes = planted(plain[1], ratio, luck, size, random)
             made_up.write(made_up.layout.shipped(REFERENCE), reference)
             made_up.campaign(outcomes=outcomes, horizon=plain[2])
             systems = made_up.judged(CLAIM)["systems"]
@@ -56,11 +56,13 @@ def shares(verdicts) -> dict[str, float]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("own", [0.0, 0.1])
-def test_what_is_equal_has_no_effect_in_most_worlds_and_is_almost_never_decided(verdicts, own):
-    found = shares(verdicts(1.0, REPETITIONS, own))
+def test_what_is_equal_has_no_effect_in_most_worlds_and_is_almost_never_decided(verdicts):
+    """The committed power study has a thousand worlds; here, chance is allowed for."""
+    worlds = verdicts(1.0, REPETITIONS)
+    found = shares(worlds)
     assert found.get("no effect", 0) >= 0.8
-    assert found.get("supported", 0) + found.get("contradicted", 0) <= 1 - LEVEL
+    decided = found.get("supported", 0) + found.get("contradicted", 0)
+    assert decided * len(worlds) <= binom.ppf(0.99, len(worlds), 1 - LEVEL)
 
 
 @pytest.mark.slow
