@@ -291,8 +291,8 @@ class Plan:
 
         What is published belongs to the paper's damage.
         """
+        from recalib.meshes import mesh_files
         from recalib.nominal.arms import find_urdf
-        from recalib.nominal.meshes import mesh_files
 
         scenario, _, today = name.partition(".")
         robot = self.study.robots[scenario_of(self.study, scenario)[1]]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import yaml
 
+from recalib.meshes import mesh_files
 from recalib.nominal.arms import find_urdf, load_arm
-from recalib.nominal.meshes import mesh_files
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.plan import Plan
 from recalib.study.studies import read_studies
