@@ -49,7 +49,7 @@ class Plan:
 
     def nominal(self, robot: str) -> jobs.Nominal:
         """A robot and its controller. See `find_urdf` for what it raises."""
-        from recalib.nominal.arms import find_urdf  # which brings Pinocchio
+        from recalib.nominal.descriptions import find_urdf
 
         entry, controller = self.study.robots[robot], self.study.controller
         digest = digest_of([find_urdf(entry.urdf)])
@@ -292,7 +292,7 @@ class Plan:
         What is published belongs to the paper's damage.
         """
         from recalib.meshes import mesh_files
-        from recalib.nominal.arms import find_urdf
+        from recalib.nominal.descriptions import find_urdf
 
         scenario, _, today = name.partition(".")
         robot = self.study.robots[scenario_of(self.study, scenario)[1]]
