@@ -6,7 +6,7 @@ from recalib.study.layout import DESIGN, PIECES
 from recalib.study.multiverse.design import digest, read_design
 from recalib.study.multiverse.universe import universe
 
-REPLICATES = 6  # of the reference study
+REPLICATES = 8  # of the reference study
 
 
 @cache
