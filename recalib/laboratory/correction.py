@@ -1,8 +1,8 @@
 """What was identified of an arm, in one file that needs no other: enough to correct commands.
 
-The file is an archive (`recalib.archives`). Its header holds the format's version and the nominal
-arm's base and tool link. Its arrays are the bytes of the arm's URDF, the calibration's, and the
-joint coordinates learned from.
+The file is an archive (`recalib.archives`). Its header holds the format's version, the nominal
+arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's URDF,
+the calibration's, and the joint coordinates learned from.
 """
 
 import tempfile
@@ -17,7 +17,7 @@ from recalib.identification.calibration import Calibration
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 
-FORMAT = "recalib correction", 3
+FORMAT = "recalib correction", 4
 
 
 @dataclass(frozen=True)
@@ -28,11 +28,13 @@ class Correction:
         urdf: of the nominal arm, as the user gave it.
         calibration: of it.
         learned: (n, joints) rad, or m where a joint slides, from which it was identified.
+        targets: their names, in the order of their numbers.
     """
 
     urdf: bytes
     calibration: Calibration
     learned: np.ndarray
+    targets: tuple[str, ...] = ("the target",)
 
     @property
     def arm(self) -> Arm:
@@ -46,6 +48,7 @@ class Correction:
             "version": FORMAT[1],
             "tool": self.arm.tool,
             "base": self.arm.base,
+            "targets": self.targets,
         }
         urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
@@ -60,4 +63,5 @@ def load_correction(path: str | PathLike) -> Correction:
         file = Path(folder) / "arm.urdf"
         file.write_bytes(urdf)
         arm = load_arm(file, header["tool"], header["base"])
-    return Correction(urdf, Calibration.restore(arm, state["calibration"]), state["learned"])
+    calibration = Calibration.restore(arm, state["calibration"])
+    return Correction(urdf, calibration, state["learned"], tuple(header["targets"]))
