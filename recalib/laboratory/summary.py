@@ -165,4 +165,4 @@ def _places(result: Calibrated) -> Iterator[str]:
             )
             for deviations in (place.deviations, place.real_deviations)
         )
-        yield f"{words}, ± {known}; in that of the machine, ± {real}"
+        yield f"{words}, deviation {known}; beside the machine's own {place.link}, {real}"
