@@ -7,6 +7,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
+from recalib.archives import read_archive, write_archive
 from recalib.damaged.plant import Plant
 from recalib.errors import BadMeasurement, InvalidFile
 from recalib.external import ExternalRobot
@@ -15,7 +16,6 @@ from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
 from recalib.interfaces import Outcome
-from recalib.learned import save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
@@ -23,13 +23,12 @@ from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.loading import load
 from recalib.measurements import OUTSIDE, WRAPPED, check_moves
 from recalib.nominal.poses import position_error
 from recalib.study.assignments import Ways
 from recalib.study.experiments.ensemble import feasible, scaled_arm
 from recalib.study.experiments.settings import rules_of
-from recalib.study.experiments.trials import search_once
+from recalib.study.experiments.trials import Search
 
 SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
 RUNS = 2
@@ -142,7 +141,7 @@ def test_the_study_s_most_serious_damage_is_far_from_refused(controller, plan, s
     arms = [scaled_arm(controller.robot, each, scale) for each in damages]
     budget = study.search.model_copy(update={"rounds": 1, "trials": 8, "seeds": 1})
     rules = rules_of(study.learners["ritter"])
-    search_once(lambda runs: Plant(controller, arms), rules, 40, budget, 5, "extreme")
+    Search(lambda runs: Plant(controller, arms), rules, 40, budget, 5, "extreme").all_rounds()
     assert 0 < max(farthest) < OUTSIDE / 3
 
 
@@ -231,12 +230,8 @@ def test_little_is_learned_from_little_and_nothing_is_spoilt(rows, table, robot,
     assert after.mean() < 1.5 * before.mean()
 
 
-def test_a_file_with_numbers_that_are_none_is_refused(robot, tmp_path):
-    path = tmp_path / "a.npz"
-    save(path, PolynomialLearner(1, 1), robot)
-    with np.load(path) as file:
-        arrays = {name: file[name] for name in file.files}
-    arrays["0/coefficients"][0, 0] = np.nan
-    np.savez(path, **arrays)
+def test_a_file_with_numbers_that_are_none_is_refused(tmp_path):
+    path, kind = tmp_path / "a.npz", ("some", 1)
+    write_archive(path, {"format": kind[0], "version": kind[1]}, {"a": {"b": np.array([np.nan])}})
     with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are none"):
-        load(path, robot)
+        read_archive(path, kind, "somebody")
