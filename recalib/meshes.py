@@ -42,6 +42,13 @@ def with_own_meshes(source: bytes, urdf: Path) -> tuple[bytes, list[str]]:
     return ElementTree.tostring(robot, encoding="utf-8"), left_out
 
 
+def mesh_files(urdf: Path) -> list[Path]:
+    """The files of all meshes that are drawn, in the order of the URDF."""
+    meshes = parsed(urdf.read_bytes(), urdf).iterfind(".//visual//mesh")
+    names = dict.fromkeys(mesh.get("filename", "") for mesh in meshes)
+    return [file for name in names if (file := _find(name, urdf.resolve()))]
+
+
 def _find(name: str, urdf: Path) -> Path | None:
     """The file of a mesh; None unless it lies, with all links followed, where it may."""
     package, _, path = name.removeprefix(PACKAGE).lstrip("/").partition("/")

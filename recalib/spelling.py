@@ -1,24 +1,33 @@
 """Names that do not exist: what may have been meant, and lists of names in a sentence."""
 
 from collections.abc import Iterable
-from difflib import SequenceMatcher
+from functools import cache
 
 MOST, SOME = 10, 3  # names in a sentence: of all that are valid, or as examples
 
 
 def nearest(word: str, valid: Iterable[str]) -> str | None:
-    """The valid word that differs in the fewest letters, in a third of the word's at most.
-
-    Letters are those that difflib would insert, delete or replace.
-    """
-    edits = {other: _edits(word, other) for other in valid}
-    near = min(edits, key=edits.get, default=None)
-    return near if near is not None and 3 * edits[near] <= len(word) else None
+    """The valid word that is the fewest edits away, if those are at most a third of the word."""
+    near = [other for other in valid if 3 * abs(len(word) - len(other)) <= len(word)]
+    edits = {other: _edits(word, other) for other in near}
+    best = min(edits, key=edits.get, default=None)
+    return best if best is not None and 3 * edits[best] <= len(word) else None
 
 
 def _edits(word: str, other: str) -> int:
-    changes = SequenceMatcher(None, word, other, autojunk=False).get_opcodes()
-    return sum(max(b - a, d - c) for kind, a, b, c, d in changes if kind != "equal")
+    """How many letters to insert, delete, replace or swap: Damerau and Levenshtein's distance."""
+
+    @cache
+    def between(i: int, j: int) -> int:
+        if not i or not j:
+            return i + j
+        ways = [between(i - 1, j) + 1, between(i, j - 1) + 1]
+        ways.append(between(i - 1, j - 1) + (word[i - 1] != other[j - 1]))
+        if min(i, j) > 1 and word[i - 2 : i] == other[j - 1] + other[j - 2]:
+            ways.append(between(i - 2, j - 2) + 1)
+        return min(ways)
+
+    return between(len(word), len(other))
 
 
 def instead(name: str, valid: Iterable[str]) -> str:

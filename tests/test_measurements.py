@@ -201,7 +201,7 @@ def spoilt(values, bad):
             r"'measured' measured \(19, 4, 4\); valid: \(20, 3\) or \(20, 4, 4\)",
         ),
         (lambda q, p: (q[:, :5], p), r"'joints' measured \(20, 5\); valid: \(20, 6\)"),
-        (lambda q, p: (q[:0], p[:0]), r"number of observations measured \(0\); valid: one or more"),
+        (lambda q, p: (q[:0], p[:0]), r"number of observations measured \(0\); valid: one"),
     ],
     ids=["NaN", "degrees", "no pose", "far off", "mm", "one less", "five joints", "none"],
 )

@@ -1,19 +1,45 @@
-"""Which code a script runs: editing a module runs again what depends on it, and nothing else.
+"""Which code a script runs, and which files of the project it reads: editing one of them runs
+again what depends on it, and nothing else.
 
-A digest is handed to each job as a parameter. As inputs, the modules would be looked at by their
-times, which a checkout changes, and so often that starting jobs took longer than many of them.
+A digest is handed to each job as a parameter. As inputs, modules would be looked at by their times,
+which a checkout changes, and so often that starting jobs took longer than many of them. What a job
+reads is an input as well, but what has an old date may be new all the same.
 """
 
 import hashlib
 import re
+from collections.abc import Callable, Iterable
 from functools import cache
 from pathlib import Path
+
+from recalib.study.layout import RESULTS
 
 ROOT = Path(__file__).parents[1]
 # Read as text: to parse all modules takes longer than all else that happens at the start.
 OURS = r"((?:recalib|workflow)[\w.]*)"
 IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", re.MULTILINE)
 NAME = re.compile(r"(\w+)(?: as \w+)?")
+
+
+def made_from(script: str, *named: str) -> Callable:
+    """What gives a job's parameter: a digest of its code, and of its inputs that no rule makes.
+
+    Args:
+        named: as for `code`.
+    """
+
+    def digest(wildcards: object, input: Iterable[str]) -> str:
+        sources = (path for path in map(str, input) if not path.startswith(f"{RESULTS}/"))
+        return "".join([code(script, *named), *map(_digest, sources)])
+
+    return digest
+
+
+@cache
+def _digest(path: str) -> str:
+    """Of a file; Snakemake says it where there is none."""
+    there = Path(path)
+    return hashlib.sha256(there.read_bytes()).hexdigest()[:16] if there.is_file() else ""
 
 
 @cache

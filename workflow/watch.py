@@ -22,10 +22,10 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import jinja2
-import rerun_cli
 
 from recalib.errors import RecalibError
 from recalib.study.layout import RESULTS, SHIPPED
+from recalib.study.recording.viewer import PROGRAM, quiet
 
 HERE = "127.0.0.1"
 PORT = 9090
@@ -155,21 +155,18 @@ def _fetched(address: str, viewer: subprocess.Popen) -> bytes:
 
 @contextmanager
 def _viewer(*options: str | Path) -> Iterator[subprocess.Popen]:
-    """The viewer's program, which tells nobody of its use; ended at the end of the block."""
-    binary = Path(rerun_cli.__file__).with_name("rerun")
-    with TemporaryDirectory() as settings:
-        its = {
-            "env": os.environ | {"XDG_CONFIG_HOME": settings},
-            "stdout": subprocess.DEVNULL,
-            "stderr": subprocess.DEVNULL,
-        }
-        subprocess.run([binary, "analytics", "disable"], check=True, **its)
-        process = subprocess.Popen([binary, *options], **its)
-        try:
-            yield process
-        finally:
-            process.terminate()
-            process.wait()
+    """The viewer's program; ended at the end of the block."""
+    process = subprocess.Popen(
+        [PROGRAM, *options],
+        env=quiet(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait()
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -68,6 +68,18 @@ class Calibration:
         """
         return self._shifted(self.model.predict(self.estimate.parameters, joints, targets), joints)
 
+    def seen_and_jacobian(
+        self, joints: np.ndarray, targets: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Poses (n, 4, 4) as `seen`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
+        standing = self._standing(joints)
+        jacobians = np.empty((len(joints), 6, joints.shape[1]))
+        for target in np.unique(targets):
+            rows = targets == target
+            arm = self.model.arm(self.estimate.parameters, target)
+            _, jacobians[rows] = arm.forward_and_jacobian(standing[rows])
+        return self.seen(joints, targets), jacobians
+
     def misses(self, seen: Observations) -> np.ndarray:
         """What takes what it predicts to what was seen: (n, 3) m, or (n, 6) m and rad.
 

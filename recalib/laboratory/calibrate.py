@@ -14,12 +14,15 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.openness import Open, open_parameters
-from recalib.identification.validation import GEOMETRIC, NOTHING, RANDOM, Validation, validate
+from recalib.identification.sequence import Fault, faults
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, first_frames
 from recalib.laboratory.measurements import Measurements, read_measurements
+from recalib.laboratory.places import Place, found_places
 from recalib.laboratory.sanity import Fit, check_nominal
+from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
@@ -68,10 +71,33 @@ class Calibrated:
         """What a URDF can hold."""
         return self.validation.full[GEOMETRIC]
 
+    @property
+    def readable(self) -> Calibration:
+        """What all files are of that people read: geometry, as in the URDF, or the nominal arm."""
+        return self.geometry if self.worthwhile else self.calibration
+
+    @cached_property
+    def corrected(self) -> tuple[bytes, str]:
+        """The URDF with its geometry, and the link that is the tool there."""
+        return corrected_urdf(self.source, self.geometry)
+
+    @cached_property
+    def places(self) -> list[Place]:
+        """Where instrument, targets and sockets are, of those that were not given."""
+        left_open, tool = [], self.arm.tool
+        if self.worthwhile:
+            left_open, tool = self.left_open, self.corrected[1]
+        return found_places(self.readable, left_open, self.targets, self.sockets, tool)
+
     @cached_property
     def left_open(self) -> list[Open]:
         """The parameters of geometry that were not told apart."""
         return open_parameters(self.geometry, self.seen)
+
+    @cached_property
+    def faults(self) -> list[Fault]:
+        """What the order of the rows shows: a lag, a drift, a jump."""
+        return faults(self.geometry, self.seen, self.validation.counted)
 
     @property
     def calibration(self) -> Calibration:
@@ -81,7 +107,7 @@ class Calibrated:
     @property
     def correction(self) -> Correction:
         """What corrects commands, with no other file."""
-        return Correction(self.source, self.calibration, self.seen.joints)
+        return Correction(self.source, self.calibration, self.seen.joints, self.targets)
 
     @property
     def counted(self) -> np.ndarray:
@@ -95,11 +121,11 @@ class Calibrated:
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
     def missed(self, kind: str) -> np.ndarray:
-        """By how much the rows that count were missed, held out at random, if `kind` is done.
+        """By how much the rows that count were missed, held out in blocks, if `kind` is done.
 
         (n, 3) m or (n, 6) m and rad, along the axes of the instrument.
         """
-        return self.validation.misses[RANDOM][kind][self.counted]
+        return self.validation.misses[BLOCKWISE][kind][self.counted]
 
 
 def calibrate_arm(

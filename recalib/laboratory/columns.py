@@ -14,12 +14,14 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.quantities import Quantity
+from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.spelling import instead
 from recalib.storage import read_file
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
+FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}  # that an arm could reach
 MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which a computer calibrates by in an hour
 
 
@@ -52,7 +54,7 @@ class Table:
     def numbers(self, column: str, quantity: Quantity) -> np.ndarray:
         """The numbers (n,) in a column, in SI units.
 
-        Raises InvalidFile: another unit, or a cell that is no finite number.
+        Raises InvalidFile: another unit, or a cell that is no number or too large for an arm.
         """
         unit = self.units[column]
         if unit not in quantity.units:
@@ -68,15 +70,23 @@ class Table:
                     self.path,
                     f"row {row} of column {self.shown(column)!r} is {cell!r}; valid: a number",
                 )
-        return np.array(numbers) * quantity.units[unit]
+        numbers = np.array(numbers) * quantity.units[unit]
+        most, text = FARTHEST.get(quantity, (np.inf, ""))
+        beyond = np.abs(numbers) > most
+        if beyond.any():
+            cell = self.cells[column][beyond.argmax()]
+            raise InvalidFile(
+                self.path,
+                f"row {beyond.argmax() + 1} of column {self.shown(column)!r} is {cell} {unit};"
+                f" valid: up to {text}, so that the unit may be another one",
+            )
+        return numbers
 
     def check_columns(self, valid: Collection[str]) -> None:
         """Raise InvalidFile where a column is not among the valid ones."""
         for column in self.cells:
             if column not in valid:
-                raise InvalidFile(
-                    self.path, f"nobody knows column {column!r}; valid: {', '.join(valid)}"
-                )
+                raise InvalidFile(self.path, f"unknown column {column!r}; {instead(column, valid)}")
 
 
 def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -> Table:

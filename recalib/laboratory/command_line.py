@@ -60,6 +60,12 @@ def _parser() -> argparse.ArgumentParser:
     own = add("correct", _correct, "commands that take the arm to what is desired")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
     own.add_argument("desired", type=Path, help="poses or joint coordinates (CSV)")
+    own.add_argument(
+        "--frame",
+        choices=("base", "instrument"),
+        default="base",
+        help="in which poses are: of the tool link in the base, or of a target in the instrument's",
+    )
     own.add_argument("--out", default="commands.csv", help="a new file (%(default)s)")
 
     own = add("next", _next, "the postures that would teach most, and whether they are worth it")
@@ -105,14 +111,23 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correct import correct
+    from recalib.laboratory.correct import correct, untold
     from recalib.laboratory.correction import load_correction
     from recalib.laboratory.files import CORRECTION, write_postures
     from recalib.laboratory.measurements import read_desired
 
     correction = load_correction(given.calibration / CORRECTION)
-    commands = correct(correction, read_desired(given.desired, correction.arm))
+    in_instrument = given.frame == "instrument"
+    commands = correct(correction, read_desired(given.desired, correction.arm), in_instrument)
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
+    ends = untold(correction)
+    if ends and not in_instrument:
+        print(
+            f"recalib: warning: {ends} could not be told from errors of the arm: in the base,"
+            " commands are off by those. To the instrument they are right. Try: --frame"
+            " instrument, or say in the description where both are",
+            file=sys.stderr,
+        )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
         names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from recalib.errors import RecalibError
+from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
 from recalib.identification.linearised import LEVER
 from recalib.laboratory.correction import Correction
@@ -47,17 +47,21 @@ class Commands:
     beyond: np.ndarray
 
 
-def correct(correction: Correction, desired: Measurements) -> Commands:
+def correct(correction: Correction, desired: Measurements, in_instrument: bool = False) -> Commands:
     """Commands that take the identified arm to what is desired.
 
     Args:
         desired: poses or positions of the tool link in the arm's base, with joint coordinates to
             stay near to, if there are any; or joint coordinates alone, which mean the pose that
             they give the nominal arm. Arms of fewer than six joints are taken to positions.
+        in_instrument: the poses or positions are those of targets in the instrument's frame, as
+            they were measured. That needs no knowledge of the base or the tool link.
 
-    Raises NotReached.
+    Raises NotReached; where frame and desired poses do not go together, InvalidSetting and
+    UnknownName.
     """
-    found, left, inside = solve(correction, desired)
+    targets = _targets(correction, desired) if in_instrument else None
+    found, left, inside = solve(correction, desired, targets)
     if not inside.all():
         _refuse(correction, found, left, inside)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
@@ -66,10 +70,24 @@ def correct(correction: Correction, desired: Measurements) -> Commands:
     return Commands(found, correction.arm.forward(found), beyond)
 
 
+def untold(correction: Correction) -> str | None:
+    """The ends of the arm that were not told, in words: commands in the base are off by them."""
+    frames = correction.calibration.frames
+    ends = {
+        "the arm's base": frames.base_unknown or len(frames.sockets),
+        "the tool link": frames.targets_unknown,
+    }
+    return " and ".join(end for end, unknown in ends.items() if unknown) or None
+
+
 def solve(
-    correction: Correction, desired: Measurements
+    correction: Correction, desired: Measurements, targets: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """As `correct`, whether the arm gets there or not.
+
+    Args:
+        targets: (n,) numbers of those that are desired in the instrument's frame; None where the
+            tool link is, in the base.
 
     Returns joint coordinates (n, joints), what is left (n,) in m or rad, and whether a desired pose
     is reached within the arm's limits (n,).
@@ -84,18 +102,44 @@ def solve(
         goals[:, :3, :3], goals[:, :3, 3] = desired.rotations, desired.positions
     if len(arm.joints) < 6 and goals.ndim == 3:
         goals = goals[:, :3, 3]
-    return _solve(
-        correction, goals, [joints] if joints is not None else _nearest(correction, goals)
-    )
+    starts = [joints] if joints is not None else _nearest(correction, goals, targets)
+    return _solve(correction, goals, targets, starts)
 
 
-def _nearest(correction: Correction, goals: np.ndarray) -> list[np.ndarray]:
+def _targets(correction: Correction, desired: Measurements) -> np.ndarray:
+    """The number (n,) of the target that each row is about."""
+    names = correction.targets
+    if len(correction.calibration.frames.sockets):
+        raise InvalidSetting("frame", "instrument", "base: a ball in sockets had no instrument")
+    if desired.positions is None:
+        raise InvalidSetting("x, y, z", None, "where a target should be, to the instrument")
+    if desired.targets is None:
+        if len(names) > 1:
+            raise InvalidSetting("column target", None, f"one of {', '.join(names)} in each row")
+        return np.zeros(len(desired), dtype=int)
+    for name in desired.targets:
+        if name not in names:
+            raise UnknownName("target", str(name), names)
+    return np.array([names.index(name) for name in desired.targets])
+
+
+def _nearest(
+    correction: Correction, goals: np.ndarray, targets: np.ndarray | None
+) -> list[np.ndarray]:
     """Learned postures (n, joints) near goals, the nearest first."""
-    seen = correction.calibration.forward(correction.learned)
-    features = (_features(poses, goals.ndim) for poses in (seen, goals))
-    tree, wanted = KDTree(next(features)), next(features)
-    _, rows = tree.query(wanted, k=range(1, 1 + min(STARTS, len(seen))))
-    return [correction.learned[each] for each in rows.T]
+    learned, calibration = correction.learned, correction.calibration
+    count = min(STARTS, len(learned))
+    found = np.empty((count, len(goals), learned.shape[1]))
+    for target in [None] if targets is None else np.unique(targets):
+        if target is None:
+            rows, seen = slice(None), calibration.forward(learned)
+        else:
+            its = np.full(len(learned), target)
+            rows, seen = targets == target, calibration.seen(learned, its)
+        features = (_features(poses, goals.ndim) for poses in (seen, goals[rows]))
+        tree, wanted = KDTree(next(features)), next(features)
+        found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
+    return list(found)
 
 
 def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
@@ -110,7 +154,10 @@ def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
 
 
 def _solve(
-    correction: Correction, goals: np.ndarray, starts: Sequence[np.ndarray]
+    correction: Correction,
+    goals: np.ndarray,
+    targets: np.ndarray | None,
+    starts: Sequence[np.ndarray],
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """From each start in turn, until the goals are reached within limits; as `solve`."""
     lower = correction.arm.model.lowerPositionLimit
@@ -121,7 +168,8 @@ def _solve(
         rows = np.flatnonzero(~inside)
         if not len(rows):
             break
-        tried, remaining = _newton(correction.calibration, goals[rows], start[rows])
+        its = None if targets is None else targets[rows]
+        tried, remaining = _newton(correction.calibration, goals[rows], its, start[rows])
         within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
         better = within | (remaining < left[rows])
         found[rows[better]], left[rows[better]] = tried[better], remaining[better]
@@ -130,12 +178,15 @@ def _solve(
 
 
 def _newton(
-    calibration: Calibration, goals: np.ndarray, start: np.ndarray
+    calibration: Calibration, goals: np.ndarray, targets: np.ndarray | None, start: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Steps of least norm, for each goal by itself: what it leaves free stays near the start."""
 
-    def look(_, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        poses, jacobians = calibration.forward_and_jacobian(joints[:, 0])
+    def look(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        if targets is None:
+            poses, jacobians = calibration.forward_and_jacobian(joints[:, 0])
+        else:
+            poses, jacobians = calibration.seen_and_jacobian(joints[:, 0], targets[rows])
         return poses[:, None], jacobians[:, None]
 
     found, left = solve_groups(look, goals[:, None], start[:, None], TOLERANCE, STEPS)

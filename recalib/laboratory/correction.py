@@ -1,8 +1,8 @@
 """What was identified of an arm, in one file that needs no other: enough to correct commands.
 
-The file is an archive (`recalib.archives`). Its header holds the format's version and the nominal
-arm's base and tool link. Its arrays are the bytes of the arm's URDF, the calibration's, and the
-joint coordinates learned from.
+The file is an archive (`recalib.archives`). Its header holds the format's version, the nominal
+arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's URDF,
+the calibration's, and the joint coordinates learned from.
 """
 
 from dataclasses import dataclass
@@ -27,11 +27,13 @@ class Correction:
         urdf: of the nominal arm, as the user gave it.
         calibration: of it.
         learned: (n, joints) rad, or m where a joint slides, from which it was identified.
+        targets: their names, in the order of their numbers.
     """
 
     urdf: bytes
     calibration: Calibration
     learned: np.ndarray
+    targets: tuple[str, ...] = ("the target",)
 
     @property
     def arm(self) -> Arm:
@@ -45,6 +47,7 @@ class Correction:
             "version": FORMAT[1],
             "tool": self.arm.tool,
             "base": self.arm.base,
+            "targets": self.targets,
         }
         urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
         state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
@@ -58,7 +61,7 @@ def load_correction(path: str | PathLike) -> Correction:
         urdf = state["urdf"].tobytes()
         arm = arm_of(urdf, Path(path), header["tool"], header["base"])
         calibration = Calibration.restore(arm, state["calibration"])
-        loaded = Correction(urdf, calibration, state["learned"])
+        loaded = Correction(urdf, calibration, state["learned"], tuple(header["targets"]))
         if not _fits(loaded):
             raise ValueError
     return loaded

@@ -26,12 +26,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.laboratory.columns import FARTHEST
 from recalib.quantities import ANGLE, LENGTH, Quantity
 from recalib.storage import read_file
 
 PARTS = "columns", "instrument", "target", "distance"
-MOST = 1_000_000  # bytes
-FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}  # in any table, too
+MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 

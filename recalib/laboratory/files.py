@@ -4,7 +4,7 @@ import csv
 import json
 import shutil
 import tempfile
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
@@ -12,20 +12,21 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.validation import NOTHING, RANDOM
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.outputs import new
 from recalib.laboratory.parameters import described
-from recalib.laboratory.summary import errors_table, summary, verdict
+from recalib.laboratory.summary import DOING, errors_table, summary, verdict
 from recalib.laboratory.universal_robots import kinematics_yaml
-from recalib.laboratory.urdf import corrected_urdf
+from recalib.laboratory.urdf import angles_of
 from recalib.nominal.kinematics import Arm
 
 SUMMARY, URDF, CORRECTION = "summary.txt", "arm.urdf", "correction.npz"
+FRAMES = "frames.csv"
 TABLE, VALUES, OFFSETS, ROWS = "parameters.csv", "parameters.json", "joint_offsets.csv", "rows.csv"
 KINEMATICS, PAGE, RECORDING = "kinematics.yaml", "page.html", "recording.rrd"
 NAMES = (
-    *(SUMMARY, URDF, CORRECTION, TABLE, VALUES, OFFSETS, ROWS),
+    *(SUMMARY, URDF, CORRECTION, FRAMES, TABLE, VALUES, OFFSETS, ROWS),
     *(KINEMATICS, PAGE, RECORDING),
 )
 
@@ -48,6 +49,8 @@ def write_files(
         made = Path(temporary)
         (made / SUMMARY).write_text(summary(result), encoding="utf-8")
         _write_table(made / ROWS, _rows(result))
+        if frames := [*_frames(result)]:
+            _write_table(made / FRAMES, frames)
         if result.worthwhile:
             _write_calibration(made, result)
         for name, write in further:
@@ -93,8 +96,7 @@ def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) 
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
-    geometry = result.geometry
-    text, tool = corrected_urdf(result.source, geometry)
+    geometry, (text, tool) = result.geometry, result.corrected
     (folder / URDF).write_bytes(text)
     if (kinematics := kinematics_yaml(geometry)) is not None:
         (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")
@@ -103,26 +105,49 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
     _write_table(folder / TABLE, parameters)
     offsets = [each for each in parameters if each["name"].startswith("offset of ")]
     _write_table(folder / OFFSETS, offsets)
-    frames = result.calibration.frames
+    frames = geometry.frames
     values = {
         "verdict": verdict(result),
         "tool": tool,
         "base": result.arm.base,
         "errors": errors_table(result),
-        "noise": result.calibration.estimate.noise.tolist(),
+        "fit": DOING[GEOMETRIC],  # of all that follows
+        "noise": geometry.estimate.noise.tolist(),
         "base_in_instrument": frames.base.tolist(),
         "targets_in_tool": dict(zip(result.targets, frames.targets.tolist(), strict=True)),
         "sockets": dict(zip(result.sockets, frames.sockets.tolist(), strict=True)),
+        "frames": [*_frames(result)],
         "parameters": parameters,
     }
     (folder / VALUES).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
 
 
+def _frames(result: Calibrated) -> Iterator[dict]:
+    """Each place that was found; what is not known of it is empty."""
+    for place in result.places:
+        numbers = dict(zip(("x [mm]", "y [mm]", "z [mm]"), 1e3 * place.pose[:3, 3], strict=True))
+        turns = np.degrees(angles_of(place.pose))
+        numbers |= dict(zip(("roll [deg]", "pitch [deg]", "yaw [deg]"), turns, strict=True))
+        for what, (length, turn) in (
+            ("deviation", place.deviations),
+            ("deviation beside the real link", place.real_deviations),
+        ):
+            numbers |= {f"{what} [mm]": 1e3 * length, f"{what} [deg]": np.degrees(turn)}
+        yield (
+            {"frame": place.name, "in": place.link}
+            | {
+                name: "" if "deg" in name and not place.turned else f"{number:.6g}"
+                for name, number in numbers.items()
+            }
+            | {"fit": DOING[GEOMETRIC if result.worthwhile else NOTHING]}
+        )
+
+
 def _rows(result: Calibrated) -> Iterable[dict]:
     """For each row how far off it is, before and after, and how much it counted."""
     validation, weights = result.validation, result.geometry.estimate.weights
-    before = 1e3 * validation.errors(RANDOM, NOTHING)[:, 0]
-    after = 1e3 * validation.errors(RANDOM, validation.chosen)[:, 0]
+    before = 1e3 * validation.errors(BLOCKWISE, NOTHING)[:, 0]
+    after = 1e3 * validation.errors(BLOCKWISE, validation.chosen)[:, 0]
     doubted = {*result.doubted}
     for row, (old, left, weight) in enumerate(zip(before, after, weights, strict=True), start=1):
         yield {

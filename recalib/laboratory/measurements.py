@@ -10,9 +10,10 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile
 from recalib.identification.soundness import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
-from recalib.laboratory.description import FARTHEST, Description
+from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.spelling import listed
 
 POSITION = "x", "y", "z"
 NOMINAL = "x_nominal", "y_nominal", "z_nominal"
@@ -94,7 +95,7 @@ def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Me
                 raise InvalidFile(path, _lacking(arm, joint))
         coordinates = np.stack(
             [
-                _within(table, joint, kind)
+                table.numbers(joint, kind)
                 for joint, kind in zip(arm.joints, _kinds(arm), strict=True)
             ],
             axis=1,
@@ -145,31 +146,14 @@ def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
 
 
 def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray | None:
-    there = [name for name in group if name in table]
-    if not there:
+    missing = [name for name in group if name not in table]
+    if len(missing) == len(group):
         return None
-    if missing := [name for name in group if name not in table]:
-        raise InvalidFile(
-            table.path, f"it has {', '.join(there)} and lacks {', '.join(missing)} beside it"
-        )
-    return np.stack([_within(table, name, kind) for name in group], axis=1)
-
-
-def _within(table: Table, column: str, kind: Quantity) -> np.ndarray:
-    """The numbers of a column, none of which an arm could not reach."""
-    numbers = table.numbers(column, kind)
-    if kind in FARTHEST:
-        most, text = FARTHEST[kind]
-        beyond = np.abs(numbers) > most
-        if beyond.any():
-            cell = table.cells[column][beyond.argmax()]
-            raise InvalidFile(
-                table.path,
-                f"row {beyond.argmax() + 1} of column {table.shown(column)!r} is {cell}"
-                f" {table.units[column]};"
-                f" valid: up to {text}, so that the unit may be another one",
-            )
-    return numbers
+    if missing:
+        absent, whole = listed(missing, "and"), listed(group, "and")
+        are = "is" if len(missing) == 1 else "are"
+        raise InvalidFile(table.path, f"{absent} {are} missing: {whole} are needed together")
+    return np.stack([table.numbers(name, kind) for name in group], axis=1)
 
 
 def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:

@@ -55,8 +55,8 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
     if not len(postures):
-        valid = "some within reach, and off the ends of joint ranges"
-        raise InvalidSetting("candidates", f"{len(candidates)}, none of use", valid)
+        valid = "within reach, and off the ends of joint ranges"
+        raise InvalidSetting("candidates", f"{len(candidates)} postures of no use", valid)
     calibration = correction.calibration
     model, estimate = calibration.model, calibration.estimate
     probes = _drawn(correction)[:PROBES]

@@ -4,9 +4,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from recalib.identification.validation import GEOMETRIC, HYBRID, KINDS, NOTHING, RANDOM, WAYS
+from recalib.identification.validation import (
+    BLOCKWISE,
+    GEOMETRIC,
+    HYBRID,
+    KINDS,
+    NOTHING,
+    RANDOM,
+    WAYS,
+)
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.doubts import doubts
 from recalib.laboratory.parameters import open_directions
+from recalib.laboratory.urdf import angles_of
 from recalib.meshes import with_own_meshes
 
 DOING = {
@@ -44,20 +54,34 @@ def summary(result: Calibrated) -> str:
 
 
 def verdict(result: Calibrated) -> str:
-    """In one sentence, what it is worth."""
-    before, after = (
-        1e3 * result.validation.errors(RANDOM, kind)[result.validation.counted, 0].mean()
-        for kind in (NOTHING, result.validation.chosen)
+    """In one sentence what it is worth, then what makes that doubtful."""
+    return " ".join([_worth(result), *doubts(result)])
+
+
+def _worth(result: Calibrated) -> str:
+    validation = result.validation
+    before, after, near = (
+        1e3 * validation.errors(way, kind)[validation.counted, 0].mean()
+        for way, kind in (
+            (BLOCKWISE, NOTHING),
+            (BLOCKWISE, validation.chosen),
+            (RANDOM, validation.chosen),
+        )
     )
     if not result.worthwhile:
         return (
             f"Correcting is no better than doing nothing: the {before:.3g} mm that the nominal arm"
-            " misses on average do not become less on rows that were not learned from."
+            " misses on average do not become less on postures that were not learned from."
         )
     return (
-        f"On rows that were not learned from, the mean error falls from {before:.3g} mm to"
-        f" {after:.3g} mm."
+        f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
+        f" {after:.3g} mm, 95 % within {_radius(result):.3g} mm; near them, to {near:.3g} mm."
     )
+
+
+def _radius(result: Calibrated) -> float:
+    """Within how many mm 95 % of positions should lie, in a middle posture."""
+    return float(1e3 * np.median(result.validation.radii(result.seen.joints)))
 
 
 def notes(result: Calibrated) -> list[str]:
@@ -86,7 +110,9 @@ def _lines(result: Calibrated) -> Iterator[str]:
 
 def _notes(result: Calibrated) -> Iterator[str]:
     arm, estimate = result.arm, result.calibration.estimate
-    yield f"{len(result.seen)} rows of {result.table.name}"
+    postures = result.validation.postures
+    rows = f"{len(result.seen)} rows of {result.table.name}"
+    yield rows if len(postures) == len(result.seen) else f"{len(postures)} postures, {rows}"
     if result.beside is not None:
         yield f"nominal positions are those of the URDF, with {result.beside}"
     if arm.massless:
@@ -101,7 +127,9 @@ def _notes(result: Calibrated) -> Iterator[str]:
         f"{scale * each:.3g} {unit}"
         for (scale, unit), each in zip(UNITS, estimate.noise, strict=False)
     )
-    yield f"noise of a measurement along an axis, as estimated: {', '.join(noise)}"
+    used = DOING[result.validation.chosen]
+    yield f"noise of a measurement along an axis, as estimated with {used}: {', '.join(noise)}"
+    yield from _places(result)
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
     if result.validation.full[HYBRID].residual is not None:
@@ -112,9 +140,11 @@ def _notes(result: Calibrated) -> Iterator[str]:
         more = ", ..." if len(result.doubted) > MOST else ""
         listed = ", ".join(map(str, result.doubted[:MOST]))
         yield f"rows that do not fit the others and hardly counted: {listed}{more}"
-    radius = 1e3 * np.median(result.validation.radii(result.seen.joints))
-    covered = 100 * result.validation.coverage(RANDOM)
-    yield f"95 % of positions should lie within {radius:.3g} mm (held out: {covered:.0f} %)"
+    covered = 100 * result.validation.coverage(BLOCKWISE)
+    yield (
+        f"95 % of positions should lie within {_radius(result):.3g} mm, also in places away from"
+        f" those measured (held out: {covered:.0f} %)"
+    )
     directions = open_directions(result)
     lasting = [words for words, other_postures_tell in directions if not other_postures_tell]
     for words in [words for words, other_postures_tell in directions if other_postures_tell][:MOST]:
@@ -123,7 +153,32 @@ def _notes(result: Calibrated) -> Iterator[str]:
         if words.startswith("offset"):
             yield f"no postures would tell: {words}"
     yield f"parameters that no such measurements tell apart, kept small: {len(lasting)}"
-    for joint, slides, column in zip(arm.joints, arm.slides, result.seen.joints.T, strict=True):
+    columns = result.seen.joints.T
+    for joint, slides, still, column in zip(
+        arm.joints, arm.slides, postures.still, columns, strict=True
+    ):
         scale, unit = UNITS[0] if slides else UNITS[1]
         low, high = scale * column.min(), scale * column.max()
-        yield f"{joint} was seen from {low:.1f} to {high:.1f} {unit}"
+        if still:
+            yield f"{joint} stood still at {low:.1f} {unit}: nothing is known of its own errors"
+        else:
+            yield f"{joint} was seen from {low:.1f} to {high:.1f} {unit}"
+
+
+def _places(result: Calibrated) -> Iterator[str]:
+    """Where instrument, targets and sockets are."""
+    fit = "arm.urdf" if result.worthwhile else result.urdf.name
+    for place in result.places:
+        where = ", ".join(f"{1e3 * each:.2f}" for each in place.pose[:3, 3])
+        words, kinds = f"{place.name} in {place.link} of {fit}: ({where}) mm", 1
+        if place.turned:
+            turns = ", ".join(f"{each:.3f}" for each in np.degrees(angles_of(place.pose)))
+            words, kinds = f"{words}, roll, pitch and yaw ({turns}) deg", 2
+        known, real = (
+            ", ".join(
+                f"{scale * each:.2g} {unit}"
+                for (scale, unit), each in zip(UNITS, deviations[:kinds], strict=False)
+            )
+            for deviations in (place.deviations, place.real_deviations)
+        )
+        yield f"{words}, deviation {known}; beside the machine's own {place.link}, {real}"

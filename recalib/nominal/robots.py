@@ -10,7 +10,8 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import Workspace
 

@@ -223,6 +223,8 @@ class Recording(Frozen):
     measuring: Measuring
     seed: int
     published: dict[str, float]
+    meshes_sha256: str
+    """Digest of the meshes that are drawn."""
 
     def papers(self) -> list[str]:
         """Those of the paper, whose trainings are experiments of the study."""

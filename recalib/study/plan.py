@@ -2,6 +2,7 @@
 
 import hashlib
 from collections.abc import Iterable
+from pathlib import Path
 
 from recalib.errors import UnknownName
 from recalib.study import jobs
@@ -25,6 +26,12 @@ def bounds(chunk: int, total: int, size: int) -> dict[str, int]:
     return {"first": chunk * size, "last": min((chunk + 1) * size, total)}
 
 
+def digest_of(files: Iterable[Path]) -> str:
+    """Of what stands in files."""
+    each = (hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
+    return hashlib.sha256("".join(each).encode()).hexdigest()
+
+
 def _only(kind: type[Part], part: Part) -> Part:
     """What a part of the configuration shares with the poorer kind that it is built upon."""
     return kind.model_construct(**{name: getattr(part, name) for name in kind.model_fields})
@@ -42,13 +49,11 @@ class Plan:
 
     def nominal(self, robot: str) -> jobs.Nominal:
         """A robot and its controller. See `find_urdf` for what it raises."""
-        from recalib.nominal.arms import find_urdf  # which brings Pinocchio
+        from recalib.nominal.descriptions import find_urdf
 
-        entry = self.study.robots[robot]
-        digest = hashlib.sha256(find_urdf(entry.urdf).read_bytes()).hexdigest()
-        return jobs.Nominal(
-            name=robot, robot=entry, controller=self.study.controller, urdf_sha256=digest
-        )
+        entry, controller = self.study.robots[robot], self.study.controller
+        digest = digest_of([find_urdf(entry.urdf)])
+        return jobs.Nominal(name=robot, robot=entry, controller=controller, urdf_sha256=digest)
 
     def assignments(self, robot: str) -> jobs.Assignments:
         """Every assignment of the paper's damage to a robot."""
@@ -286,7 +291,11 @@ class Plan:
 
         What is published belongs to the paper's damage.
         """
+        from recalib.meshes import mesh_files
+        from recalib.nominal.descriptions import find_urdf
+
         scenario, _, today = name.partition(".")
+        robot = self.study.robots[scenario_of(self.study, scenario)[1]]
         own, published = self.study.scenario, self.study.paper_damage.published
         assigned = any(isinstance(entry, Assigned) for entry in self.study.scenarios[own])
         papers = {learner: rules(self.study, learner) for learner in self.recorded()}
@@ -298,6 +307,7 @@ class Plan:
             measuring=self.measuring(),
             seed=self.study.seed,
             published=published.model_dump() if assigned and scenario == own else {},
+            meshes_sha256=digest_of(mesh_files(find_urdf(robot.urdf))),
         )
 
     def speed(self, learners: Iterable[str]) -> jobs.Speed:

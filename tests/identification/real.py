@@ -16,9 +16,13 @@ def anywhere(random, reach):
 
 
 class Real:
-    """An arm with links off by 1 mm and 0.1 degrees, joints by 1 degree or 1 mm."""
+    """An arm with links off by 1 mm and 0.1 degrees, joints by 1 degree or 1 mm.
 
-    def __init__(self, nominal, seed, targets=1):
+    Gears [rad] are as eccentric as that, in turns, in half turns, and together with the joint
+    before them, which no model here holds.
+    """
+
+    def __init__(self, nominal, seed, targets=1, gears=0.0):
         self.random = np.random.default_rng(seed)
         model, count = ErrorModel(nominal, OFFSETS), len(nominal.joints)
         links = np.repeat([[1e-3, np.radians(0.1)]], 3, axis=1).repeat(count + 1, axis=0)
@@ -26,6 +30,9 @@ class Real:
         parameters = np.concatenate([links.ravel(), offsets])
         parameters *= self.random.standard_normal(len(parameters))
         self._arm, self._offsets = model.arm(parameters), parameters[-count:]
+        random = np.random.default_rng([seed, 1])
+        self._waves = gears * random.standard_normal((3, count))
+        self._phases = random.uniform(0, 2 * np.pi, (2, count))
         self._limits = nominal.model.lowerPositionLimit, nominal.model.upperPositionLimit
         self.base = anywhere(self.random, 2.0)
         self.targets = np.array([anywhere(self.random, 0.2) for _ in range(targets)])
@@ -59,8 +66,15 @@ class Real:
         tool = self._arm.forward(joints + self._offsets)
         return tool[:, :3, 3] + tool[:, :3, :3] @ ball
 
+    def _standing(self, joints):
+        once, twice, coupled = self._waves
+        first, second = self._phases
+        gears = once * np.sin(joints + first) + twice / 2 * np.sin(2 * joints + second)
+        gears += coupled * np.sin(joints + np.roll(joints, 1, axis=1))
+        return joints + gears + self._offsets
+
     def poses(self, joints, targets=0, noise=NOISE):
-        seen = self.base @ self._arm.forward(joints + self._offsets) @ self.targets[targets]
+        seen = self.base @ self._arm.forward(self._standing(joints)) @ self.targets[targets]
         turns = noise[1] * self.random.standard_normal((len(joints), 3))
         seen[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ seen[:, :3, :3]
         seen[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))

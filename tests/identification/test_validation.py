@@ -171,6 +171,19 @@ def test_an_arm_without_errors_is_left_alone(arm):
     assert np.allclose(found.calibration.forward(joints), arm.forward(joints), atol=1e-6)
 
 
+@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
+def test_a_joint_may_stand_still_at_any_angle(arm, angle):
+    real = Real(arm, 8)
+    joints = real.postures(ROWS)
+    joints[:, 0] = angle
+    seen = Observations(joints, real.poses(joints))
+    found = validate(arm, seen, guess_frames(arm, seen))
+    assert found.postures.still.tolist() == [True, False, False, False, False, False]
+    offsets = found.calibration.model.coefficients(found.calibration.estimate.parameters)["offset"]
+    assert abs(offsets[0]) < 1e-9 < np.abs(offsets[1:]).min()
+    assert found.errors(RANDOM, found.chosen)[:, 0].mean() < 5e-4
+
+
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
     real = Real(arm, 5)
     seen = seen_of(real, 30)

@@ -1,6 +1,7 @@
 """The commands from a table to the commands of a controller, on an arm that the tests bend."""
 
 import csv
+import hashlib
 import json
 import os
 
@@ -29,6 +30,11 @@ MIDDLE = np.array([0.0, -0.7, 1.1])
 def true_positions(arm, joints: np.ndarray) -> np.ndarray:
     """Where the bent arm goes [m]."""
     return arm.forward(joints + OFFSETS)[:, :3, 3]
+
+
+def to_instrument(positions: np.ndarray) -> np.ndarray:
+    """From the arm's base to where the camera stands."""
+    return positions @ np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]]) + [1.0, 0.5, -0.2]
 
 
 def write(path, columns: dict[str, np.ndarray]) -> None:
@@ -67,8 +73,7 @@ def seen(arm, folder):
     random = np.random.default_rng(8)
     joints = MIDDLE + SEEN * random.uniform(-1, 1, (ROWS, 3))
     positions = true_positions(arm, joints) + NOISE * random.standard_normal((ROWS, 3))
-    turned = positions @ np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]]) + [1.0, 0.5, -0.2]
-    write(folder / "measurements.csv", table(arm, joints, turned))
+    write(folder / "measurements.csv", table(arm, joints, to_instrument(positions)))
     return joints
 
 
@@ -85,12 +90,19 @@ def calibrated(arm, seen, folder):
 def test_a_calibration_is_a_folder_of_files(calibrated):
     files = {path.name for path in calibrated.iterdir()}
     expected = {"summary.txt", "arm.urdf", "correction.npz", "parameters.csv", "parameters.json"}
-    assert expected | {"joint_offsets.csv", "rows.csv", "page.html", "recording.rrd"} == files
+    expected |= {"joint_offsets.csv", "rows.csv", "page.html", "recording.rrd", "frames.csv"}
+    assert expected == files
     told = json.loads((calibrated / "parameters.json").read_text())
     best = [row for row in told["errors"] if row["chosen"] and row["folds"] == "at random"]
     assert best[0]["mean"] < 4e3 * NOISE
-    _, verdict, *_ = (calibrated / "summary.txt").read_text().splitlines()
-    assert verdict.startswith("On rows that were not learned from")
+    first, verdict, *others = (calibrated / "summary.txt").read_text().splitlines()
+    digest = hashlib.sha256(ARM.encode()).hexdigest()[:12]
+    assert first == f"{calibrated.parent / 'arm.urdf'} (sha256 {digest}), link_4 in base"
+    errors = {row["folds"]: row["mean"] for row in told["errors"] if row["chosen"]}
+    assert verdict.startswith("On postures away from those measured, the mean error falls from ")
+    assert f" to {errors['in blocks']:.3g} mm, 95 % within " in verdict
+    assert verdict.endswith(f"; near them, to {errors['at random']:.3g} mm.")
+    assert next(line for line in others if line.startswith("in blocks"))
 
 
 def test_data_decide_no_more_parameters_than_they_can_tell_apart(calibrated):
@@ -136,7 +148,26 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis} [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
-    assert "warning" not in capsys.readouterr().err
+    assert "leave the range" not in capsys.readouterr().err
+
+
+def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
+    calibrated, arm, folder, capsys
+):
+    joints = MIDDLE + 0.8 * SEEN * np.random.default_rng(10).uniform(-1, 1, (10, 3))
+    goals = to_instrument(true_positions(arm, joints))
+    write(folder / "seen.csv", {f"{a} [mm]": 1e3 * goals[:, i] for i, a in enumerate("xyz")})
+    desired, out = str(folder / "seen.csv"), folder / "seen_commands.csv"
+    arguments = ["correct", str(calibrated), desired, f"--out={out}"]
+    assert main([*arguments, "--frame=instrument"]) == DONE
+    sent = read(out)
+    commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
+    reached = to_instrument(true_positions(arm, commanded))
+    assert np.abs(reached - goals).max() < 6 * NOISE
+    assert "could not be told" not in capsys.readouterr().err
+    main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={out}"])
+    told = capsys.readouterr().err
+    assert "warning: the arm's base and the tool link could not be told from errors" in told
 
 
 def test_what_is_out_of_reach_is_refused_by_its_row(calibrated, folder, capsys):
@@ -175,7 +206,7 @@ def test_candidates_none_of_which_is_of_use_are_refused(calibrated, folder, caps
     write(folder / "away.csv", {"x [m]": [9, 8], "y [m]": [0, 0], "z [m]": [0, 0]})
     assert main(["next", str(calibrated), str(folder / "away.csv")]) == REFUSED
     told = capsys.readouterr().err
-    assert told.startswith("recalib: candidates is '2, none of use'; valid: some within reach")
+    assert told.startswith("recalib: candidates is '2 postures of no use'; valid: within reach")
 
 
 def test_an_arm_without_errors_is_left_alone(arm, seen, folder, capsys):

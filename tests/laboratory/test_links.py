@@ -45,7 +45,7 @@ def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
     ("text", "message"),
     [
         (TABLE.replace("d [cm]", "d [deg]"), r"'d' is in 'deg'; valid: d \[cm\]"),
-        (TABLE.replace("theta [rad]", "offset [rad]"), "nobody knows column 'offset'"),
+        (TABLE.replace("theta [rad]", "offset [rad]"), "unknown column 'offset'"),
         (f"{HEADER}\nwaist,1,2,3\n", "row 1 has 4 cells; valid: 5"),
         ("joint,a [mm],d [mm]\nwaist,1,2\n", "column 'alpha' is missing"),
         (TABLE.replace("prismatic", "helical"), "row 3 of column 'kind' is 'helical'; valid: rev"),

@@ -100,7 +100,7 @@ REFUSED = {
     ),
     "a joint is unknown": (
         lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
-        "nobody knows column 'elbow'; valid: rail, wrist, x, y, z",
+        "unknown column 'elbow'; valid: one of 20, such as rail, wrist and x",
     ),
     "no unit": (
         lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},
@@ -124,7 +124,7 @@ REFUSED = {
     ),
     "millimetres for metres": (
         lambda: joints() | {f"{axis} [m]": [430] * ROWS for axis in "xyz"},
-        "row 1 of column 'x' is 430 m; valid: up to 10 m, so that the unit may be another one",
+        "row 1 of column 'x' is 430 m; valid: up to 10 m. Is its unit right?",
     ),
     "degrees for radians": (
         lambda: {"rail [mm]": range(ROWS), "wrist [rad]": [*[0] * 9, 57]} | positions(),
@@ -132,11 +132,11 @@ REFUSED = {
     ),
     "a coordinate is missing": (
         lambda: joints() | {"x [mm]": range(ROWS), "z [mm]": range(ROWS)},
-        "it has x, z and lacks y beside it",
+        "y is missing: x, y and z are needed together",
     ),
     "half a rotation": (
         lambda: joints() | positions() | {"rx [deg]": range(ROWS), "ry [deg]": range(ROWS)},
-        "it has rx, ry and lacks rz beside it",
+        "rz is missing: rx, ry and rz are needed together",
     ),
     "two rotations": (
         lambda: (

@@ -116,6 +116,18 @@ def test_origins_are_replaced_or_added_whatever_they_look_like():
     assert text == expected.replace('<joint name="b">', f'<joint name="b">\n    {new}', 1)
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "iso-8859-1", "utf-16", "gbk"])
+def test_whatever_it_is_encoded_in_every_other_byte_stays(encoding):
+    letters = "机" if encoding == "gbk" else "ä"
+    text = ORIGINS.replace('version="1.0"', f'version="1.0" encoding="{encoding}"')
+    text = text.replace("kept", letters) + f"<!-- {letters} </robot> -->"
+    added = f"<!-- {letters} -->"
+    changed = with_origins(text.encode(encoding), {"a": np.eye(4)}, added).decode(encoding)
+    start, end = text.index("<origin"), text.index("<parent")
+    new = '<origin xyz="0 0 0" rpy="0 0 0"/>'
+    assert changed == (text[:start] + new + text[end:]).replace("</robot>", f"{added}</robot>", 1)
+
+
 @pytest.mark.parametrize("pitch", [0.3, np.pi / 2, -np.pi / 2, np.pi / 2 - 1e-9, 1.57079632679])
 def test_angles_give_the_turn_back_even_where_yaw_and_roll_are_one(pitch):
     pose = np.eye(4)

@@ -1,4 +1,5 @@
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -6,6 +7,7 @@ import pytest
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import find_urdf, origin
 from tests.arms import GANTRY, SCARA, urdf
 
 # Of example-robot-data: the tool, and how many joints move it.
@@ -165,8 +167,10 @@ def test_of_several_ends_the_tool_has_to_be_named():
 def test_a_path_to_nothing_is_told_without_the_names_that_would_do(tmp_path):
     with pytest.raises(InvalidFile, match=r"my_arm.urdf: there is no such file$"):
         load_arm(tmp_path / "my_arm.urdf")
-    with pytest.raises(UnknownName, match=r"'my_arm.urdf'; valid: .*ur10_robot.urdf"):
+    with pytest.raises(UnknownName, match=r"'my_arm.urdf'; valid: one of 68, such as "):
         load_arm("my_arm.urdf")
+    with pytest.raises(UnknownName, match=r"'urr5_robot.urdf'; did you mean ur5_robot.urdf\?$"):
+        load_arm("urr5_robot.urdf")
 
 
 def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
@@ -174,3 +178,29 @@ def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
     camera = '<link name="camera"/><joint name="mount" type="fixed"><parent link="base"/>'
     beside = GANTRY.replace("</robot>", f'{camera}<child link="camera"/></joint></robot>')
     assert load(beside).tool == load(GANTRY).tool
+
+
+def test_a_file_of_ones_own_comes_before_one_of_a_package(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    packaged = find_urdf("panda.urdf")
+    assert packaged.is_absolute() and origin("panda.urdf", b"").startswith(
+        "panda.urdf of the package example-robot-data (sha256 e3b0c44298fc"
+    )
+    own = packaged.read_text().replace("0 0 0.333", "0 0 0.999")
+    (tmp_path / "panda.urdf").write_text(own)
+    assert find_urdf("panda.urdf") == Path("panda.urdf")
+    assert load_arm("panda.urdf", "panda_link8").model.jointPlacements[1].translation[2] == 0.999
+    assert origin("panda.urdf", own.encode()).startswith("panda.urdf (sha256 ")
+
+
+def test_what_is_no_file_of_ones_own_is_not_passed_over(tmp_path, monkeypatch):
+    """A link to nothing is meant; a folder may be a package's that has a description of its own."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "panda.urdf").symlink_to("gone.urdf")
+    with pytest.raises(InvalidFile, match=r"panda.urdf: No such file"):
+        load_arm("panda.urdf", "panda_link8")
+    (tmp_path / "panda.urdf").unlink()
+    (tmp_path / "panda.urdf").mkdir()
+    assert find_urdf("panda.urdf").is_absolute()
+    with pytest.raises(InvalidFile, match="it is a folder; expected: a file"):
+        load_arm(tmp_path)

@@ -10,7 +10,8 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.observations import Observations
 from recalib.laboratory.description import read_description
 from recalib.laboratory.measurements import read_measurements
-from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm
 from tests.identification.bars import ARMS
 from tests.identification.real import NOISE, Real

@@ -8,7 +8,8 @@ import pytest
 import scipy.linalg
 
 from recalib.identification.observations import Observations
-from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm
 from tests.identification.bars import ARMS
 from tests.identification.real import Real, anywhere

@@ -15,6 +15,8 @@ from tests.conftest import ROOT
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
 
+NAMED = "workflow/expected.csv", "workflow/shipped.json", "workflow/real/ur5.toml"
+
 
 def make(folder, *arguments) -> subprocess.CompletedProcess:
     """What make would do."""
@@ -26,8 +28,8 @@ def make(folder, *arguments) -> subprocess.CompletedProcess:
 @pytest.fixture
 def project(tmp_path):
     """What the commands of the page see of the project."""
-    for part in ("Makefile", "config.yaml", "workflow/expected.csv", "workflow/shipped.json"):
-        (tmp_path / part).parent.mkdir(exist_ok=True)
+    for part in ("Makefile", "config.yaml", *NAMED):
+        (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / part, tmp_path / part)
     shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
     (tmp_path / "my_arm.yaml").write_text(STUDY, encoding="utf-8")
@@ -46,7 +48,7 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
 def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
     path = project / "my_arm.yaml"
     path.write_text(STUDY.replace("forearm_link", "forearm"), encoding="utf-8")
-    with pytest.raises(InvalidConfiguration, match=r"my_arm.yaml:6:8: .* did you mean forearm_li"):
+    with pytest.raises(InvalidConfiguration, match=r"my_arm.yaml:6:8: .* valid: base_link, fore"):
         read_studies(project, [path], {})
 
 

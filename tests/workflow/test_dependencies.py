@@ -1,4 +1,5 @@
 import ast
+import os
 
 import pytest
 
@@ -75,3 +76,20 @@ def test_an_edited_module_changes_the_digest(tmp_path, monkeypatch):
     assert len(seen) == 2
     assert dependencies.modules("a.py")[-1] == "workflow/scripts/a.py"
     assert {"recalib/one.py", "recalib/two.py"} <= {*dependencies.modules("a.py")}
+
+
+def test_a_source_counts_by_what_stands_in_it_whatever_its_date(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    template, digest, seen = tmp_path / "page.md.j2", dependencies.made_from("page.py"), []
+    for written in ("as it was", "edited", "as it was"):
+        template.write_text(written)
+        os.utime(template, (0, 0))
+        dependencies._digest.cache_clear()
+        seen.append(digest(None, [template.name, "results/claims.json", "not_there.csv"]))
+    assert seen[0] == seen[2] != seen[1]
+
+
+def test_every_rule_with_a_script_counts_its_sources():
+    for path in (ROOT / "workflow" / "rules").glob("*.smk"):
+        text = path.read_text(encoding="utf-8")
+        assert text.count("    script:\n") == text.count(" made_from(") + text.count("=made_from(")

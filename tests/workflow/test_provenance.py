@@ -42,8 +42,10 @@ DEPENDS = {
     " study_mapping study_replay",
     "settings": f"{TRAINED} {EVIDENCE}",
     "expected": "check",
+    "robots.ur10.urdf": f"{NOMINAL} design ensemble_chunk recording",  # its meshes are drawn
     "robots.ur10.*": f"{NOMINAL} design ensemble_chunk",
     "robots.ur5.*": f"{NOMINAL} design real_run real_twin",
+    "robots.ur3.urdf": f"{NOMINAL} recording",
     "robots.ur3.*": NOMINAL,
     "robots.jaco.*": "design",
     "robots.puma560.*": "design",
@@ -190,6 +192,7 @@ class Workflow:
             self._names["PLANS"][root] = Plan(study)
             self._names["TRAININGS"][root] = Trainings(study)
         self._names["sample_at"].cache_clear()
+        self._names["recording_of"].cache_clear()
 
     def sample(self, studies, name):
         """Where the searches for a training of the shipped study lie, were these the studies."""
@@ -202,8 +205,9 @@ class Workflow:
         return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
 
     def _job(self, rule, wildcards):
+        params = [its for name, its in rule.params.items() if name != "code"]
         try:
-            answers = [each(wildcards) for each in (*rule.input, *rule.params) if callable(each)]
+            answers = [each(wildcards) for each in (*rule.input, *params) if callable(each)]
         except Exception as error:  # a job that no longer makes sense is one that has changed
             return repr(error)
         return [sorted(map(str, each)) if isinstance(each, list) else each for each in answers]

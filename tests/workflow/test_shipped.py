@@ -14,12 +14,12 @@ from tests.conftest import ROOT
 
 @pytest.fixture
 def project(tmp_path, monkeypatch):
-    """The configuration of the project; its robots were asked before."""
-    for part in ("config.yaml", LOCK, "workflow/expected.csv"):
-        (tmp_path / part).parent.mkdir(exist_ok=True)
+    """The configuration of the project; its robots are not asked."""
+    for part in ("config.yaml", LOCK, "workflow/expected.csv", "workflow/real/ur5.toml"):
+        (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / part, tmp_path / part)
     shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
-    monkeypatch.setattr(studies, "_check_robots_once", lambda project, study: [])
+    monkeypatch.setattr(studies, "ask_robots", lambda study, scenarios: [])
     return tmp_path
 
 

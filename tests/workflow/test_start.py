@@ -30,8 +30,8 @@ STARTS = {
         "pandas"
     },
     "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
-    "study_mapping study_replay train universe efforts": ARMS,
-    "horizon reference": ARMS,
+    "study_mapping study_replay train universe efforts": ARMS - {"scipy.spatial"},
+    "horizon reference": ARMS - {"scipy.spatial"},
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
     "film pictures": {"rerun"},

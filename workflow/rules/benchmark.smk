@@ -8,7 +8,7 @@ rule benchmark_run:
     output:
         LAYOUT.benchmark_batch("{learner}", "{batch}"),
     params:
-        code=code("benchmark.py"),
+        code=made_from("benchmark.py"),
         job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     threads: 1
     resources:
@@ -31,7 +31,7 @@ rule benchmark_table:
         reached=LAYOUT.benchmark_moves,
         seconds=LAYOUT.benchmark_seconds,
     params:
-        code=code("benchmark_table.py"),
+        code=made_from("benchmark_table.py"),
         job=lambda w: as_text(plan(w).benchmark_table()),
     localrule: True
     message:
@@ -44,7 +44,7 @@ rule real_data:
     output:
         LAYOUT.real_data("{part}"),
     params:
-        code=code("real_data.py"),
+        code=made_from("real_data.py"),
         job=lambda w: as_text(plan(w).real_data(w.part)),
     wildcard_constraints:
         part="fit|test",
@@ -63,7 +63,7 @@ rule real_run:
     output:
         LAYOUT.real_run("{learner}"),
     params:
-        code=code("real_run.py"),
+        code=made_from("real_run.py"),
         job=lambda w: as_text(plan(w).real_run(w.learner)),
     threads: 1
     resources:
@@ -82,7 +82,7 @@ rule real_twin:
     output:
         LAYOUT.real_twin("{learner}"),
     params:
-        code=code("real_twin.py"),
+        code=made_from("real_twin.py"),
         job=lambda w: as_text(plan(w).real_twin(w.learner)),
     threads: 1
     resources:
@@ -102,7 +102,7 @@ rule real_table:
     output:
         LAYOUT.real,
     params:
-        code=code("real_table.py"),
+        code=made_from("real_table.py"),
         job=lambda w: as_text(plan(w).real_table()),
     localrule: True
     message:

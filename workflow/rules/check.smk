@@ -8,7 +8,7 @@ rule check:
     output:
         LAYOUT.check,
     params:
-        code=code("check.py"),
+        code=made_from("check.py"),
     localrule: True
     message:
         "Check the final errors against {input.expected}"
@@ -22,7 +22,7 @@ rule expect:
     output:
         LAYOUT.expected,
     params:
-        code=code("expect.py"),
+        code=made_from("expect.py"),
     localrule: True
     message:
         "Propose new bands for the check"

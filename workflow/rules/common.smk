@@ -30,7 +30,7 @@ from recalib.study.layout import RESULTS, SEARCHED, Layout
 from recalib.study.plan import Plan
 from recalib.study.studies import ask_robots, read_studies
 from recalib.study.trainings import Trainings
-from workflow.dependencies import code
+from workflow.dependencies import made_from
 
 try:
     # by the folder of their results: the shipped one, those of workflow/studies, and this call's

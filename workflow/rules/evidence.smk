@@ -27,7 +27,7 @@ rule summary:
     output:
         LAYOUT.summary,
     params:
-        code=code("summarise.py"),
+        code=made_from("summarise.py"),
         job=lambda w: as_text(plan(w).summary()),
     localrule: True
     message:
@@ -42,7 +42,7 @@ rule claims:
     output:
         LAYOUT.claims,
     params:
-        code=code("claims.py"),
+        code=made_from("claims.py"),
         job=lambda w: as_text(judging(request(w.root))),
     threads: 1
     resources:
@@ -63,7 +63,7 @@ rule outcome:
     output:
         LAYOUT.outcome,
     params:
-        code=code("outcome.py"),
+        code=made_from("outcome.py"),
         job=lambda w: as_text(outcome_needs(w)),
     localrule: True
     message:
@@ -83,7 +83,7 @@ rule page:
     output:
         LAYOUT.page("{page}"),
     params:
-        code=code("page.py"),
+        code=made_from("page.py"),
         job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),

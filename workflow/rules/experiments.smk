@@ -9,7 +9,7 @@ rule train:
         history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
         learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
     params:
-        code=code("train.py"),
+        code=made_from("train.py"),
         job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     threads: 1
     resources:
@@ -38,7 +38,7 @@ rule run:
         history=LAYOUT.history("{scenario}", "{learner}"),
         learned=LAYOUT.learned("{scenario}", "{learner}"),
     params:
-        code=code("gather.py"),
+        code=made_from("gather.py"),
     localrule: True
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
@@ -52,7 +52,7 @@ rule ensemble_chunk:
     output:
         LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
     params:
-        code=code("ensemble.py"),
+        code=made_from("ensemble.py"),
         job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     threads: 1
     resources:
@@ -72,7 +72,7 @@ rule ensemble:
     output:
         LAYOUT.ensemble("{series}", "{learner}"),
     params:
-        code=code("concat.py"),
+        code=made_from("concat.py"),
     localrule: True
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
@@ -87,7 +87,7 @@ rule bench:
     output:
         LAYOUT.bench,
     params:
-        code=code("bench.py"),
+        code=made_from("bench.py"),
         job=lambda w: as_text(plan(w).speed(MEASURED)),
     threads: 1
     resources:

@@ -10,7 +10,7 @@ rule study_mapping:
         propagation=LAYOUT.mapping("propagation"),
         quantisation=LAYOUT.mapping("quantisation"),
     params:
-        code=code("study_mapping.py"),
+        code=made_from("study_mapping.py"),
         job=lambda w: as_text(plan(w).true_mapping()),
     threads: 1
     resources:
@@ -25,7 +25,7 @@ rule study_visits:
     output:
         LAYOUT.mapping("visits"),
     params:
-        code=code("study_visits.py"),
+        code=made_from("study_visits.py"),
         job=lambda w: as_text(plan(w).visits()),
     threads: 1
     resources:
@@ -43,7 +43,7 @@ rule study_replay:
     output:
         LAYOUT.mapping("replay"),
     params:
-        code=code("study_replay.py"),
+        code=made_from("study_replay.py"),
         job=lambda w: as_text(plan(w).replay()),
     threads: 1
     resources:

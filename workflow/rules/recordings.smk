@@ -1,8 +1,14 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
 
+@cache
+def recording_of(root, recording):
+    """What is recorded: asked once, since it knows what stands in the meshes that are drawn."""
+    return PLANS[root].recording(recording)
+
+
 def recorded(wildcards):
-    return plan(wildcards).recording(wildcards.recording)
+    return recording_of(wildcards.root, wildcards.recording)
 
 
 rule recording:
@@ -15,7 +21,7 @@ rule recording:
     output:
         LAYOUT.recording("{recording}"),
     params:
-        code=code("record.py"),
+        code=made_from("record.py"),
         job=lambda w: as_text(recorded(w)),
     threads: 1
     resources:
@@ -55,7 +61,7 @@ rule before_and_after:
             labels={"picture": "2: after recalibration"},
         ),
     params:
-        code=code("pictures.py"),
+        code=made_from("pictures.py"),
     localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
@@ -69,7 +75,7 @@ rule film:
     output:
         LAYOUT.figure("{recording}", ".webp"),
     params:
-        code=code("film.py"),
+        code=made_from("film.py"),
     localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"

@@ -87,7 +87,7 @@ for root_ in STUDIES:
             ],
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
         params:
-            code=code("report_pages.py"),
+            code=made_from("report_pages.py"),
             kept=kept_in(root_),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
         localrule: True

@@ -9,7 +9,7 @@ rule assignments:
         table=LAYOUT.assignments("{robot}"),
         assignment=LAYOUT.assignments("{robot}", ".json"),
     params:
-        code=code("assign.py"),
+        code=made_from("assign.py"),
         job=lambda w: as_text(plan(w).assignments(w.robot)),
     threads: 1
     resources:
@@ -33,7 +33,7 @@ rule scenario:
     output:
         LAYOUT.scenario("{scenario}"),
     params:
-        code=code("scenario.py"),
+        code=made_from("scenario.py"),
         job=lambda w: as_text(plan(w).scenario(w.scenario)),
     threads: 1
     resources:

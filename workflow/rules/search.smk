@@ -28,7 +28,7 @@ rule search:
     output:
         LAYOUT.search_chunk("{training}", "{chunk}"),
     params:
-        code=code("search.py"),
+        code=made_from("search.py"),
         job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
     threads: 1
     resources:
@@ -48,7 +48,7 @@ rule search_sample:
     output:
         LAYOUT.searched("{training}"),
     params:
-        code=code("search_sample.py"),
+        code=made_from("search_sample.py"),
         job=lambda w: as_text(plan(w).sample(w.training)),
     localrule: True
     message:

@@ -57,7 +57,7 @@ rule design:
     output:
         LAYOUT.campaign("design"),
     params:
-        code=code("design.py"),
+        code=made_from("design.py"),
         job=lambda w: as_text(plan(w).design()),
     threads: 1
     resources:
@@ -72,7 +72,7 @@ rule power:
     output:
         LAYOUT.campaign("power"),
     params:
-        code=code("power.py"),
+        code=made_from("power.py"),
         setups=lambda w: study(w).universes.count,
         replicates=lambda w: study(w).universes.replicates,
     threads: 1
@@ -88,7 +88,7 @@ rule universe:
     output:
         LAYOUT.campaign_chunk("outcomes", "{number}"),
     params:
-        code=code("universe.py"),
+        code=made_from("universe.py"),
         job=lambda w: as_text(universe_of(w)),
     threads: 1
     resources:
@@ -103,7 +103,7 @@ rule horizon:
     output:
         LAYOUT.campaign_chunk("horizon", "{number}"),
     params:
-        code=code("horizon.py"),
+        code=made_from("horizon.py"),
         job=lambda w: as_text(universe_of(w)),
     threads: 1
     resources:
@@ -120,7 +120,7 @@ rule piece:
     output:
         LAYOUT.campaign("{table}_{piece}"),
     params:
-        code=code("piece.py"),
+        code=made_from("piece.py"),
         design=lambda w: digest(ROOT / DESIGN),
     localrule: True
     message:
@@ -149,7 +149,7 @@ rule reference_replicate:
     output:
         LAYOUT.campaign_chunk("reference", "{number}"),
     params:
-        code=code("reference.py"),
+        code=made_from("reference.py"),
         study=lambda w: study(w).model_dump_json(),
     threads: 1
     resources:
@@ -167,7 +167,7 @@ rule efforts_of:
     output:
         LAYOUT.campaign_chunk("efforts", "{training}"),
     params:
-        code=code("efforts.py"),
+        code=made_from("efforts.py"),
         job=lambda w: as_text(plan(w).efforts(w.training)),
     threads: 1
     resources:
@@ -184,7 +184,7 @@ rule reference:
     output:
         Layout(MAIN).campaign("reference"),
     params:
-        code=code("piece.py"),
+        code=made_from("piece.py"),
     localrule: True
     script:
         "../scripts/piece.py"
@@ -196,7 +196,7 @@ rule efforts:
     output:
         Layout(MAIN).campaign("efforts"),
     params:
-        code=code("piece.py"),
+        code=made_from("piece.py"),
     localrule: True
     script:
         "../scripts/piece.py"

@@ -19,10 +19,10 @@ from recalib.spelling import nearest
 from recalib.study.configuration.part import Frozen, Part
 from recalib.study.configuration.units import (
     Amount,
-    Angle,
     Compliance,
     Length,
     Share,
+    SignedTurn,
     Text,
     Turn,
 )
@@ -43,7 +43,7 @@ class Assigned(Part):
 _TYPES = {
     (LENGTH, True): Length,
     (LENGTH, False): Amount,
-    (ANGLE, True): Angle,
+    (ANGLE, True): SignedTurn,
     (ANGLE, False): Turn,
     (COMPLIANCE, False): Compliance,
 }

@@ -3,14 +3,14 @@
 Apart from the other checks, since it loads the robots, and asks of them what is to be run.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 
 import numpy as np
 
 from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.damaged.words import words
-from recalib.errors import InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
@@ -41,10 +41,11 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
         except RecalibError as error:
             found.append(_of_robot(name, error))
         else:
-            found += _of_links(robots[name], entry.links)
-            found += _of_slides(robots[name])
+            slides = list(_of_slides(robots[name]))
+            found += slides or _of_links(robots[name], entry.links)
     if found:
         return found
+    assigned = []
     for name in dict.fromkeys(robot for _, robot in used):
         try:
             Controller(robots[name], study.controller.greatest_condition)
@@ -55,7 +56,9 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
         for scenario in its:
             found += _of_scenario(study, scenario, robots[name])
         if any(isinstance(entry, Assigned) for each in its for entry in study.scenarios[each]):
-            found += _of_assignment(study, robots[name])
+            assigned.append(robots[name])
+    if assigned and not found:
+        found += _of_assignment(study, assigned)
     if study.experiments.evidence and not found:
         found += _of_mapping(robots[study.robot])
         found += _of_series(study, robots[study.robot])
@@ -72,6 +75,8 @@ def _of_robot(name: str, error: RecalibError) -> Mistake:
                 return unknown(("robots", name, *path), error.name, error.valid)
             stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
             return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
+        case InvalidFile():
+            return unlike(("robots", name, "urdf"), error.path, "a file that is there")
         case InvalidSetting(key="home"):
             return Mistake(("robots", name, "home"), f" lacks joints; valid: {error.valid}")
         case InvalidSetting():
@@ -133,27 +138,40 @@ def _of_slides(robot: Robot) -> Iterator[Mistake]:
             yield Mistake(("robots", robot.name, "home", joint), " slides; valid: joints that turn")
 
 
-def _of_assignment(study: Study, robot: Robot) -> Iterator[Mistake]:
+def _of_assignment(study: Study, robots: Sequence[Robot]) -> Iterator[Mistake]:
     """Too few links or joints, or links that are too short, for the paper's damage."""
-    damage, links = study.paper_damage, study.robots[robot.name].links
-    path, key = ("robots", robot.name, "links"), ("paper_damage", "shorten")
-    if len(damage.shift) > len(robot.joints):
-        fault = f" is a list of {len(damage.shift)}; valid: at most {len(robot.joints)} on the"
-        yield Mistake(("paper_damage", "shift"), f"{fault} {robot.name}")
-    if len(damage.shorten) > len(links):
-        few = f" is a list of {len(links)}; valid: {len(damage.shorten)} or more, one for each"
-        fault = f" is a list of {len(damage.shorten)}; valid: at most {len(links)} on the"
-        other = Mistake(path, f"{few} length of paper_damage.shorten")
-        yield Mistake(key, f"{fault} {robot.name}", other)
-    ends = (link_end(robot.arm.model, robot.arm.tool, robot.links[link]) for link in links)
-    whole = dict(zip(links, (100 * np.linalg.norm(end) for end in ends), strict=True))
-    most, shortest = max(damage.shorten), min(whole, key=whole.get)
-    if 100 * most >= whole[shortest]:
-        valid = f"below {whole[shortest]:.2f} cm, the length of {shortest} on the {robot.name}"
-        short = (f"{link}, {its:.2f} cm long" for link, its in whole.items() if 100 * most >= its)
+    damage = study.paper_damage
+    places = {robot.name: study.robots[robot.name].links for robot in robots}
+    joints = {robot.name: robot.joints for robot in robots}
+    for key, amounts, those in (
+        ("shorten", damage.shorten, places),
+        ("shift", damage.shift, joints),
+    ):
+        name = min(those, key=lambda each, those=those: len(those[each]))
+        if len(amounts) > len(those[name]):
+            few, many = f" is a list of {len(those[name])}", f" is a list of {len(amounts)}"
+            needed = f"{len(amounts)} or more, one for each length of paper_damage.shorten"
+            other = Mistake(("robots", name, "links"), f"{few}; valid: {needed}")
+            fault = f"{many}; valid: at most {len(those[name])} on the {name}"
+            yield Mistake(("paper_damage", key), fault, other if key == "shorten" else None)
+    whole = {
+        (robot.name, link): np.linalg.norm(
+            link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+        )
+        for robot in robots
+        for link in places[robot.name]
+    }
+    most, (name, link) = max(damage.shorten), min(whole, key=whole.get)
+    if most >= whole[name, link]:
+        valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
+        short = (
+            f"{each}, {100 * length:.2f} cm long"
+            for (its, each), length in whole.items()
+            if its == name and most >= length
+        )
         longer = f"longer than {LENGTH.write(most)}, which paper_damage.shorten takes off"
-        other = Mistake(path, f" has {listed(short, 'and')}; valid: {longer}")
-        key = (*key, damage.shorten.index(most))
+        other = Mistake(("robots", name, "links"), f" has {listed(short, 'and')}; valid: {longer}")
+        key = "paper_damage", "shorten", damage.shorten.index(most)
         yield unlike(key, LENGTH.write(most), valid)._replace(other=other)
 
 

@@ -30,6 +30,7 @@ from recalib.study.configuration.units import (
     Seed,
     SeriesName,
     Several,
+    Side,
     Size,
     SomeDistinct,
     StudyName,
@@ -47,7 +48,7 @@ Filled = Field(min_length=1)
 class Workspace(Part):
     """Full size of the workspace."""
 
-    position: tuple[Size, Size, Size]
+    position: tuple[Side, Side, Side]
     """Along the base's x, y and z."""
     orientation: tuple[Range, Range, Range]
     """Of roll, pitch and yaw, or along the axes of rotation vectors."""

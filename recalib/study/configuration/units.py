@@ -59,8 +59,11 @@ Length = _quantity(LENGTH, "from -100 to 100 m", "-4 cm", Ge(-100.0), Le(100.0))
 Size = _quantity(LENGTH, "above 0 and up to 100 m", "4 cm", Gt(0.0), Le(100.0))
 Amount = _quantity(LENGTH, "from 0 to 100 m", "0.2 mm", Ge(0.0), Le(100.0))
 Angle = _quantity(ANGLE, "from -100 to 100 rad", "-3 deg", Ge(-100.0), Le(100.0))
-Range = _quantity(ANGLE, "above 0 and up to 180 deg", "40 deg", Gt(0.0), Lt(3.15))
 Turn = _quantity(ANGLE, "from 0 to 180 deg", "0.02 deg", Ge(0.0), Le(3.15))
+SignedTurn = _quantity(ANGLE, "from -180 to 180 deg", "-3 deg", Ge(-3.15), Le(3.15))
+# of a workspace: in units of a smaller one, damages would be out of all proportion
+Side = _quantity(LENGTH, "from 1 mm to 100 m", "40 cm", Ge(1e-3), Le(100.0))
+Range = _quantity(ANGLE, "from 0.1 to 180 deg", "40 deg", Ge(1e-3), Lt(3.15))
 Compliance = _quantity(COMPLIANCE, "from 0 to 1 rad/Nm", "0.0002 rad/Nm", Ge(0.0), Le(1.0))
 
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]

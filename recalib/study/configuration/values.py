@@ -102,8 +102,8 @@ def _parsed(name: str, text: str) -> Placed:
     if not isinstance(value.content, dict) or not value.content:
         problem = f"{shown(start)}: no configuration; valid: keys with their values"
         raise InvalidConfiguration([problem])
-    if loader.twice:
-        raise InvalidConfiguration(loader.twice)
+    if loader.wrong:
+        raise InvalidConfiguration(loader.wrong)
     return value
 
 
@@ -130,14 +130,14 @@ class _Loader(yaml.SafeLoader):
     """PyYAML's, with the words of YAML 1.2.
 
     Attributes:
-        twice: what is wrong with keys that stand twice.
+        wrong: with keys, which PyYAML takes as they are.
     """
 
     yaml_implicit_resolvers: dict = {}  # noqa: RUF012 as PyYAML declares it
 
     def __init__(self, text: str):
         super().__init__(text)
-        self.twice: list[str] = []
+        self.wrong: list[str] = []
 
     def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Placed:
         """What a node says."""
@@ -169,7 +169,7 @@ class _Loader(yaml.SafeLoader):
                 where = shown(_place(self.name, key.start_mark))
                 line = first[key.value].start_mark.line + 1
                 stands = f"{dotted((*path, key.value))} stands twice, first in line {line}"
-                self.twice.append(f"{where}: {stands}")
+                self.wrong.append(f"{where}: {stands}")
             first[key.value] = key
         self._check_commas(node)
         self.flatten_mapping(node)  # puts in what is merged by <<
@@ -182,9 +182,11 @@ class _Loader(yaml.SafeLoader):
         """Where a number is written with a comma, YAML sees a key behind it that says nothing."""
         for (_, number), (key, nothing) in pairwise(node.value):
             if nothing.value == "" and isinstance(number.value, str) and DIGITS.match(key.value):
-                meant = f"{number.value}.{key.value}"
-                problem = f"{number.value},{key.value} has a comma; valid: a point, as in {meant}"
-                raise yaml.MarkedYAMLError(problem=problem, problem_mark=number.start_mark)
+                where = shown(_place(self.name, number.start_mark))
+                valid = f"a point, as in {number.value}.{key.value}"
+                self.wrong.append(
+                    f"{where}: {number.value},{key.value} has a comma; valid: {valid}"
+                )
 
 
 for kind, pattern, first in (

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.evidence.needs import DOUBLE
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.verdicts import Verdict, of_published
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 PUBLISHED = 70
-DOUBLE = "ritter_double"
 CELLS = {DOUBLE: "both maps together", RITTER: "one map"}  # the paper's own reading first
 # What is sought with which effort: the improved system, and Ritter's.
 EFFORTS = {

@@ -29,8 +29,12 @@ from recalib.study.layout import (
 from recalib.study.plan import Plan
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
+# Ritter's net with as many cells as both maps: where it is trained, it leads
+DOUBLE = "ritter_double"
+
 # What may be known of a study beside its results. Trainings go by their role in the paper.
 FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
+    "shipped": lambda study, _: study.name == SHIPPED,
     "seed": lambda study, _: study.seed,
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
@@ -44,7 +48,9 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "ritter": lambda _, trainings: trainings.name(RITTER),
     "short": lambda study, trainings: trainings.name(ritter_short(study)),
     "compared": lambda study, trainings: [
-        trainings.name(each) for each in (RITTER, IMPROVED) if each in study.learners
+        trainings.name(each)
+        for each in (DOUBLE if DOUBLE in study.experiments.beside else RITTER, IMPROVED)
+        if each in (*study.experiments.learners, *study.experiments.beside)
     ],
     "learners": lambda study, trainings: [
         trainings.name(each) for each in study.experiments.learners
@@ -228,16 +234,17 @@ class Request:
         """The reference study measured as the alternative setups are."""
         self._shipped("experiments.evidence: true", self._layout.shipped(REFERENCE))
 
-    def setups(self, table: str) -> None:
-        """What was measured in each alternative setup, once all of them are in.
+    def setups(self, table: str) -> bool:
+        """What was measured in each alternative setup; whether all of it is there.
 
         Args:
             table: outcomes; or horizon, how long Ritter's takes.
         """
         measured = pieces(table, self.fact("setups")[table], self._layout.shipped(SECOND))
-        if self._is_shipped and all(Path(path).exists() for path in measured):
-            for path in (DESIGN, *measured):
-                self._result(path)
+        there = self._is_shipped and all(Path(path).exists() for path in measured)
+        for path in (DESIGN, *measured) if there else ():
+            self._result(path)
+        return there
 
     def efforts(self) -> None:
         """The trainings for the factor of 70, by the effort of their searches."""

@@ -6,23 +6,32 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
-from recalib.study.evidence.claims.switches import compare, with_and_without
+from recalib.study.evidence.claims.changes import compare, with_and_without
+from recalib.study.evidence.claims.maps import SEPARATE
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, INTERVALS, at_line, legend_below, plain, title
 from recalib.study.statistics import Estimate
 
+MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
+NESTED = "maps_improved", "maps_ritter"  # columns of the reference study's replicates
+ANOTHER = ",\nanother learner"
+
 
 def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     """For each row its label, and what it does to the improved system and to Ritter's."""
-    rows = {}
-    for switch in SWITCHES if evidence.fact("switches") else ():
+    rows, own = {}, evidence.fact("switches")
+    if own and evidence.fact("shipped"):
+        measured = {across.column: across for across in SEPARATE.across.values()}
+        reference = evidence.reference()
+        rows[MAPS.label] = [measured[each].in_reference(reference) for each in NESTED]
+    for switch in OTHERS if own else ():
         pairs = with_and_without(evidence, switch).values()
         rows[switch.label] = [compare(evidence, *pair) for pair in pairs]
     for learner, look in looks(evidence.fact("beside")).items():
         others = evidence.fact("improved"), evidence.fact("short")
-        rows[f"{look.label}, a learner"] = [compare(evidence, learner, each) for each in others]
+        rows[f"{look.label}{ANOTHER}"] = [compare(evidence, learner, each) for each in others]
     return rows
 
 
@@ -36,7 +45,7 @@ def _draw(
         axes.annotate(
             f"{mean:.2f}",
             (mean, height),
-            (0, 6 if above else -7),
+            (0, 5 if above else -6),
             textcoords="offset points",
             ha="center",
             va="bottom" if above else "top",
@@ -46,12 +55,12 @@ def _draw(
         )
 
 
-def _heading(evidence: Evidence, rows: dict[str, list[Estimate]]) -> str:
+def _heading(rows: dict[str, list[Estimate]]) -> str:
     changes = [switch.label for switch in SWITCHES if switch.label in rows]
     if not changes:
         return "Figure 4: learners beside the paper's two"
     most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
-    return f"Figure 4: the four changes; the one that matters most: {most}"
+    return f"Figure 4: the paper's changes, one by one; the one that helps most: {most}"
 
 
 def figure4(evidence: Evidence) -> Figure:
@@ -60,7 +69,7 @@ def figure4(evidence: Evidence) -> Figure:
     Learners beside them have a row of their own: their error over that of either.
     """
     rows = _rows(evidence)
-    figure, axes = plt.subplots(figsize=(8, 1.2 + 0.75 * len(rows)))
+    figure, axes = plt.subplots(figsize=(8, 1.5 + 0.9 * len(rows)))
     heights = np.arange(len(rows))[::-1]
     shown = looks([IMPROVED, RITTER])
     cases = (
@@ -74,18 +83,27 @@ def figure4(evidence: Evidence) -> Figure:
     at_line(axes, "left of it: the change helps", x=1)
     axes.set(xscale=LOG, xlabel="error with the change over error without it")
     if evidence.fact("beside"):
-        axes.set_xlabel("error with the change over error without it; a learner's: over theirs")
+        axes.set_xlabel(
+            "error with the change over error without it;\n"
+            "rows of other learners: their error over that of the improved system, and of Ritter's"
+        )
     plain(axes.xaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)
     axes.set_yticks(heights, rows)
     axes.set_ylim(-0.5, len(rows) - 0.3)
     axes.grid(axis="y", visible=False)
     searches, seeds, _ = evidence.errors(evidence.fact("improved")).shape
-    title(figure, _heading(evidence, rows))
+    how = ""
+    if MAPS.label in rows:
+        how = (
+            f"\n{MAPS.label}: both searches go on from one winner;"
+            f" {len(evidence.reference())} replicates, 95 % interval of their mean"
+        )
+    title(figure, _heading(rows))
     legend_below(
         figure,
         axes,
         len(cases),
         f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"
-        f" {searches} searches each, {seeds} seeds for each winner\n{INTERVALS}",
+        f" {searches} searches each, {seeds} seeds for each winner\n{INTERVALS}{how}",
     )
     return figure

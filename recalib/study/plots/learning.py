@@ -1,6 +1,8 @@
 """Figures of errors: how they fall, and what is left of them."""
 
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -8,10 +10,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
 from recalib.study.measured import ERRORS, KINDS, UNITS, errors_of
-from recalib.study.plots.looks import looks
+from recalib.study.plots.looks import Look, looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import (
     BAND,
@@ -112,11 +115,11 @@ def figure1(evidence: Evidence) -> Figure:
 def figure2(evidence: Evidence) -> Figure:
     """The learners on logarithmic axes, and the iterations that each needs for another's errors."""
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(10, 4.8))
-    histories = {learner: evidence.history(learner) for learner in evidence.fact("learners")}
-    shown = looks(histories)
-    # Ritter's and the improved one, where both are there
-    there = [learner for learner in evidence.fact("compared") if learner in histories]
-    compared = there if len(there) == 2 else []
+    both = evidence.fact("compared")
+    compared = both if len(both) == 2 else []
+    drawn = dict.fromkeys((*evidence.fact("learners"), *both))
+    histories = {learner: evidence.history(learner) for learner in drawn}
+    shown = {learner: _by_cells(learner, look) for learner, look in looks(histories).items()}
     for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
         for learner, history in histories.items():
             table = curves(history, error)
@@ -132,7 +135,7 @@ def figure2(evidence: Evidence) -> Figure:
             reached = _reached(histories[one], [error], np.array([level]))
             axes.axhline(level, **BORDER)
             axes.annotate(
-                f"{level:.2f}: {shown[one].label} {reached}",
+                f"{level:.2f}: {shown[one].label.partition(',')[0]} after {reached}",
                 (0.02, level),
                 (0, 3),
                 xycoords=("axes fraction", "data"),
@@ -145,24 +148,34 @@ def figure2(evidence: Evidence) -> Figure:
     title(figure, f"Figure 2: {_in_one_sentence(histories, compared)}")
     runs = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
     spread = f"lines: means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %"
-    legend_below(figure, panels[0], len(histories), spread)
+    legend_below(figure, panels[0], min(len(histories), 2), spread)
     return figure
+
+
+def _by_cells(learner: str, look: Look) -> Look:
+    """Ritter's with the cells that its net has."""
+    cells = CELLS.get(re.sub(r"_\d+$", "", learner))
+    return replace(look, label=f"Ritter's, cells of {cells}") if cells else look
 
 
 def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:
     if not compared:
         return "errors over the iterations"
     ritter, improved = (histories[learner] for learner in compared)
+    cells = CELLS[re.sub(r"_\d+$", "", compared[0])]
     final = improved.groupby("iteration")[list(ERRORS)].mean().iloc[-1].to_numpy()
     reached = _reached(ritter, list(ERRORS), final)
     most = improved["iteration"].max()
-    return f"what the improved map reaches in {most:,} iterations, Ritter's reaches {reached}"
+    return (
+        f"what the improved system reaches in {most:,} iterations takes Ritter's, with as many"
+        f"\ncells as {cells}, {reached}, on the way of one long training"
+    )
 
 
 def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str:
     means = history.groupby("iteration")[errors].mean()
     first = first_within(means.index.to_numpy(), means.to_numpy(), level)
-    return f"after {first:,.0f}" if np.isfinite(first) else f"not within {means.index[-1]:,}"
+    return f"{first:,.0f}" if np.isfinite(first) else f"more than {means.index[-1]:,}"
 
 
 def figure3(evidence: Evidence) -> Figure:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from itertools import cycle
 from typing import Any
 
 from recalib.study.entrants import ENTRANTS, label_of
@@ -42,12 +43,14 @@ LOOKS = {
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
 OTHER = {"improved": ("#80B9D9", "d"), "ritter": ("#EFA07A", "^")}
-UNKNOWN = ("#999933", "X"), ("#AA4499", "p"), ("#DDCC77", "h"), ("0.4", "<"), ("#661100", ">")
+# The first is Ritter's net with the cells of both maps; to the colour-blind, too, it is unlike his.
+UNKNOWN = ("#661100", "X"), ("#DDCC77", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
 
 
 def looks(learners: Iterable[str]) -> dict[str, Look]:
     """How the learners of one figure are shown, by name."""
     found: dict[str, Look] = {}
+    unknown = cycle(UNKNOWN)
     for learner in learners:
         name = re.sub(r"_\d+$", "", learner)
         if learner in LOOKS:
@@ -56,6 +59,6 @@ def looks(learners: Iterable[str]) -> dict[str, Look]:
             color, marker = OTHER[name]
             found[learner] = replace(LOOKS[name], color=color, marker=marker, linestyle=DOTTED)
         else:
-            color, marker = UNKNOWN[len(found.keys() - LOOKS.keys()) % len(UNKNOWN)]
+            color, marker = next(unknown)
             found[learner] = Look(color, marker, DASHED, label_of(learner))
     return found

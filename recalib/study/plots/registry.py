@@ -46,9 +46,8 @@ def _figure1(ask: Request) -> None:
 
 
 def _figure2(ask: Request) -> None:
-    for learner in ask.fact("learners"):
+    for learner in (*ask.fact("learners"), *ask.fact("compared")):
         ask.history(learner)
-    ask.fact("compared")
 
 
 def _figure3(ask: Request) -> None:
@@ -60,7 +59,9 @@ def _figure4(ask: Request) -> None:
     own = ask.fact("switches"), ask.fact("beside")
     if not any(own):
         ask.lack("experiments.switches: true")
-    ask_for(ask, SWITCHES if own[0] else ())
+    if own[0] and ask.fact("shipped"):
+        ask.reference()
+    ask_for(ask, SWITCHES[1:] if own[0] else ())
     for learner in own[1] or ():
         ask.history(learner)
     ask.fact("iterations")
@@ -74,7 +75,8 @@ def _figure5(ask: Request) -> None:
 def _figure6(ask: Request) -> None:
     for role in ("improved", "ritter"):
         ask.sample(ask.fact(role))
-    ask.fact("iterations")
+    for fact in ("iterations", "rough_trials"):
+        ask.fact(fact)
 
 
 def _figure7(ask: Request) -> None:
@@ -122,8 +124,20 @@ def _figure13(ask: Request) -> None:
 
 
 def _universes(ask: Request) -> None:
-    ask.setups("outcomes")
+    for table in ("outcomes", "horizon"):
+        if not ask.setups(table):
+            ask.lack(f"universes: {table}")
     ask.fact("seed")
+
+
+def _figure14(ask: Request) -> None:
+    _universes(ask)
+    ask.claims()
+
+
+def _multiverse(ask: Request) -> None:
+    if not ask.setups("outcomes"):
+        ask.lack("universes: outcomes")
 
 
 def _nothing(ask: Request) -> None:
@@ -144,13 +158,13 @@ FIGURES: Mapping[str, Figure] = {
     "figure11": Figure(_figure11, "evidence", "elsewhere"),
     "figure12": Figure(_figure12, "benchmark", "benchmark"),
     "figure13": Figure(_figure13, "real", "benchmark"),
-    "figure14": Figure(_universes, "evidence", "universes"),
-    "figure15": Figure(_universes, "evidence", "universes"),
+    "figure14": Figure(_figure14, "evidence", "universes"),
+    "figure15": Figure(_universes, "evidence", "choices"),
     "method": Figure(_nothing, "ideas", "explained.method"),
     "fake_pose": Figure(_nothing, "ideas", "explained.fake_pose"),
     "increments": Figure(_nothing, "ideas", "explained.increments"),
     "schedule": Figure(_nothing, "ideas", "explained.schedule"),
-    "multiverse": Figure(_universes, "ideas", "explained.multiverse"),
+    "multiverse": Figure(_multiverse, "ideas", "explained.multiverse"),
 }
 
 

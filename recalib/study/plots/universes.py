@@ -1,156 +1,234 @@
-"""The figures of the multiverse: does a claim hold in every reading, and what moves it?"""
+"""The figure of the multiverse: every claim in all alternative setups."""
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-import matplotlib.pyplot as plt
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.special import ndtri
 
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.across import Across
-from recalib.study.evidence.effects import effects
+from recalib.study.evidence.claims.across import Setups
 from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
+from recalib.study.evidence.words import ranged, short
+from recalib.study.plots.sheet import SMALL, Sheet
 from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, FAILS, HOLDS, NEUTRAL, plain, title
+from recalib.study.plots.style import BORDER, HOLDS, NEUTRAL, plain
+from recalib.study.statistics import LEVEL, Estimate
 
-COLUMNS = 3
-WIDEST = 42  # characters above a panel
-SHOWN = 5  # factors of each claim
-TICKS = {  # by an axis's end
-    1.12: (1, 1.05, 1.1),
-    1.25: (1, 1.1, 1.2),
-    2.2: (1, 1.2, 1.5, 2),
-    np.inf: (1, 2, 3, 5, 10),
-}
+LEFT, PLOT, RIGHT = 3.15, 3.7, 3.65  # inches: what is claimed, its numbers, its verdict
+TALL, LESS = 0.56, 0.45  # inches of a row: of a claim, and of another system beside it
+DARK, PALE = {"dots": "0.35", "mean": NEUTRAL}, {"dots": "0.7", "mean": "0.6"}
+RANGES = {"ratio": (0.05, 4), "correlation": (-1, 1), "limit": (0.01, 10)}
+LITTLE = 1e-6  # what the arithmetic leaves
+REACH = ndtri((1 + LEVEL) / 2)  # standard deviations
 
 
-class Panel(NamedTuple):
-    """A claim, or its part about one system."""
+class Row(NamedTuple):
+    """A claim on one of its systems."""
 
-    claim: str
-    short: str
+    statement: str
     system: str
-    across: Across
-    limit: float
+    verdict: Verdict
+    setups: Setups
+    of: int
+    leads: bool
 
     @property
-    def heading(self) -> str:
-        """The claim in a line or two, and below it the system, if it is about one."""
-        return f"{textwrap.fill(self.short, WIDEST)}\n{self.system.removeprefix('the ')}"
+    def kind(self) -> str:
+        """With which others it shares an axis."""
+        bounded = {RATIO: "ratio", CORRELATION: "correlation"}
+        return bounded.get(self.setups.across.comparison, "limit")
+
+    @property
+    def right(self) -> bool:
+        """Whether the mean, whatever its interval, lies on the paper's side."""
+        mean = Estimate(*[self.setups.mean.mean] * 3)
+        return self.setups.across.comparison.side(mean) is Verdict.SUPPORTED
+
+    @property
+    def height(self) -> float:
+        """In inches."""
+        return TALL if self.leads else LESS
+
+    def placed(self, values) -> np.ndarray:
+        """Values, in the scale in which they are averaged, where they stand on the axis."""
+        values = np.asarray(values)
+        if self.kind == "correlation":
+            return values
+        return np.exp(values - self.setups.across.limit())
 
 
-def panels() -> Iterator[Panel]:
-    """All claims that universes vary, in the paper's order."""
+def rows(evidence: Evidence) -> list[Row]:
+    """All claims that choices reach, on each of their systems."""
+    judged, found = {claim["id"]: claim for claim in evidence.claims()}, []
     for claim in CLAIMS:
-        short = claim.short.split(":")[0]
-        for system, across in claim.across.items():
-            limit = float(claim.limits[across.limit])
-            yield Panel(claim.id, short, system, across, limit)
-
-
-def _grid(height: float) -> tuple[Figure, list[Axes], list[Panel]]:
-    shown = list(panels())
-    rows = -(-len(shown) // COLUMNS)
-    figure, axes = plt.subplots(rows, COLUMNS, figsize=(11, height * rows), squeeze=False)
-    for spare in axes.flat[len(shown) :]:
-        spare.remove()
-    return figure, list(axes.flat[: len(shown)]), shown
-
-
-def _within(values: pd.Series) -> pd.Series:
-    """Infinite ones, of what was not reached, a little above the others."""
-    finite = values[np.isfinite(values)]
-    return values.clip(upper=1.3 * finite.max())
+        systems = judged[claim.id]["systems"] if claim.across else {}
+        statement = judged[claim.id]["statement"]
+        for place, (system, setups) in enumerate(claim.setups(evidence).items()):
+            of = evidence.setups(setups.across.table)["universe"].nunique()
+            verdict = Verdict(systems[system]["verdict"])
+            found.append(Row(statement, system, verdict, setups, of, leads=place == 0))
+    return found
 
 
 def figure14(evidence: Evidence) -> Figure:
-    """Specification curves: what was measured for each claim in every universe, in order."""
-    figure, all_axes, shown = _grid(2.4)
-    outcomes = evidence.outcomes()
-    for axes, panel in zip(all_axes, shown, strict=True):
-        holds = panel.across.holds(outcomes, panel.limit)
-        values = _within(outcomes[panel.across.column])
-        order = np.argsort(values, kind="stable")
-        rank = np.empty(len(order))
-        rank[order] = np.arange(1, len(order) + 1)
-        for mask, color, marker in ((holds, HOLDS, "o"), (~holds, FAILS, "x")):
-            axes.scatter(rank[mask], values[mask], s=9, color=color, marker=marker, linewidth=0.8)
-        axes.axhline(panel.limit, **BORDER)
-        axes.set(yscale=LOG, xlim=(0, len(order) + 1))
-        axes.set_xticks([1, len(order)])
-        axes.set_ylabel(panel.across.number, fontsize=8)
-        axes.tick_params(labelsize=8)
-        if np.isinf(outcomes[panel.across.column]).any():
-            above = {"xy": (0.98, 0.86), "xycoords": "axes fraction", "ha": "right", "fontsize": 8}
-            axes.annotate(f"not reached: above {panel.limit:g}", **above)
-        low, high = values.min(), values.max()
-        plain(axes.yaxis, *_ticks(low, high, panel.limit))
-        side = "below" if panel.across.below else "above"
-        axes.set_title(
-            f"{panel.heading}{': ' * bool(panel.system)}"
-            f"{side} {panel.limit:g} in {holds.sum()} of {len(holds)}",
-            fontsize=9,
-        )
-    title(
-        figure,
-        "Figure 14: does each claim hold, whatever one chooses where the paper is silent?",
-        f"each sign is one of {len(outcomes)} universes: another robot, damage, convention, search"
-        " and seeds; in order of what was measured.\nGreen dots: the claim holds there; dark"
-        " crosses: it does not; the line parts them",
+    """The numbers of all setups for each claim, their mean, and what of their spread is luck."""
+    shown = rows(evidence)
+    panels = {kind: [row for row in shown if row.kind == kind] for kind in RANGES}
+    heights = [sum(row.height for row in its) for its in panels.values()]
+    sheet = Sheet((LEFT, PLOT, RIGHT), heights, _heading(shown), _explained(evidence, shown), 0.6)
+    for axes, (kind, its) in zip(sheet.panels, panels.items(), strict=True):
+        _draw(axes, its, RANGES[kind])
+        _scale(axes, kind)
+    heads = {-LEFT / PLOT: "the paper says", 1.03: "verdict", 1.32: "mean (95 % interval)"}
+    for place, head in heads.items():
+        sheet.head(place, head)
+    sheet.legend(sheet.panels[0], 2)
+    return sheet.figure
+
+
+def _heading(shown: Sequence[Row]) -> str:
+    leading = [row for row in shown if row.leads]
+    right = sum(row.right for row in leading)
+    counts = {verdict: sum(row.verdict == verdict for row in leading) for verdict in Verdict}
+    said = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+    return (
+        f"Figure 14: {right} of {len(leading)} claims have their mean on the paper's side\n({said})"
     )
-    return figure
 
 
-def _ticks(low: float, high: float, limit: float) -> list[float]:
-    """Three numbers of a logarithmic axis: the limit, and where the measurements end."""
-    found = {float(f"{limit:.2g}")}
-    for end in (low, high):
-        if abs(np.log(end / limit)) > 0.25 * np.log(max(high, limit) / min(low, limit)):
-            found.add(float(f"{end:.2g}"))
-    return sorted(found)
-
-
-def figure15(evidence: Evidence) -> Figure:
-    """What each claim depends on: the factors that move its number most."""
-    figure, all_axes, shown = _grid(2.1)
-    outcomes, design = evidence.outcomes(), evidence.design()
-    for axes, panel in zip(all_axes, shown, strict=True):
-        values = outcomes[panel.across.column]
-        axes.set_title(panel.heading.strip(), fontsize=9, loc="right")
-        if values.nunique() == 1:
-            axes.set(xticks=[], yticks=[])
-            middle = {"xy": (0.5, 0.5), "xycoords": "axes fraction", "ha": "center", "fontsize": 8}
-            axes.annotate("the same in all", **middle)
-            continue
-        luck = evidence.rng("effects", panel.claim, panel.system)
-        table = effects(values, design, luck).head(SHOWN).iloc[::-1]
-        heights = np.arange(len(table))
-        strong = table["effect"] > table["chance"]
-        axes.hlines(heights, table["low"], table["high"], color=np.where(strong, NEUTRAL, "0.6"))
-        axes.scatter(
-            table["effect"], heights, s=22, zorder=3, color=np.where(strong, NEUTRAL, "0.6")
-        )
-        axes.scatter(table["chance"], heights, s=60, marker="|", color="black", zorder=2)
-        names = [
-            f"{row.factor}: {row.least} < {row.largest}".replace("_", " ")
-            for row in table.itertuples()
-        ]
-        axes.set_yticks(heights, names, fontsize=7)
-        axes.set(xscale=LOG, xlim=(0.95, None), ylim=(-0.6, len(table) - 0.4))
-        end = axes.get_xlim()[1]
-        plain(axes.xaxis, *next(ticks for most, ticks in TICKS.items() if end < most))
-        axes.grid(axis="y", visible=False)
-        axes.tick_params(axis="x", labelsize=8)
-    title(
-        figure,
-        "Figure 15: what does each claim depend on?",
-        "for each claim the five choices that move its number most, beyond chance: from the level"
-        " where it is smallest to the one where it is largest, how many times as large?\nlines:"
-        " 95 % bootstrap intervals over universes; | : in 95 % of cases no choice without any"
-        " effect goes beyond; grey: no more than that",
+def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
+    choices, replicates = evidence.design().shape[1], evidence.setups("outcomes")["replicate"]
+    return (
+        f"The paper leaves at least {choices} choices open, such as the robot or the search. Each"
+        " dot is the whole replication made again with other choices: a setup,\nthe mean of its"
+        f" {replicates.nunique()} replicates. Bold line in the shaded part: supported, unless the"
+        " study with the choices of this project says the opposite. Paler: other systems."
     )
-    return figure
+
+
+def _draw(axes: Axes, its: Sequence[Row], limits: tuple[float, float]) -> None:
+    """Rows from above; an inch of the sheet is a unit of the axis."""
+    top = sum(row.height for row in its)
+    axes.set(ylim=(0, top), yticks=[])
+    for row in its:
+        _draw_row(axes, row, top - row.height / 2, limits)
+        top -= row.height
+
+
+def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) -> None:
+    model, look = row.setups.model, DARK if row.leads else PALE
+    comparison, ends = row.setups.across.comparison, np.array(limits)
+    (limit,) = row.placed([row.setups.across.limit()])
+    side = (limits[0], limit) if comparison.below else (limit, limits[1])
+    half = 0.47 * row.height
+    label = {"label": "here the paper is right"} if row.leads else {}
+    axes.fill_between(side, middle - half, middle + half, color=HOLDS, alpha=0.18, lw=0, **label)
+    axes.vlines(limit, middle - half, middle + half, **BORDER)
+    if comparison.bounds:
+        axes.vlines(
+            comparison.bounds,
+            middle - half,
+            middle + half,
+            color=BORDER["color"],
+            linewidth=0.8,
+            linestyle=":",
+            label="between them: too little to matter",
+        )
+    upper, lower = middle + 0.11, middle - 0.13
+    mean, luck = model.mean.mean, np.sqrt(np.square(model.luck_of_numbers).mean())
+    band = np.clip(row.placed([mean - REACH * luck, mean + REACH * luck]), *ends)
+    alone = f"luck alone: {LEVEL:.0%} of the dots, if all setups were alike".replace("%", " %")
+    axes.hlines(upper, *band, color="0.85", linewidth=15, label=alone, zorder=1)
+    _dots(axes, row.placed(np.sort(model.numbers)), upper, limits, look["dots"])
+    another = np.clip(row.placed(model.another[1:]), *ends)
+    axes.hlines(lower, *another, color=look["mean"], linewidth=0.8, label=OTHERS)
+    interval = np.clip(row.placed(model.mean[1:]), *ends)
+    axes.hlines(lower, *interval, color=look["mean"], linewidth=3, label=MEAN)
+    (at,) = np.clip(row.placed([mean]), *ends)
+    axes.scatter(at, lower, s=34, marker="D", color=look["mean"], zorder=3)
+    _write(axes, row, middle)
+
+
+OTHERS = "thin line: where 95 % of other setups would lie, without luck"
+MEAN = "diamond: mean over the setups; bold line: its 95 % interval"
+
+
+def _dots(
+    axes: Axes, numbers: np.ndarray, height: float, limits: tuple[float, float], color: str
+) -> None:
+    """Each setup a dot, spread a little in height; an arrow where it lies beyond the axis."""
+    heights = height + 0.13 * (np.arange(len(numbers)) * 0.618 % 1 - 0.5)
+    low, high = limits
+    for where, at, marker, label in (
+        ((numbers >= low) & (numbers <= high), numbers, ".", "a setup"),
+        (numbers < low, np.full_like(numbers, low), "<", None),
+        (numbers > high, np.full_like(numbers, high), ">", None),
+    ):
+        if where.any():
+            axes.scatter(
+                at[where], heights[where], s=20, marker=marker, color=color, lw=0, label=label
+            )
+
+
+def _write(axes: Axes, row: Row, middle: float) -> None:
+    setups, column = row.setups, {"fontsize": SMALL, "va": "center", "linespacing": 1.15}
+    limit = setups.across.comparison
+    against = "" if limit.bounds else f", limit {limit.limit:g}"
+    lines = [*textwrap.wrap(row.statement, 46)] if row.leads else []
+    what = "\n".join([*lines, f"{row.system}{against}"])
+    color = NEUTRAL if row.leads else "0.4"
+    edges = axes.get_yaxis_transform()
+    axes.text(-LEFT / PLOT, middle, what, transform=edges, color=color, **column)
+    weight = "bold" if row.leads else "normal"
+    axes.text(1.03, middle, row.verdict, transform=edges, color=color, weight=weight, **column)
+    axes.text(
+        1.32, middle, "\n".join(_numbers(setups, row.of)), transform=edges, color=color, **column
+    )
+
+
+def _numbers(setups: Setups, of: int) -> list[str]:
+    mean, across, measured = setups.mean, setups.across, len(setups.model.numbers)
+    number = ranged(mean.mean, mean[1:]) if mean.high > LITTLE else short(LITTLE)
+    known = f"; known in {measured} of {of}" if measured < of else ""
+    parts = {"setups": setups.model.heterogeneity.mean, "luck": setups.model.luck.mean}
+    spread = [f"{_spread(its, across.logarithmic)} by {name}" for name, its in parts.items()]
+    lines = [f"{number}{known}", f"spread {', '.join(spread)}"]
+    if (counted := setups.holds) is not None:
+        lines.append(f"in {counted[0]} of {measured} setups (luck alone: {counted[1]:.1f})")
+    return lines
+
+
+def _spread(deviation: float, logarithmic: bool) -> str:
+    """A standard deviation: as a part, or as a factor where it is large."""
+    if not logarithmic:
+        return short(deviation)
+    part = np.expm1(deviation)
+    return f"{100 * part:.0f} %" if part < 1 else f"×{1 + part:.2g}"
+
+
+def _scale(axes: Axes, kind: str) -> None:
+    logarithmic = kind != "correlation"
+    low, high = RANGES[kind]
+    label, ticks = SCALES[kind]
+    pad = (high / low) ** 0.02 if logarithmic else 0.02 * (high - low)
+    axes.set(xscale=LOG if logarithmic else "linear", xlabel=label)
+    axes.set_xlim((low / pad, high * pad) if logarithmic else (low - pad, high + pad))
+    plain(axes.xaxis, *ticks)
+    axes.tick_params(labelsize=SMALL)
+    axes.xaxis.label.set_size(SMALL + 0.5)
+    axes.spines["left"].set_visible(False)
+
+
+SCALES: Mapping[str, tuple[str, tuple[float, ...]]] = {
+    "ratio": (
+        "error with what the paper proposes over error without it",
+        (0.05, 0.1, 0.2, 0.5, 1, 2, 4),
+    ),
+    "correlation": ("rank correlation", (-1, -0.5, 0, 0.5, 1)),
+    "limit": ("what was measured over its limit", (0.01, 0.1, 1, 10)),
+}

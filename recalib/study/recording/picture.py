@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-import rerun_cli
 from PIL import Image
 from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.storage import whole
+from recalib.study.recording.viewer import PROGRAM, quiet
 
 WINDOW = 1400, 800  # pixels
 TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
@@ -61,8 +61,6 @@ def _viewer(window: tuple[int, int]) -> Iterator[ViewerClient]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    # not the script that starts it, so that it can be ended
-    binary = Path(rerun_cli.__file__).with_name("rerun")
     size = f"{window[0]}x{window[1]}"
     options = [
         "--headless",
@@ -75,7 +73,7 @@ def _viewer(window: tuple[int, int]) -> Iterator[ViewerClient]:
         size,
     ]
     with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
-        process = subprocess.Popen([binary, *options], stdout=log, stderr=log)
+        process = subprocess.Popen([PROGRAM, *options], env=quiet(), stdout=log, stderr=log)
         try:
             deadline = time.monotonic() + PATIENCE
             while (client := _connect(port)) is None:

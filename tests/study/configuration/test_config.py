@@ -12,6 +12,7 @@ from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguratio
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.robot_checks import check_robots
 from recalib.study.configuration.study import Study
+from recalib.study.trainings import Trainings
 from tests.conftest import ROOT, loaded_with
 
 SHIPPED = ROOT / "config.yaml"
@@ -29,8 +30,13 @@ def here(tmp_path, monkeypatch):
 def mistakes_of(here, text, *overlays) -> list[str]:
     (here / "config.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(InvalidConfiguration) as caught:
-        read_study("config.yaml", *overlays, checks=(check, check_robots))
+        read_study("config.yaml", *overlays, checks=(check, asked))
     return caught.value.mistakes
+
+
+def asked(study) -> list:
+    """What the robots say of all that the study trains on."""
+    return check_robots(study, Trainings(study).scenarios())
 
 
 def position(text, offset) -> str:
@@ -107,14 +113,28 @@ def test_a_missing_file_is_named():
         read_study(SHIPPED, "mine.yaml")
 
 
-def test_an_empty_file_lacks_everything_and_the_first_mistakes_are_shown(here):
-    (here / "config.yaml").write_text("# nothing\n", encoding="utf-8")
+@pytest.mark.parametrize("text", ["", "# nothing\n", "{}\n", "---\n"])
+def test_a_file_that_says_nothing_is_refused(here, text):
+    (here / "mine.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(InvalidConfiguration) as caught:
-        read_study("config.yaml")
-    lines = str(caught.value).splitlines()
-    assert lines[0].startswith("config.yaml:1:1: name is missing: ")
-    assert len(caught.value.mistakes) == len(Study.model_fields)
-    assert lines[MOST_SHOWN:] == [f"... and {len(Study.model_fields) - MOST_SHOWN} more"]
+        read_study(SHIPPED, "mine.yaml")
+    assert caught.value.mistakes == [
+        "mine.yaml:1:1: no configuration; valid: keys with their values"
+    ]
+
+
+def test_keys_that_are_missing_together_are_told_together(here):
+    (said,) = mistakes_of(here, "seed: 1\n")
+    assert said.startswith("config.yaml:1:1: the study lacks name, robot, scenario, settings,")
+    assert said.count(",") == len(Study.model_fields) - 3, "of all but one, two joined by `and`"
+
+
+def test_of_many_mistakes_the_first_are_shown(here):
+    text = "".join(f"key{number}: 1\n" for number in range(MOST_SHOWN + 5))
+    (here / "mine.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_study(SHIPPED, "mine.yaml")
+    assert str(caught.value).splitlines()[MOST_SHOWN:] == ["... and 5 more"]
 
 
 def test_several_mistakes_are_told_in_the_order_of_their_places(here):
@@ -128,14 +148,14 @@ def test_the_shipped_configuration_passes_in_no_time():
     started = time.perf_counter()
     study = read_study(SHIPPED)
     assert time.perf_counter() - started < 0.5
-    assert check_robots(study) == []
+    assert asked(study) == []
 
 
 def test_a_redundant_arm_is_asked_for_no_evidence():
     study = read_study(SHIPPED, ROOT / "workflow" / "studies" / "panda.yaml")
-    assert check_robots(study) == []
-    asked = study.experiments.model_copy(update={"evidence": True, "ensemble": {}})
-    (mistake,) = check_robots(study.model_copy(update={"experiments": asked}))
+    assert asked(study) == []
+    judged = study.experiments.model_copy(update={"evidence": True, "ensemble": {}})
+    (mistake,) = asked(study.model_copy(update={"experiments": judged}))
     assert mistake.path == ("experiments", "evidence")
     assert "valid: false with the panda, an arm of 7 joints" in mistake.fault
 

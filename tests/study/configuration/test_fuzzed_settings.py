@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.study.configuration.checks import check, used_scenarios
+from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.robot_checks import check_robots
@@ -118,9 +118,10 @@ class Robots:
     def __call__(self, study: Study) -> list:
         parts = study.model_dump_json(include=OF_ROBOTS)
         its = study.real.robot, study.experiments.evidence, study.experiments.ensemble
-        same = parts, *used_scenarios(study), repr(its)
+        scenarios = Trainings(study).scenarios()
+        same = parts, *scenarios, repr(its)
         if same not in self._said:
-            self._said[same] = check_robots(study)
+            self._said[same] = check_robots(study, scenarios)
         return self._said[same]
 
 

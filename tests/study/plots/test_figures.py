@@ -27,10 +27,6 @@ from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
 from tests.made_up import NOISE, OF_SEARCHES, MadeUp, few_resamples
 
-# those of the multiverse are drawn for the shipped study alone
-OF_UNIVERSES = "figure14", "figure15", "multiverse"
-EVERYWHERE = [name for name in FIGURES if name not in OF_UNIVERSES]
-
 
 def bytes_of(figure: str, needs, folder, suffixes=(".svg", ".png")) -> list[bytes]:
     paths = [folder / f"{figure}{suffix}" for suffix in suffixes]
@@ -73,16 +69,14 @@ def test_noise_in_the_last_digits_changes_no_byte(figure, request, study, tmp_pa
         first = bytes_of(figure, needs, tmp_path)
         monkeypatch.setitem(globals(), "Evidence", WithNoise)
         again = bytes_of(figure, needs, tmp_path)
-    elif figure in EVERYWHERE:
+    else:
         results = [request.getfixturevalue(name) for name in ("made_up", "disturbed")]
         needs = [needs_of(figure, each.request) for each in results]
         first, again = (bytes_of(figure, each, tmp_path) for each in needs)
-    else:
-        pytest.skip("needs the results of a full run, which `make` leaves")
     assert first == again and min(map(len, first)) > 5000
 
 
-@pytest.mark.parametrize("figure", EVERYWHERE)
+@pytest.mark.parametrize("figure", FIGURES)
 def test_a_figure_reads_what_it_declares_and_nothing_else(figure, made_up, tmp_path):
     needs = needs_of(figure, made_up.request)
     cases = [{"files": tuple(p for p in needs.files if p != path)} for path in needs.files[:3]]
@@ -141,7 +135,8 @@ def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
         figure = draw("figure4", Evidence(made_up.needs(FIGURES["figure4"].needs)))
     axes = figure.axes[0]
     labels = [label.get_text() for label in axes.get_yticklabels()]
-    assert labels == ["ritter double 200, a learner"], "10,000 iterations are not compared"
+    assert labels == ["ritter double 200,\nanother learner"], "10,000 iterations are not compared"
+    assert "rows of other learners: their error over that of" in axes.get_xlabel()
     # four searches each: three standard errors of the ratio
     ratios = [float(text.get_text()) for text in axes.texts if text.get_text()[0].isdigit()]
     assert ratios == pytest.approx([2, 0.05], rel=3 * OF_SEARCHES * np.sqrt(2 / 4))
@@ -157,7 +152,7 @@ def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
 
 
 @pytest.fixture(
-    scope="module", params=[name for name in EVERYWHERE if FIGURES[name].part != "ideas"]
+    scope="module", params=[name for name, its in FIGURES.items() if its.part != "ideas"]
 )
 def drawing(request, made_up):
     """A figure of results, drawn."""
@@ -204,12 +199,9 @@ def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
 
 @few_resamples()
 @pytest.mark.parametrize("figure", [name for name in FIGURES if name != "figure8"])
-def test_every_colour_of_a_figure_has_its_meaning(figure, study, made_up, tmp_path, monkeypatch):
+def test_every_colour_of_a_figure_has_its_meaning(figure, made_up, tmp_path):
     """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
-    monkeypatch.chdir(ROOT)  # where what was measured in the universes is committed
-    made = figure in EVERYWHERE
-    needs = needs_of(figure, made_up.request) if made else needs_of_a_full_run(figure, study)
-    (svg,) = bytes_of(figure, needs, tmp_path, [".svg"])
+    (svg,) = bytes_of(figure, needs_of(figure, made_up.request), tmp_path, [".svg"])
     known = [look.color for look in LOOKS.values()] + [color for color, _ in OTHER.values()]
     known += [color for color, _ in UNKNOWN] + [style["color"] for style in (POSITION, ORIENTATION)]
     known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]

@@ -9,7 +9,6 @@ import pandas as pd
 import pytest
 import rerun as rr
 import rerun.blueprint as rrb
-import rerun_cli
 from PIL import Image
 from rerun.chunk import RrdReader
 from scipy.spatial.transform import Rotation
@@ -35,12 +34,12 @@ from recalib.study.recording.blueprint import TITLES, arrange, seen_from
 from recalib.study.recording.files import record
 from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import SEAL, BrokenRecording, check_recording, write_sealed
+from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import write_recording
 from recalib.study.statistics import typical
 from recalib.training import train
 from tests.conftest import changed
 
-RERUN = Path(rerun_cli.__file__).with_name("rerun")
 SEED, ITERATIONS, TESTS = 7, 40, 30
 MEASURE_AT = range(0, ITERATIONS + 1, 4)
 DAMAGES = (
@@ -86,6 +85,7 @@ def job(study):
         measuring=jobs.Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
         seed=SEED,
         published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
+        meshes_sha256="",
     )
 
 
@@ -174,7 +174,7 @@ def columns(recording):
 def test_a_recording_is_valid_and_small(recording, results):
     path, _ = recording
     check_recording(path, results)
-    subprocess.run([RERUN, "rrd", "verify", path], check=True, capture_output=True)
+    subprocess.run([PROGRAM, "rrd", "verify", path], env=quiet(), check=True, capture_output=True)
     assert path.stat().st_size < 20e6
 
 
@@ -506,12 +506,13 @@ def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
 
 
 def test_two_recordings_of_the_same_are_equal_and_a_millimetre_shows(recording, write, tmp_path):
-    compare = [RERUN, "rrd", "compare", "--unordered", recording[0]]
+    its = {"env": quiet(), "capture_output": True}
+    compare = [PROGRAM, "rrd", "compare", "--unordered", recording[0]]
     again, other = tmp_path / "links_encoders.rrd", tmp_path / "other" / "links_encoders.rrd"
     write(again, DAMAGES)
-    assert subprocess.run([*compare, again], capture_output=True).returncode == 0
+    assert subprocess.run([*compare, again], **its).returncode == 0
     write(other, (*DAMAGES[:1], LinkShortening("forearm_link", 0.041), *DAMAGES[2:]))
-    assert subprocess.run([*compare, other], capture_output=True).returncode != 0
+    assert subprocess.run([*compare, other], **its).returncode != 0
 
 
 SPOILT = {"time": {"time": 1}, "entity": {"entity": "/b"}, "value": {"value": 1.5}}

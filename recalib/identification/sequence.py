@@ -1,0 +1,144 @@
+"""What the order of the rows tells: poses that lag behind the joints, a drift, a jump in between.
+
+Rows that were written down one after the other show such faults in what an arm leaves of them. Each
+fault is tried as further parameters beside those of the arm: by how much of a step every pose is
+late, or how the instrument moves against the base as time goes by, or from some row on. What no arm
+could explain instead, and what is too much for chance, is named.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+from scipy.special import fdtrc
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import JOINT_ERRORS, ErrorModel
+from recalib.identification.linearised import Linearised, displacements
+from recalib.identification.observations import Observations
+
+LAG, DRIFT, JUMP = "lag", "drift", "jump"
+CHANCE = 1e-6  # with which what is named would be there by chance, were all that is left noise
+SHARE = 0.15  # of what is left of the squares; real arms leave more than noise
+MOST = 3  # faults at once
+ENDS = 10  # rows on either side of a jump
+SMALL = 1e-3  # of a step: for slopes
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Something that rows show by their order.
+
+    Attributes:
+        kind: lag, drift or jump.
+        size: of a lag, by how much of a step to it poses are late; otherwise m, by how much the
+            instrument moves against the base, over all rows or at once.
+        row: from 0, the first one after a jump.
+    """
+
+    kind: str
+    size: float
+    row: int = 0
+
+
+def faults(geometry: Calibration, seen: Observations, counted: np.ndarray) -> list[Fault]:
+    """What the rows show by their order, if that is the order in which they were measured.
+
+    Args:
+        geometry: what was identified from them.
+        counted: (n,) whether a row is not grossly off.
+    """
+    model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
+    parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
+    parameters[: len(estimate.parameters)] = estimate.parameters
+    near = Linearised(model, parameters / model.deviations, seen, model.terms(seen.joints))
+    weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
+    residuals = np.concatenate([*near.residuals], axis=1) * weights
+    arm = np.concatenate([*near.jacobians], axis=1) * weights[..., None]
+    late = _late(geometry, seen)[..., None] * weights[..., None]
+    moved = _moved(geometry, seen) * weights[..., None]
+    times = np.arange(len(seen))[:, None, None]
+    drifted = moved * times / len(seen)
+    found: list[Fault] = []
+    while len(found) < MOST:  # the plainest first, then what it leaves
+        left = _Left(residuals, arm)
+        tried = [
+            left.plainest(LAG, late),
+            left.plainest(DRIFT, drifted),
+            left.plainest(JUMP, moved, ENDS),
+        ]
+        share, fault = max(tried, key=lambda one: one[0])
+        if share < SHARE:
+            break
+        found.append(fault)
+        columns = {LAG: late, DRIFT: drifted, JUMP: moved * (times >= fault.row)}[fault.kind]
+        arm = np.concatenate([arm, columns], axis=2)
+    return found
+
+
+class _Left:
+    """What an arm leaves of weighted rows, and what further parameters would explain of it.
+
+    Args:
+        residuals: (n, k) over their noise.
+        arm: (n, k, P) their slopes by parameters over their deviations.
+    """
+
+    def __init__(self, residuals: np.ndarray, arm: np.ndarray):
+        self._residuals, self._arm = residuals, arm
+        self._pull = np.einsum("nkp,nk->p", arm, residuals)
+        rows = arm.reshape(-1, arm.shape[-1])
+        information = rows.T @ rows
+        self._factor = scipy.linalg.cho_factor(information + np.eye(len(information)))
+        self._squares = np.sum(residuals**2) - self._pull @ self._solve(self._pull)
+        self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
+
+    def plainest(self, kind: str, columns: np.ndarray, ends: int = 0) -> tuple[float, Fault]:
+        """Its share of the squares that are left, 0 where that may be chance, and the fault.
+
+        Args:
+            columns: (n, k, c) slopes of the residuals by the fault's parameters.
+            ends: so many rows at least are on either side of where the columns begin to matter;
+                they do from the first row on unless given.
+        """
+        products = (
+            np.einsum("nkc,nkd->ncd", columns, columns),
+            np.einsum("nkc,nkp->ncp", columns, self._arm),
+            np.einsum("nkc,nk->nc", columns, self._residuals),
+        )
+        rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
+        if not len(rows) or self._free <= columns.shape[-1]:
+            return 0.0, Fault(kind, 0.0)
+        own, across, pull = (np.cumsum(each[::-1], axis=0)[::-1][rows] for each in products)
+        absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
+        own = own - absorbed @ across.swapaxes(1, 2)
+        pull = pull - absorbed @ self._pull
+        found = (np.linalg.pinv(own, hermitian=True) @ pull[..., None])[..., 0]
+        gains = np.sum(found * pull, axis=1)
+        best, count = int(gains.argmax()), columns.shape[-1]
+        gain, free = gains[best], self._free - count
+        ratio = gain / count / (self._squares - gain) * free
+        size = found[best, 0] if kind == LAG else np.linalg.norm(found[best, :3])
+        plain = fdtrc(count, free, ratio) * len(rows) < CHANCE
+        return gain / self._squares if plain else 0.0, Fault(kind, float(size), int(rows[best]))
+
+    def _solve(self, pulls: np.ndarray) -> np.ndarray:
+        return scipy.linalg.cho_solve(self._factor, pulls)
+
+
+def _late(geometry: Calibration, seen: Observations) -> np.ndarray:
+    """What takes the targets back along the step to each row, over the step (n, k) [m, rad]."""
+    steps = np.diff(seen.joints, axis=0, prepend=seen.joints[:1])
+    here = geometry.seen(seen.joints, seen.targets)
+    before = geometry.seen(seen.joints - SMALL * steps, seen.targets)
+    return displacements(here, before)[:, : 3 * seen.kinds] / SMALL
+
+
+def _moved(geometry: Calibration, seen: Observations) -> np.ndarray:
+    """What moves of the instrument by 1 m and 1 rad, about the middle, do to rows (n, k, 6)."""
+    places = geometry.seen(seen.joints, seen.targets)[:, :3, 3]
+    places = places - places.mean(axis=0)
+    columns = np.zeros((len(seen), 6, 6))
+    columns[:] = np.eye(6)
+    columns[:, :3, 3:] = np.cross(np.eye(3), places[:, None]).swapaxes(1, 2)
+    return columns[:, : 3 * seen.kinds]

@@ -1,0 +1,40 @@
+"""What makes a calibration doubtful as a whole: to be said first."""
+
+from collections.abc import Iterator
+
+from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
+from recalib.laboratory.calibrate import Calibrated
+
+CONTRADICTED = 2.0  # times the error of what is used: so much no part of it can miss
+
+
+def doubts(result: Calibrated) -> Iterator[str]:
+    """Sentences, the gravest first; none where rows and lines agree."""
+    for fault in result.faults:
+        yield f"Careful: {_sentence(fault, len(result.seen))}."
+    validation = result.validation
+    if validation.chosen != HYBRID:
+        return
+    whole, away, geometry = (
+        1e3 * validation.errors(way, kind)[validation.counted, 0].mean()
+        for way, kind in ((RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC))
+    )
+    if min(away, geometry) > CONTRADICTED * whole:
+        yield (
+            f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
+            f" leaves {geometry:.3g} mm, so most of the gain is a pattern of these rows only."
+        )
+
+
+def _sentence(fault: Fault, rows: int) -> str:
+    size = f"{1e3 * fault.size:.2g} mm"
+    return {
+        LAG: f"poses seem to be {100 * abs(fault.size):.2g} % of a step"
+        f" {'behind' if fault.size > 0 else 'ahead of'} the joints; try to measure at rest, or to"
+        " synchronise both",
+        DRIFT: f"the instrument seems to drift by {size} from the first row to the last; try a"
+        " shorter session, or an instrument that is warm",
+        JUMP: f"between rows {fault.row} and {fault.row + 1} instrument or base seem to have moved"
+        f" by {size}; try rows 1 to {fault.row} and {fault.row + 1} to {rows} each by themselves",
+    }[fault.kind]

@@ -1,0 +1,104 @@
+"""Where the instrument stands, where targets sit and sockets are, and how well that is known.
+
+It is known in two ways: beside the calibrated arm, and beside the real one. A turn of the first
+joint's zero looks like a turn of the instrument about that joint, whatever is measured: the
+calibrated arm has one of all that fit, and beside it the instrument is known as well as it
+measures. Where the real base is, is known as well as a zero is before anything is measured.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import ErrorModel
+from recalib.identification.frames import HELD
+from recalib.identification.linearised import displacements
+from recalib.identification.openness import Open
+
+STEP = 1e-4  # of a parameter's prior deviation, to either side
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where something is that was found.
+
+    Attributes:
+        name: of it, in words.
+        link: in whose frame it is.
+        turned: whether its rotation is known.
+        pose: (4, 4) m.
+        deviations: m and rad, along the worst axis, beside the calibrated arm.
+        real_deviations: likewise, beside the real one.
+    """
+
+    name: str
+    link: str
+    turned: bool
+    pose: np.ndarray
+    deviations: tuple[float, float]
+    real_deviations: tuple[float, float]
+
+
+def found_places(
+    calibration: Calibration,
+    left_open: Sequence[Open],
+    targets: Sequence[str],
+    sockets: Sequence[str],
+    tool: str,
+) -> list[Place]:
+    """All that were not given.
+
+    Args:
+        left_open: parameters that `openness.open_parameters` finds.
+        targets, sockets: their names, in the order of their numbers.
+        tool: the link that is the tool of the calibrated arm.
+    """
+    model, estimate = calibration.model, calibration.estimate
+    frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
+    turned = frames.target_deviations[1] > HELD
+    what = [("the instrument", base, True)] * frames.base_unknown
+    ends = targets if len(targets) == 1 else [f"target {name}" for name in targets]
+    what += [(name, tool, turned) for name in ends] * frames.targets_unknown
+    what += [(f"socket {name}", base, False) for name in sockets]
+    if not what:
+        return []
+    chosen = np.setdiff1d([one.parameter for one in left_open if one.lasting], free).astype(int)
+    real = estimate.covariance[np.ix_(free, free)]
+    across = estimate.covariance[np.ix_(free, chosen)]
+    among = estimate.covariance[np.ix_(chosen, chosen)]
+    own = real - across @ np.linalg.solve(among, across.T)
+    slopes = _slopes(model, estimate.parameters, free)
+    poses = _poses(model, estimate.parameters)
+    return [
+        Place(*one, pose, *(_deviations(slope @ spread @ slope.T) for spread in (own, real)))
+        for one, pose, slope in zip(what, poses, slopes, strict=True)
+    ]
+
+
+def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
+    """Poses (place, 4, 4) [m] of all that was not given."""
+    frames = model.found(parameters)
+    poses = [np.linalg.inv(frames.base)] * frames.base_unknown
+    poses += [*frames.targets] * frames.targets_unknown
+    for centre in frames.sockets:
+        poses.append(np.eye(4))
+        poses[-1][:3, 3] = centre
+    return np.array(poses)
+
+
+def _slopes(model: ErrorModel, parameters: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """How the places move (place, 6, free) [m, rad] with the parameters of frames."""
+    columns = []
+    for number in free:
+        step = np.zeros_like(parameters)
+        step[number] = STEP * model.deviations[number]
+        ends = (_poses(model, parameters + sign * step) for sign in (-1, 1))
+        columns.append(displacements(*ends) / (2 * step[number]))
+    return np.stack(columns, axis=-1)
+
+
+def _deviations(covariance: np.ndarray) -> tuple[float, float]:
+    parts = covariance[:3, :3], covariance[3:, 3:]
+    return tuple(float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1]))) for part in parts)

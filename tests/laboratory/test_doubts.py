@@ -1,0 +1,75 @@
+"""What makes a calibration doubtful stands in its first line."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
+from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.doubts import doubts
+from recalib.laboratory.summary import summary
+from recalib.nominal.arms import load_arm
+from tests.laboratory.test_command_line import (
+    ARM,
+    MIDDLE,
+    NOISE,
+    SEEN,
+    table,
+    true_positions,
+    write,
+)
+
+ROWS = 60
+
+
+def result(errors: dict, chosen: str = HYBRID, found: tuple = ()) -> SimpleNamespace:
+    """A calibration with these errors [m] by way and kind."""
+    validation = SimpleNamespace(
+        chosen=chosen,
+        counted=np.ones(ROWS, dtype=bool),
+        errors=lambda way, kind: np.full((ROWS, 1), errors[way, kind]),
+    )
+    return SimpleNamespace(validation=validation, faults=found, seen=range(ROWS))
+
+
+@pytest.mark.parametrize(
+    ("away", "geometry", "said"),
+    [
+        (1.48e-3, 1.72e-3, "Careful: expect 1.48 mm on other postures, not 0.405 mm. Geometry"),
+        (0.7e-3, 1.72e-3, ""),
+        (1.48e-3, 0.7e-3, ""),
+    ],
+)
+def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
+    errors = {(RANDOM, HYBRID): 0.405e-3, (BLOCKWISE, HYBRID): away, (RANDOM, GEOMETRIC): geometry}
+    assert " ".join(doubts(result(errors))).startswith(said)
+    assert bool([*doubts(result(errors))]) == bool(said)
+    assert not [*doubts(result(errors, GEOMETRIC))]
+
+
+@pytest.mark.parametrize(
+    ("fault", "said"),
+    [
+        (Fault(LAG, 0.05), "poses seem to be 5 % of a step behind the joints"),
+        (Fault(LAG, -0.01), "poses seem to be 1 % of a step ahead of the joints"),
+        (Fault(DRIFT, 1e-3), "drift by 1 mm from the first row to the last"),
+        (Fault(JUMP, 1e-3, 20), "between rows 20 and 21 instrument or base seem to have moved by"),
+    ],
+)
+def test_a_fault_is_told_with_its_rows_and_size(fault, said):
+    (told,) = doubts(result({}, GEOMETRIC, (fault,)))
+    assert told.startswith("Careful: ") and said in told
+
+
+def test_two_sessions_are_told_of_in_the_first_line(tmp_path):
+    (tmp_path / "arm.urdf").write_text(ARM)
+    arm, rng = load_arm(tmp_path / "arm.urdf"), np.random.default_rng(3)
+    joints = MIDDLE + SEEN * rng.uniform(-1, 1, (ROWS, 3))
+    positions = true_positions(arm, joints)
+    positions += NOISE * rng.standard_normal((ROWS, 3))
+    positions[20:] += [6e-4, -6e-4, 5e-4]
+    write(tmp_path / "rows.csv", table(arm, joints, positions))
+    first, *_ = summary(calibrate_arm(tmp_path / "arm.urdf", tmp_path / "rows.csv")).splitlines()
+    assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first

@@ -1,0 +1,61 @@
+"""A mistake on the command line is told in one sentence, and nothing is made of it."""
+
+import shutil
+
+import numpy as np
+import pytest
+import yaml
+
+from recalib.laboratory.command_line import DONE, main
+from recalib.nominal.arms import load_arm
+from tests.conftest import ROOT
+from tests.laboratory.test_command_line import ARM, MIDDLE, SEEN, table, true_positions, write
+
+TABLE = yaml.safe_load((ROOT / "tests" / "mistakes_on_the_command_line.yaml").read_text())
+KNOWN = {"{joints}": "swing [deg],lift [deg],elbow [deg]", "{row}": "1,-40,60,700,10,300"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """An arm, a table and a calibration."""
+    here = tmp_path_factory.mktemp("right")
+    (here / "arm.urdf").write_text(ARM)
+    arm, random = load_arm(here / "arm.urdf"), np.random.default_rng(8)
+    joints = MIDDLE + SEEN * random.uniform(-1, 1, (30, 3))
+    noise = 5e-5 * random.standard_normal((30, 3))
+    write(here / "measured.csv", table(arm, joints, true_positions(arm, joints) + noise))
+    write(here / "table.csv", table(arm, joints[:12], true_positions(arm, joints[:12])))
+    command = "calibrate", here / "arm.urdf", here / "measured.csv", "--out", here / "calibration"
+    assert main([*map(str, command)]) == DONE
+    (here / "measured.csv").unlink()
+    return here
+
+
+def said_of(row, folder, capsys) -> list[str]:
+    """The last thing that is said on stderr, on one line."""
+    lines = "\n".join(row.get("lines", ()))
+    for name, text in KNOWN.items():
+        lines = lines.replace(name, text)
+    if "file" in row:
+        (folder / row["file"]).write_text(lines, encoding="utf-8")
+    try:
+        code = main(row["line"].split())
+    except SystemExit as ended:  # argparse's
+        code = ended.code
+    assert code in (1, 2), "nothing was refused"
+    lines = capsys.readouterr().err.splitlines()
+    return [line for line in lines if line.startswith("recalib: ") or ": error: " in line]
+
+
+def test_there_are_sixty_and_more_and_each_says_what_for():
+    assert len(TABLE) >= 60 and all(row["why"] for row in TABLE)
+
+
+@pytest.mark.parametrize("row", TABLE, ids=[row["why"] for row in TABLE])
+def test_a_mistake_is_told_in_one_sentence(row, folder, tmp_path, monkeypatch, capsys):
+    here = shutil.copytree(folder, tmp_path / "here")
+    monkeypatch.chdir(here)
+    (said,) = said_of(row, here, capsys)
+    assert said == row["says"]
+    written = {path.name for path in here.iterdir()} - {row.get("file")}
+    assert written == {path.name for path in folder.iterdir()}

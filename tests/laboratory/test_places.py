@@ -1,0 +1,123 @@
+"""Where instrument and targets are, how well that is known, and that all files tell one story."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.first_guess import guess_frames
+from recalib.identification.linearised import displacements
+from recalib.identification.observations import Observations
+from recalib.identification.openness import open_parameters
+from recalib.identification.validation import HYBRID
+from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.files import write_files
+from recalib.laboratory.measurements import POSITION
+from recalib.laboratory.places import found_places
+from recalib.laboratory.summary import summary
+from recalib.nominal.arms import load_arm
+from tests.identification.bars import ARMS
+from tests.identification.real import Real
+from tests.laboratory.test_command_line import write
+
+URDF, TOOL = ARMS["UR10"]
+DRAWS = 12
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return load_arm(URDF, TOOL)
+
+
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+def test_places_are_known_as_well_as_other_noise_moves_them(arm, positions):
+    real, guess, left_open, drawn = Real(arm, 3), None, None, []
+    joints = real.postures(40)
+    for _ in range(DRAWS):
+        poses = real.poses(joints)
+        seen = Observations(joints, poses[:, :3, 3] if positions else poses)
+        guess = guess or guess_frames(arm, seen)
+        model = ErrorModel(arm, OFFSETS, guess)
+        calibration = Calibration(model, identify(model, seen))
+        left_open = left_open or open_parameters(calibration, seen)
+        drawn.append(found_places(calibration, left_open, ["the target"], [], TOOL))
+    for places, truth in zip(
+        zip(*drawn, strict=True), [np.linalg.inv(real.base), real.targets[0]], strict=True
+    ):
+        last = places[-1]
+        moves = np.array([displacements(last.pose[None], one.pose[None])[0] for one in places])
+        length, turn = moves.std(axis=0).reshape(2, 3).max(axis=1)
+        assert 0.6 < last.deviations[0] / length < 1.7
+        off = displacements(last.pose[None], truth[None])[0]
+        assert 0.05 < np.linalg.norm(off[:3]) / last.real_deviations[0] < 2
+        assert last.real_deviations[0] > 20 * last.deviations[0]
+        if last.turned:
+            assert 0.6 < last.deviations[1] / turn < 1.7
+            assert np.linalg.norm(off[3:]) < 2 * last.real_deviations[1]
+    assert [place.turned for place in drawn[0]] == [True, not positions]
+    assert [(place.name, place.link) for place in drawn[0]] == [
+        ("the instrument", arm.base),
+        ("the target", TOOL),
+    ]
+
+
+@pytest.fixture(scope="module")
+def calibrated(arm, tmp_path_factory):
+    """With gears that no URDF holds, in 60 postures with two targets in each."""
+    folder, real = tmp_path_factory.mktemp("places"), Real(arm, 3, 2, np.radians(0.03))
+    joints, numbers = np.repeat(real.postures(60), 2, axis=0), np.arange(120) % 2
+    places = real.poses(joints, numbers)[:, :3, 3]
+    columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
+    columns |= {f"{axis} [m]": places[:, index] for index, axis in enumerate(POSITION)}
+    write(folder / "m.csv", columns | {"target": np.array(["left", "right"])[numbers]})
+    result = calibrate_arm(URDF, folder / "m.csv", tool=TOOL)
+    assert result.validation.chosen == HYBRID
+    write_files(result, folder / "out")
+    return result, folder / "out"
+
+
+def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
+    result, folder = calibrated
+    told = json.loads((folder / "parameters.json").read_text())
+    assert told["fit"] == "geometry, as in arm.urdf"
+    seen = result.seen
+    poses = load_arm(folder / "arm.urdf", told["tool"], told["base"]).forward(seen.joints)
+    targets = np.array(list(told["targets_in_tool"].values()))[seen.targets]
+    there = np.array(told["base_in_instrument"]) @ poses @ targets
+    assert np.abs(there - result.geometry.seen(seen.joints, seen.targets)).max() < 1e-9
+    rows = read_places(folder)
+    assert [(row["frame"], row["in"]) for row in rows] == [
+        ("the instrument", told["base"]),
+        ("target left", told["tool"]),
+        ("target right", told["tool"]),
+    ]
+    assert rows == [{k: str(v) for k, v in row.items()} for row in told["frames"]]
+    instrument, left, _ = ([float(row[f"{axis} [mm]"]) for axis in POSITION] for row in rows)
+    base = np.linalg.inv(told["base_in_instrument"])
+    assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
+    assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
+
+
+def read_places(folder: Path) -> list[dict[str, str]]:
+    with (folder / "frames.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibrated):
+    instrument, left, _ = read_places(calibrated[1])
+    assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
+    assert (
+        0 < float(left["deviation [mm]"]) < 1 < float(left["deviation beside the real link [mm]"])
+    )
+
+
+def test_the_summary_says_postures_and_places(calibrated):
+    told = summary(calibrated[0])
+    assert "60 postures, 120 rows of m.csv" in told
+    assert "the instrument in world of arm.urdf: (" in told
+    assert "target right in tool0 of arm.urdf: (" in told

@@ -1,0 +1,160 @@
+"""Figures of the alternative setups, of planted tables; and how legible figures on pages are."""
+
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.text import Text
+
+from recalib.study.configuration.labels import LABELS, level_in_words
+from recalib.study.configuration.universes import Factors
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.results import Evidence
+from recalib.study.layout import DESIGN
+from recalib.study.plots.registry import draw, drawn, needs_of
+from recalib.study.plots.style import STYLE, plt
+from tests.conftest import ROOT
+from tests.made_up import MadeUp, few_resamples
+
+PAGE = 830  # pixels: as wide as pages show figures
+LEAST = 9  # pixels
+LEGIBLE = "figure2", "figure4", "figure6", "figure9", "figure14", "figure15", "multiverse"
+MOVED = 1.6  # times, by the effort of the search
+
+
+@pytest.fixture(scope="module")
+def planted(few, tmp_path_factory) -> MadeUp:
+    """Theta helps and depends on effort; schedule has no effect; the Jacobian harms."""
+    its = MadeUp(tmp_path_factory.mktemp("planted"), few)
+    table = its.outcomes({"schedule_improved": 1.0, "jacobian_improved": 1.5})
+    effort = pd.read_csv(ROOT / DESIGN)["effort"].to_numpy()[table["universe"]]
+    table["theta_improved"] *= np.where(effort == "rough", MOVED, 1.0)
+    horizon = its.horizon().assign(bound=lambda its: (its["universe"] < 5).astype(int))
+    made = its.campaign
+    its.campaign = lambda: made(outcomes=table, horizon=horizon)
+    its.conclude()
+    return its
+
+
+@pytest.fixture(scope="module")
+def figures(planted):
+    """All that are looked at, drawn."""
+    found = {}
+    with plt.rc_context(STYLE), few_resamples():
+        for name in LEGIBLE:
+            found[name] = draw(name, Evidence(needs_of(name, planted.request)))
+            found[name].draw_without_rendering()
+    yield found
+    plt.close("all")
+
+
+def texts(figure) -> list[Text]:
+    """Those that are seen."""
+    found = [
+        each for each in figure.findobj(Text) if each.get_visible() and each.get_text().strip()
+    ]
+    whole = figure.bbox
+    return [each for each in found if each.get_window_extent().overlaps(whole)]
+
+
+@pytest.mark.parametrize("name", LEGIBLE)
+def test_a_figure_can_be_read_on_a_page(figures, name):
+    figure = figures[name]
+    pixels = PAGE / (72 * figure.get_figwidth())
+    small = {each.get_text(): each.get_fontsize() * pixels for each in texts(figure)}
+    assert min(small.values()) >= LEAST, min(small.items(), key=lambda item: item[1])
+
+
+@pytest.mark.parametrize("name", LEGIBLE)
+def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
+    figure = figures[name]
+    boxes = [(each.get_text(), each.get_window_extent()) for each in texts(figure)]
+    for (one, its), (other, another) in combinations(boxes, 2):
+        assert not its.padded(-1).overlaps(another.padded(-1)), (one, other)
+    for text, box in boxes:
+        inside = box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y0 >= 0
+        assert inside and box.y1 <= figure.bbox.y1, text
+
+
+def said(figure) -> str:
+    return "\n".join(each.get_text() for each in texts(figure))
+
+
+def test_figure_14_judges_as_the_claims_do(figures, planted):
+    judged = {
+        claim["id"]: claim for claim in Evidence(needs_of("figure14", planted.request)).claims()
+    }
+    assert judged["schedule"]["systems"]["improved system"]["verdict"] == "no effect"
+    verdicts = [
+        judged[claim.id]["systems"][system]["verdict"]
+        for claim in CLAIMS
+        for system in claim.across
+    ]
+    shown = [each.get_text() for each in texts(figures["figure14"])]
+    assert sorted(each for each in shown if each in set(verdicts)) == sorted(verdicts)
+    leading = [next(iter(judged[claim.id]["systems"].values())) for claim in CLAIMS if claim.across]
+    supported = sum(its["verdict"] == "supported" for its in leading)
+    title = figures["figure14"].get_suptitle()
+    assert f"of {len(leading)} claims" in title and f"{supported} supported" in title
+    assert "1 contradicted, 1 no effect" in title
+
+
+def test_figure_14_counts_setups_only_where_luck_is_small(figures, planted):
+    evidence = Evidence(needs_of("figure14", planted.request))
+    models = [its for claim in CLAIMS for its in claim.setups(evidence).values()]
+    counted = sum(its.holds is not None for its in models)
+    assert 0 < counted < len(models)
+    assert said(figures["figure14"]).count("(luck alone:") == counted
+
+
+def test_figure_14_says_of_how_many_setups_a_number_is_known(figures, planted):
+    horizons = planted.study.universes.horizons
+    assert f"known in {horizons - 5} of {horizons} setups" in said(figures["figure14"])
+
+
+def test_figure_15_names_the_planted_choice_in_words(figures, planted):
+    evidence = Evidence(needs_of("figure15", planted.request))
+    theta = next(claim for claim in CLAIMS if claim.id == "theta-increments")
+    with few_resamples():
+        effects = theta.setups(evidence)["improved system"].effects(
+            evidence.rng("effects", theta.id, "improved system")
+        )
+    strongest = effects.iloc[0]
+    assert strongest["factor"] == "effort" and strongest["low"] < MOVED < strongest["high"]
+    text = said(figures["figure15"])
+    assert "the effort of the search is: rough,\ninstead of: full" in text
+    assert f"{strongest['effect']:.2f} (" in text
+    assert "No choice moves these beyond chance" in text
+
+
+def test_every_choice_has_words(study):
+    assert [*LABELS] == [*Factors.model_fields]
+    for factor, levels in study.universes.factors:
+        words = [level_in_words(factor, level) for level in levels]
+        assert len({*words}) == len(levels) and not {*map(str, levels)} & {*words} - {
+            "full",
+            "rough",
+        }
+        assert {*LABELS[factor].levels} == {*map(str, levels)}
+
+
+def test_figures_of_setups_are_drawn_once_all_are_measured(few, tmp_path):
+    its = MadeUp(tmp_path, few)
+    of_setups = {"figure14", "figure15"}
+    assert not of_setups & {*drawn(few, its.request)}
+    its.campaign()
+    assert of_setups <= {*drawn(few, its.request)}
+    other = few.model_copy(update={"name": "other"})
+    assert not of_setups & {*drawn(other, MadeUp(tmp_path / "other", other).request)}
+
+
+def test_the_bar_of_separate_maps_is_the_nested_comparison(figures, planted):
+    reference = Evidence(needs_of("figure4", planted.request)).reference()
+    axes = figures["figure4"].axes[0]
+    assert axes.get_yticklabels()[0].get_text() == "separate maps"
+    expected = {f"{np.exp(np.log(reference[each]).mean()):.2f}" for each in COLUMNS}
+    assert expected <= {text.get_text() for text in axes.texts}
+
+
+COLUMNS = "maps_improved", "maps_ritter"

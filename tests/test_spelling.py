@@ -1,0 +1,40 @@
+"""What may have been meant: a suggestion that is far off says less than none."""
+
+import pytest
+
+from recalib.spelling import instead, nearest
+
+URDFS = ["a1.urdf", "finger_edu.urdf", "panda.urdf", "ur10_robot.urdf", "ur5_robot.urdf", "z1.urdf"]
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("urr5_robot.urdf", "ur5_robot.urdf"),
+        ("ur5_robto.urdf", "ur5_robot.urdf"),  # a swap is one edit
+        ("pandra.urdf", "panda.urdf"),
+        ("nowhere.urdf", None),
+        ("iiwa14.urdf", None),
+        ("", None),
+        ("x" * 5000, None),
+    ],
+)
+def test_a_suggestion_is_at_most_a_third_of_the_word_away(word, meant):
+    assert nearest(word, URDFS) == meant
+
+
+@pytest.mark.parametrize(
+    ("word", "edits"), [("seed", 0), ("sede", 1), ("sead", 1), ("sd", 2), ("deed", 1), ("dees", 2)]
+)
+def test_edits_are_counted(word, edits):
+    found = nearest(word, ["seed"])
+    assert (found == "seed") == (3 * edits <= len(word))
+
+
+def test_few_names_are_listed_and_of_many_some():
+    assert instead("on", ["off", "no"]) == "valid: off or no"
+    assert instead("offf", ["off", "no"]) == "valid: off or no; did you mean off?"
+    assert instead("x", []) == "valid: none"
+    many = [f"joint_{number}" for number in range(68)]
+    assert instead("jiont_67", many) == "did you mean joint_67?"
+    assert instead("elbow", many) == "valid: one of 68, such as joint_0, joint_1 and joint_2"
