@@ -76,7 +76,12 @@ def test_a_tenth_of_the_error_is_found_in_most_worlds_and_never_taken_for_the_op
 
 
 @pytest.mark.parametrize(
-    ("ratio", "verdict"), [(0.5, "supported"), (1.0, "no effect"), (2.0, "contradicted")]
+    ("ratio", "possible"),
+    [
+        (0.5, {"supported"}),
+        (1.0, {"no effect", "undecided"}),  # one in ten worlds is not narrow enough
+        (2.0, {"contradicted"}),
+    ],
 )
-def test_what_is_large_or_nothing_is_seen_in_a_single_campaign(verdicts, ratio, verdict):
-    assert {*verdicts(ratio, 1)} == {verdict}
+def test_what_is_large_or_nothing_is_seen_in_a_single_campaign(verdicts, ratio, possible):
+    assert {*verdicts(ratio, 1)} == possible
