@@ -64,7 +64,7 @@ def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     assert np.allclose(ends, [before, after])
     with pytest.raises(InvalidSetting, match=r"below 61.20 cm|below 9.22 cm"):
         apply(robot, [LinkShortening(link, 0.612, "axis")])
-    with pytest.raises(UnknownName, match="valid: axis, line"):
+    with pytest.raises(UnknownName, match="valid: axis or line"):
         LinkShortening(link, 0.04, "z")
 
 

@@ -100,7 +100,7 @@ REFUSED = {
     ),
     "a joint is unknown": (
         lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
-        "unknown column 'elbow'; valid: one of 20, such as rail, wrist and x",
+        "unknown column 'elbow'; valid: one of 23, such as rail, wrist and x",
     ),
     "no unit": (
         lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},
@@ -128,7 +128,7 @@ REFUSED = {
     ),
     "degrees for radians": (
         lambda: {"rail [mm]": range(ROWS), "wrist [rad]": [*[0] * 9, 57]} | positions(),
-        "row 10 of column 'wrist' is 57 rad; valid: up to 720 deg, so that",
+        "row 10 of column 'wrist' is 57 rad; valid: up to 720 deg. Is its",
     ),
     "a coordinate is missing": (
         lambda: joints() | {"x [mm]": range(ROWS), "z [mm]": range(ROWS)},

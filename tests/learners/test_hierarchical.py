@@ -122,9 +122,9 @@ def test_a_metric_matters_by_the_ratios_of_its_units():
 @pytest.mark.parametrize(
     ("convention", "message"),
     [
-        ({"centres": "corners"}, "unknown centres of cells 'corners'; valid: boxes, faces"),
-        ({"spread": "squares"}, "unknown spread .* 'squares'; valid: logarithms, widths"),
-        ({"rate": "cosine"}, "unknown fall .* 'cosine'; valid: exponential, linear"),
+        ({"centres": "corners"}, "unknown centres of cells 'corners'; valid: boxes or faces"),
+        ({"spread": "squares"}, "unknown spread .* 'squares'; valid: logarithms or widths"),
+        ({"rate": "cosine"}, "unknown fall .* 'cosine'; valid: exponential or linear"),
         ({"dimensions": 4}, "dimensions is 4; valid: 3 or 6"),
         ({"metric": (1, 1, 1)}, "metric is .*; valid: six numbers above 0"),
         ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; valid: six numbers above 0"),

@@ -102,7 +102,7 @@ def test_a_stanford_arm_is_its_closed_form():
 @pytest.mark.parametrize(
     ("rows", "convention", "error", "message"),
     [
-        ([Row("a")], "craig", UnknownName, "'craig'; valid: modified, standard"),
+        ([Row("a")], "craig", UnknownName, "'craig'; valid: modified or standard"),
         ([], "standard", InvalidSetting, "at least one"),
         ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; valid: another name"),
         ([Row("a", alpha=np.nan)], "standard", InvalidSetting, "alpha of a is nan; valid: a num"),

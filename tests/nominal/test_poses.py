@@ -80,7 +80,7 @@ def test_a_rotation_vector_turns_about_itself():
 
 
 def test_unknown_coordinates_are_refused_with_the_known_ones():
-    with pytest.raises(UnknownName, match="valid: roll_pitch_yaw, rotation_vector"):
+    with pytest.raises(UnknownName, match="valid: roll_pitch_yaw or rotation_vector"):
         Workspace(CENTRE, HALF_RANGES, "quaternion")
 
 

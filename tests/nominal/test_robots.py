@@ -58,7 +58,7 @@ def test_every_link_has_a_length(robot):
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
-        ({"urdf": "ur11.urdf"}, UnknownName, "ur10_robot.urdf"),
+        ({"urdf": "ur11_robot.urdf"}, UnknownName, "ur10_robot.urdf"),
         ({"tool": "tool9"}, UnknownName, "tool0"),
         ({"tool": "world"}, UnsuitableRobot, "no joint of ur10_robot.urdf moves world"),
         ({"home": {"elbow": 0.0}}, UnknownName, "elbow_joint"),
