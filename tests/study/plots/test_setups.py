@@ -21,6 +21,7 @@ from tests.made_up import MadeUp, few_resamples
 PAGE = 830  # pixels: as wide as pages show figures
 LEAST = 9  # pixels
 LEGIBLE = "figure2", "figure4", "figure6", "figure9", "figure14", "figure15", "multiverse"
+COLUMNS = "maps_improved", "maps_ritter"
 MOVED = 1.6  # times, by the effort of the search
 
 
@@ -159,6 +160,3 @@ def test_the_bar_of_separate_maps_is_the_nested_comparison(figures, planted):
     assert axes.get_yticklabels()[0].get_text() == "separate maps"
     expected = {f"{np.exp(np.log(reference[each]).mean()):.2f}" for each in COLUMNS}
     assert expected <= {text.get_text() for text in axes.texts}
-
-
-COLUMNS = "maps_improved", "maps_ritter"
