@@ -1,6 +1,6 @@
 """Figures: each is drawn from what it declares, and an unchanged result leaves it unchanged."""
 
-from recalib.study.plots.registry import FIGURES, IDEAS, drawn
+from recalib.study.plots.registry import FIGURES, drawn, possible
 
 
 def figure_needs(wildcards):
@@ -31,3 +31,8 @@ def figures_of(root):
     """The figures of a study, for which it has what they need."""
     its, names = Layout(root), drawn(STUDIES[root], request(root))
     return [its.figure(name, suffix) for name in names for suffix in (".svg", ".png")]
+
+
+def ideas_of(root):
+    """The pictures of ideas: they are explained once, with the shipped study."""
+    return possible(["ideas"], request(root)) if root == RESULTS else []

@@ -66,7 +66,7 @@ def report_of(root):
 for root_ in STUDIES:
     own_ = {*sum(pages_of(root_).values(), [])} - {*other_pages_of(root_)}
     texts_ = ["layout", "parts", *sorted(own_)]
-    ideas_ = [Layout(root_).figure(name) for name in IDEAS] if root_ == RESULTS else []
+    ideas_ = [Layout(root_).figure(name) for name in ideas_of(root_)]
 
     rule:
         name:

@@ -56,7 +56,7 @@ def everything(root):
     if root == RESULTS:
         wanted += with_copies(root, pages=["deviations.md"])
     drawn_ = [Path(path).stem for path in figures_of(root)]
-    drawn_ += IDEAS if root == RESULTS else []
+    drawn_ += ideas_of(root)
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]
 
 

@@ -96,7 +96,7 @@ LABELS: Mapping[str, Label] = {
     ),
     "order": Label(
         "training poses are",
-        {"random": "random", "even": "spread evenly"},
+        {"random": "drawn at random", "even": "spread evenly"},
     ),
     "tool": Label(
         "the robot holds",

@@ -66,8 +66,8 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     explained = (
         "Where the paper is silent, something has to be chosen. For each claim: the choice with"
         " which its number is largest, instead of the one with which it is\nsmallest, averaged over"
-        f" all other choices. Left out: what chance would show for one of all"
-        f" {evidence.design().shape[1]} choices in 5 % of cases. Lines: 95 % intervals."
+        f" all {evidence.design().shape[1] - 1} others. Shown is what exceeds chance, which alone"
+        " would show some choice for 1 claim in 20. Lines: 95 % intervals."
     )
     return text, explained
 

@@ -1,6 +1,6 @@
 """Every figure: what it reads, when it is drawn, and where."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import product
@@ -127,12 +127,16 @@ def _universes(ask: Request) -> None:
     for table in ("outcomes", "horizon"):
         if not ask.setups(table):
             ask.lack(f"universes: {table}")
-    ask.fact("seed")
 
 
 def _figure14(ask: Request) -> None:
     _universes(ask)
     ask.claims()
+
+
+def _figure15(ask: Request) -> None:
+    _universes(ask)
+    ask.fact("seed")
 
 
 def _multiverse(ask: Request) -> None:
@@ -159,16 +163,13 @@ FIGURES: Mapping[str, Figure] = {
     "figure12": Figure(_figure12, "benchmark", "benchmark"),
     "figure13": Figure(_figure13, "real", "benchmark"),
     "figure14": Figure(_figure14, "evidence", "universes"),
-    "figure15": Figure(_universes, "evidence", "choices"),
+    "figure15": Figure(_figure15, "evidence", "choices"),
     "method": Figure(_nothing, "ideas", "explained.method"),
     "fake_pose": Figure(_nothing, "ideas", "explained.fake_pose"),
     "increments": Figure(_nothing, "ideas", "explained.increments"),
     "schedule": Figure(_nothing, "ideas", "explained.schedule"),
     "multiverse": Figure(_multiverse, "ideas", "explained.multiverse"),
 }
-
-
-IDEAS = [name for name, figure in FIGURES.items() if figure.part == "ideas"]
 
 
 def draw(figure: str, evidence: Evidence) -> "matplotlib.figure.Figure":
@@ -185,7 +186,11 @@ def needs_of(figure: str, request: Callable[[], Request]) -> Needs:
 
 def drawn(study: Study, request: Callable[[], Request]) -> list[str]:
     """The figures of a default run of this study: those for which it has what they need."""
-    parts = {"trainings", "evidence"} if study.experiments.evidence else {"trainings"}
+    return possible(["trainings", "evidence"][: 1 + study.experiments.evidence], request)
+
+
+def possible(parts: Collection[str], request: Callable[[], Request]) -> list[str]:
+    """The figures of these parts of a study for which it has what they need."""
     found = []
     for name, figure in FIGURES.items():
         ask = request()

@@ -31,6 +31,7 @@ REMAINS = {  # what the search minimises
 }
 NETS = {KINDS[0]: ("g_k", "g_kl"), KINDS[1]: ("g_kl", "g_k")}  # narrow and wide, as the paper wants
 SIZE = 9.5  # points: a label no wider than its panel
+ABOVE = 18  # points, in which stands what an upright line is
 PARTS = 10  # of the trials, from one end of the ratios to the other
 
 
@@ -67,7 +68,7 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     axes.yaxis.label.set_size(SIZE)
     plain(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
     plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
-    axes.set_title("How rough may the search be?\n", fontsize=11)
+    axes.set_title("How rough may the search be?", fontsize=11, pad=ABOVE)
     legend_under(axes)
     return median[IMPROVED][rough - 1]
 
@@ -89,7 +90,9 @@ def _draw_order(axes: Axes, trials: pd.DataFrame, kind: str, error: str, color: 
     axes.set_ylabel(LABELS[error], fontsize=SIZE)
     plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     plain(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
-    axes.set_title(f"{kind.capitalize()} map: rank\ncorrelation {found:+.2f}\n", fontsize=11)
+    axes.set_title(
+        f"{kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
+    )
     legend_under(axes)
 
 

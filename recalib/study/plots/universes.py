@@ -84,7 +84,7 @@ def figure14(evidence: Evidence) -> Figure:
     for axes, (kind, its) in zip(sheet.panels, panels.items(), strict=True):
         _draw(axes, its, RANGES[kind])
         _scale(axes, kind)
-    heads = {-LEFT / PLOT: "the paper says", 1.03: "verdict", 1.32: "mean (95 % interval)"}
+    heads = {-LEFT / PLOT: "the paper says", 1.03: "verdict", 1.32: "mean (95 % interval), spread"}
     for place, head in heads.items():
         sheet.head(place, head)
     sheet.legend(sheet.panels[0], 2)
