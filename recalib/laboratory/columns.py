@@ -78,7 +78,7 @@ class Table:
             raise InvalidFile(
                 self.path,
                 f"row {beyond.argmax() + 1} of column {self.shown(column)!r} is {cell} {unit};"
-                f" valid: up to {text}, so that the unit may be another one",
+                f" valid: up to {text}. Is its unit right?",
             )
         return numbers
 

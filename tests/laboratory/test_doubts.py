@@ -63,7 +63,7 @@ def test_a_fault_is_told_with_its_rows_and_size(fault, said):
     assert told.startswith("Careful: ") and said in told
 
 
-def test_two_sessions_are_told_of_in_the_first_line(tmp_path):
+def test_two_sessions_are_told_of_beside_the_error(tmp_path):
     (tmp_path / "arm.urdf").write_text(ARM)
     arm, rng = load_arm(tmp_path / "arm.urdf"), np.random.default_rng(3)
     joints = MIDDLE + SEEN * rng.uniform(-1, 1, (ROWS, 3))
@@ -71,5 +71,5 @@ def test_two_sessions_are_told_of_in_the_first_line(tmp_path):
     positions += NOISE * rng.standard_normal((ROWS, 3))
     positions[20:] += [6e-4, -6e-4, 5e-4]
     write(tmp_path / "rows.csv", table(arm, joints, positions))
-    first, *_ = summary(calibrate_arm(tmp_path / "arm.urdf", tmp_path / "rows.csv")).splitlines()
+    _, first, *_ = summary(calibrate_arm(tmp_path / "arm.urdf", tmp_path / "rows.csv")).splitlines()
     assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first

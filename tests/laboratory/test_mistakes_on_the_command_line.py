@@ -39,8 +39,8 @@ def said_of(row, folder, capsys) -> list[str]:
     if "file" in row:
         (folder / row["file"]).write_text(lines, encoding="utf-8")
     words = row["line"].split()
-    if words[0] == "calibrate" and "--out" not in words:
-        words += ["--out", "new"]  # the usual folder is there already
+    if words[:1] in (["calibrate"], ["urdf"]) and "--out" not in words:
+        words += ["--out", "new"]  # what it would write is there already
     try:
         code = main(words)
     except SystemExit as ended:  # argparse's
