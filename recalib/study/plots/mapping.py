@@ -4,8 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from recalib.study.evidence.claims import expected_learning, weak_coupling
-from recalib.study.evidence.claims.integrals import integral_ratios
+from recalib.study.evidence.claims import coupling, expected_learning
+from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, KINDS
 from recalib.study.plots.looks import DASHED
@@ -27,7 +27,7 @@ def figure5(evidence: Evidence) -> Figure:
     """The off-diagonal blocks of the true mapping's Jacobian."""
     figure, axes = plt.subplots(figsize=(8, 4))
     table, scenarios = evidence.mapping("coupling"), evidence.fact("scenarios")
-    limit = weak_coupling.CLAIM.limits["ratio"]
+    limit = coupling.CLAIM.limits["ratio"]
     rows = np.arange(len(scenarios))[::-1]
     styles = zip((0.15, -0.15), KINDS, (POSITION, ORIENTATION), "os", strict=True)
     for offset, kind, style, marker in styles:

@@ -142,4 +142,5 @@ def test_the_page_has_each_change_and_each_verdict_before_and_now(made_up, told)
         assert all(text in told_here for text in (each.before, each.after, each.why, each.verdict))
     rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| separate-maps")]
     before = "not supported (not supported for the improved system, undecided for Ritter's)"
-    assert [cells[1:4] for cells in rows] == [[before, "separate-maps", "**supported**"]]
+    judged = "**supported** (Ritter's, 1,000 iterations)"
+    assert [cells[1:4] for cells in rows] == [[before, "separate-maps", judged]]

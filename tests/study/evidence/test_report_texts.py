@@ -46,7 +46,7 @@ def test_tables_hold_what_the_results_say(known, figures, made_up):
     assert "matplotlib" in report.page("versions", known, figures)
     claims = report.page("claims", known, figures)
     supported = [each["verdict"] for each in known["claims"]].count("supported")
-    assert f"{supported} are supported" in claims.replace("\n", " ")
+    assert f"{supported} supported" in claims.replace("\n", " ")
 
 
 def test_the_front_leaves_to_snakemake_what_only_it_knows(known, figures):
