@@ -102,21 +102,20 @@ def test_the_errors_of_a_history_are_by_search_and_seed_in_its_first_or_last_mea
     assert np.array_equal(errors_of(table, "first")[..., 1], [[0, -10, -20], [-30, -40, -50]])
 
 
-def test_an_effect_is_the_ratio_of_geometric_means_with_an_interval_and_a_bar_of_chance():
+def test_an_effect_is_the_difference_of_means_with_an_interval_and_a_bar_of_chance():
     random = np.random.default_rng(1)
     levels = np.repeat(["low", "high"], 100)
     luck = 0.2 * random.normal(size=200)
-    values = pd.Series(np.exp(luck + np.where(levels == "high", np.log(1.5), 0)))
+    numbers = luck + np.where(levels == "high", np.log(1.5), 0)
     design = pd.DataFrame({"it": levels, "other": random.permutation(levels)})
-    table = effects(values, design, random)
+    table = effects(numbers, design, random)
     row, noise = table.iloc[0], table.iloc[1]
-    means = np.log(values).groupby(levels).mean()
     assert (row["factor"], row["least"], row["largest"]) == ("it", "low", "high")
-    assert np.log(row["effect"]) == pytest.approx(means["high"] - means["low"])
+    means = [numbers[levels == level].mean() for level in ("high", "low")]
+    assert row["effect"] == pytest.approx(np.subtract(*means))
     spread = np.sqrt(2 * luck.var() / 100)
-    bounds = [np.log(row["effect"] / row["low"]), np.log(row["high"] / row["effect"])]
+    bounds = [row["effect"] - row["low"], row["high"] - row["effect"]]
     assert bounds == pytest.approx([1.96 * spread] * 2, rel=0.12)
     # of the absolute difference when the labels are shuffled: two sides, and two factors
-    bar = 2.24 * np.sqrt(np.log(values).var() / 50)
-    assert np.log(row["chance"]) == pytest.approx(bar, rel=0.12)
+    assert row["chance"] == pytest.approx(2.24 * np.sqrt(numbers.var() / 50), rel=0.12)
     assert noise["effect"] < noise["chance"]
