@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.measured import ERRORS, UNITS
 from recalib.study.statistics import Estimate
 
@@ -127,9 +128,9 @@ def depends(its: Mapping) -> str:
     its = its["depends_on"]
     if its["effect"] <= its["chance"]:
         return "No choice moves it by more than chance would show."
-    factor, least, largest = (its[key].replace("_", " ") for key in ("factor", "from", "to"))
-    effect = ranged(its["effect"], its["interval"])
-    return f"The choice that moves it most is {factor}: {effect} from {least} to {largest}."
+    factor, effect = its["factor"], ranged(its["effect"], its["interval"])
+    least, largest = (level_in_words(factor, its[key]) for key in ("from", "to"))
+    return f"It is largest where {LABELS[factor].asks} {largest}: {effect} against {least}."
 
 
 def amounts(entry: Mapping) -> str:

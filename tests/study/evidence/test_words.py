@@ -36,7 +36,7 @@ def test_a_pair_is_both_errors_with_their_units():
 
 
 def setups(effect=1.5, **others):
-    its = {"factor": "rate_law", "from": "paper", "to": "urdf", "effect": effect, "chance": 1.2}
+    its = {"factor": "cells", "from": "each", "to": "whole", "effect": effect, "chance": 1.2}
     return {
         "status": "measured",
         "setups": 64,
@@ -106,7 +106,10 @@ def test_setups_are_said_by_mean_heterogeneity_and_luck():
 
 
 def test_a_choice_is_said_to_matter_where_it_matters_more_than_chance():
-    text = "The choice that moves it most is rate law: 1.5 (1.32 to 1.78) from paper to urdf."
+    text = (
+        "It is largest where Ritter's net has as many cells as both maps: 1.5 (1.32 to 1.78)"
+        " against one map."
+    )
     assert words.depends(setups()) == text
     assert words.depends(setups(1.2)) == "No choice moves it by more than chance would show."
     assert words.depends({"status": "cannot vary"}) == ""
