@@ -14,6 +14,7 @@ report: str(Path(Layout(MAIN).report_page(report_.FRONT, ".rst")).resolve())
 def read_in(root):
     """The pages of docs/ that a study's report has as well, by the path of their text."""
     pages = report_.READ if STUDIES[root].experiments.evidence else ()
+    pages = [page for page in pages if f"{page}.md" in PAGES_BY_DEFAULT or root == RESULTS]
     explained = {report_.EXPLAINED: f"docs/{report_.EXPLAINED}.md"} if root == RESULTS else {}
     return explained | {page: Layout(root).page(f"{page}.md") for page in pages}
 

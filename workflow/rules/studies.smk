@@ -41,7 +41,8 @@ onsuccess:
             print(Path(job.output[0]).read_text(encoding="utf-8"))
 
 
-PAGES_BY_DEFAULT = ["README.md", "results.md", "findings.md", "choices.md"]
+PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
+PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md"]
 
 
 def everything(root):
@@ -54,7 +55,7 @@ def everything(root):
     if STUDIES[root].experiments.evidence:
         wanted += with_copies(root, pages=PAGES_BY_DEFAULT)
     if root == RESULTS:
-        wanted += with_copies(root, pages=["deviations.md"])
+        wanted += with_copies(root, pages=PAGES_OF_THE_SHIPPED)
     drawn_ = [Path(path).stem for path in figures_of(root)]
     drawn_ += ideas_of(root)
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]

@@ -185,6 +185,7 @@ rule reference:
         Layout(MAIN).campaign("reference"),
     params:
         code=made_from("piece.py"),
+        design="",  # they follow none
     localrule: True
     script:
         "../scripts/piece.py"
@@ -197,6 +198,7 @@ rule efforts:
         Layout(MAIN).campaign("efforts"),
     params:
         code=made_from("piece.py"),
+        design="",  # they follow none
     localrule: True
     script:
         "../scripts/piece.py"

@@ -117,6 +117,7 @@ class Request:
 
     Attributes:
         lacking: keys of the study that would have to say more, in the order of asking.
+        foreign: whether something was asked for that is known of the shipped study alone.
     """
 
     def __init__(
@@ -132,7 +133,7 @@ class Request:
         self._samples: dict[str, str] = {}
         self._facts: dict[str, JsonValue] = {}
         self.lacking: list[str] = []
-        self._beyond = False
+        self._beyond = self.foreign = False
 
     @property
     def trained(self) -> bool:
@@ -232,7 +233,7 @@ class Request:
 
     def reference(self) -> None:
         """The reference study measured as the alternative setups are."""
-        self._shipped("experiments.evidence: true", self._layout.shipped(REFERENCE))
+        self._shipped(self._layout.shipped(REFERENCE))
 
     def setups(self, table: str) -> bool:
         """What was measured in each alternative setup; whether all of it is there.
@@ -248,25 +249,23 @@ class Request:
 
     def efforts(self) -> None:
         """The trainings for the factor of 70, by the effort of their searches."""
-        self._shipped("experiments.evidence: true", self._layout.shipped(EFFORTS))
+        self._shipped(self._layout.shipped(EFFORTS))
 
     def power(self) -> None:
         """What the campaign can find."""
-        self._shipped("experiments.evidence: true", POWER)
+        self._shipped(POWER)
 
     def first_campaign(self) -> None:
         """The design and the outcomes of the first campaign."""
-        self._shipped("experiments.evidence: true", f"{FIRST}/design.csv", f"{FIRST}/outcomes.csv")
+        self._shipped(f"{FIRST}/design.csv", f"{FIRST}/outcomes.csv")
 
     @property
     def _is_shipped(self) -> bool:
         return self.study.name == SHIPPED
 
-    def _shipped(self, key: str, *paths: str) -> None:
+    def _shipped(self, *paths: str) -> None:
         """Tables that were measured of the shipped study alone, and lie in the project."""
-        self._beyond = True
-        if not self._is_shipped:
-            self.lack(key)
+        self._beyond, self.foreign = True, not self._is_shipped
         for path in paths:
             self._result(path)
 

@@ -35,6 +35,7 @@ def test_there_are_sixty_and_more_and_each_says_what_for():
 @pytest.mark.parametrize("row", TABLE, ids=[row["why"] for row in TABLE])
 def test_a_mistake_is_told_in_one_sentence(row, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "workflow").symlink_to(ROOT / "workflow")  # with the URDF of a robot
     (said,) = mistakes_of(row, tmp_path)
     source, _, sentence = said.partition(":")
     assert (source, sentence.strip()) == (row.get("file", "mine.yaml"), row["says"])

@@ -1,4 +1,5 @@
 import json
+import shutil
 import subprocess
 from dataclasses import replace
 from itertools import combinations
@@ -458,7 +459,7 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
     urdf.parent.mkdir(parents=True)
     package = f"example-robot-data/robots/{folder.name}/"
     urdf.write_text(robot.urdf.read_text().replace(package, "my_arm/"))
-    (tmp_path / "my_arm" / "meshes").symlink_to(folder / "meshes")
+    shutil.copytree(folder / "meshes", tmp_path / "my_arm" / "meshes")
     its = resolved(DAMAGES, urdf=str(urdf))
     job = job.model_copy(
         update={

@@ -66,12 +66,15 @@ class Judging(Frozen):
 
 
 def judging(request: Callable[[], Request]) -> Judging:
-    """What the claims need, each by itself: those of which the study's trainings tell, or all."""
+    """What the claims need, each by itself: those of which the study's trainings tell, or all.
+
+    What was measured of the shipped study alone judges no claim of another one.
+    """
     needs = {}
     for claim in CLAIMS:
         ask = request()
         claim.ask(ask)
-        if ask.study.experiments.evidence or ask.trained:
+        if (ask.study.experiments.evidence or ask.trained) and not ask.foreign:
             needs[claim.id] = ask.needs
     return Judging(claims=needs)
 
