@@ -6,6 +6,8 @@ import re
 from recalib.study.evidence import report as report_
 
 TEXTS = Path(report_.TEXTS)
+PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
+PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md"]
 
 
 report: str(Path(Layout(MAIN).report_page(report_.FRONT, ".rst")).resolve())

@@ -41,8 +41,6 @@ onsuccess:
             print(Path(job.output[0]).read_text(encoding="utf-8"))
 
 
-PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
-PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md"]
 
 
 def everything(root):
