@@ -36,11 +36,11 @@ TABLES = "summary benchmark_table real_table"
 # What follows from these runs again, too. `all` and `ur3` are lists of what a study consists of.
 DEPENDS = {
     "name": "all claims figure page",  # the shipped study alone is judged over universes
-    "seed": f"{NOMINAL} {TRAINED} {TABLES} claims figure study_mapping study_visits real_run",
-    "robot": f"all {EVIDENCE} design scenario train ensemble_chunk summary search_sample",
+    "seed": f"{NOMINAL} {TRAINED} {TABLES} {EVIDENCE} study_mapping study_visits real_run",
+    "robot": f"all {EVIDENCE} design scenario recording train ensemble_chunk summary search_sample",
     "scenario": f"all ur3 {EVIDENCE} outcome recording summary search_sample search"
     " study_mapping study_replay",
-    "settings": f"{TRAINED} {EVIDENCE}",
+    "settings": f"{TRAINED} figure page",
     "expected": "check",
     "robots.ur10.urdf": f"{NOMINAL} design ensemble_chunk recording",  # its meshes are drawn
     "robots.ur10.*": f"{NOMINAL} design ensemble_chunk",
@@ -57,16 +57,16 @@ DEPENDS = {
     "scenarios.translation_rotation.*": "scenario design",
     "scenarios.*": "scenario",
     "learners.improved.iterations": f"all ur3 {TRAINED} {EVIDENCE} summary",
-    "learners.improved.*": f"{TRAINED} {EVIDENCE} search_sample search",
-    "learners.ritter.iterations": f"all {LONG} claims figure summary",
-    "learners.ritter.*": f"{LONG} recording claims figure search_sample search",
-    "learners.ritter_double.iterations": "all train claims figure summary",
+    "learners.improved.*": f"{TRAINED} figure page search_sample search",
+    "learners.ritter.iterations": f"all {LONG} {EVIDENCE} summary",
+    "learners.ritter.*": f"{LONG} recording figure search_sample search",
+    "learners.ritter_double.iterations": f"all train {EVIDENCE} summary",
     "learners.ritter_double.*": "train",
     "experiments.scenarios": "all figure study_mapping summary",
     "experiments.learners": f"all {EVIDENCE} recording train summary",
-    "experiments.beside": "all claims figure summary",
+    "experiments.beside": f"all {EVIDENCE} summary",
     "experiments.switches": "all figure summary",
-    "experiments.ladder.*": "all claims figure summary",
+    "experiments.ladder.*": f"all {EVIDENCE} summary",
     "experiments.evidence": "all claims",
     "experiments.robots": "all figure summary",
     "experiments.ensemble.improved.assignments.draws": "ensemble ensemble_chunk",  # one more chunk
@@ -92,12 +92,12 @@ DEPENDS = {
     "training.seeds_per_job": "run train",
     "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
     "training.*": "train recording",
-    "universes.count": f"design {EVIDENCE}",  # of how many setups all have to be there
-    "universes.rough_trials": "design claims",
+    "universes.count": f"all design {EVIDENCE}",  # of how many setups all have to be there
+    "universes.rough_trials": "design claims figure",
     "universes.*": "design",
     "search.short": "page",
-    "search.searches": f"{TRAINED} {EVIDENCE} run search_sample search",
-    "search.searches_long": f"{LONG} {EVIDENCE}",
+    "search.searches": f"{TRAINED} figure page run search_sample search",
+    "search.searches_long": f"{LONG} figure page",
     "search.*": "search_sample search",
 }
 
