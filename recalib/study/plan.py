@@ -120,13 +120,14 @@ class Plan:
     def training(self, scenario: str, learner: str, chunk: int) -> jobs.Training:
         """Some seeds of a training."""
         _, robot = scenario_of(self.study, scenario)
+        shown = *self.study.experiments.learners, *self.study.experiments.beside
         return jobs.Training(
             scenario=scenario,
             learner=rules(self.study, learner),
             seeds=self.study.training.seeds,
             **bounds(chunk, self.seeds(learner), self.study.training.seeds_per_job),
             measuring=self.measuring(),
-            throughout=robot == self.study.robot and learner in self.study.experiments.learners,
+            throughout=robot == self.study.robot and learner in shown,
             seed=self.study.seed,
         )
 

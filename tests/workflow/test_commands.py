@@ -51,7 +51,6 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make web STUDY=my_arm": "serves until it is interrupted",
     "make web STUDY=ur3": "serves until it is interrupted",
     "make study STUDY=ur3": "a minute, and as make quick",
-    "make study STUDY=bent": "a minute, and as make quick",
     "make study STUDY=coarse": "three minutes",
     "snakemake --cores 2 figures/figure1.svg": "most of the replication, which make has made",
     "snakemake --cores 2 --forcerun claims -- results/claims.json": "the same",

@@ -60,7 +60,7 @@ def _heading(rows: dict[str, list[Estimate]]) -> str:
     if not changes:
         return "Figure 4: learners beside the paper's two"
     most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
-    return f"Figure 4: the paper's changes, one by one; the one that helps most: {most}"
+    return f"Figure 4: of the paper's changes, {most} help most"
 
 
 def figure4(evidence: Evidence) -> Figure:

@@ -130,16 +130,22 @@ def figure2(evidence: Evidence) -> Figure:
         first = next(iter(histories.values())).groupby("iteration")[error].mean().iloc[0]
         axes.axhline(first, **BORDER)
         at_line(axes, f"before: {first:.2f}", y=first)
+        reached = []
         for one, other in (compared, compared[::-1]) if compared else ():
             level = histories[other].groupby("iteration")[error].mean().iloc[-1]
-            reached = _reached(histories[one], [error], np.array([level]))
+            when = _reached(histories[one], [error], np.array([level]))
+            reached.append(
+                (level, f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}")
+            )
+        for (level, told), above in zip(sorted(reached), (False, True), strict=False):
             axes.axhline(level, **BORDER)
             axes.annotate(
-                f"{level:.2f}: {shown[one].label.partition(',')[0]} after {reached}",
+                told,
                 (0.02, level),
-                (0, 3),
+                (0, 3 if above else -3),  # two levels may be near to each other
                 xycoords=("axes fraction", "data"),
                 textcoords="offset points",
+                va="bottom" if above else "top",
                 fontsize=9,
             )
         axes.set(xscale=LOG, yscale=LOG, xlabel="iterations (two moves each)", ylabel=text)
