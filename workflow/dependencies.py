@@ -8,11 +8,9 @@ reads is an input as well, but what has an old date may be new all the same.
 
 import hashlib
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-
-from recalib.study.layout import RESULTS
 
 ROOT = Path(__file__).parents[1]
 # Read as text: to parse all modules takes longer than all else that happens at the start.
@@ -21,16 +19,18 @@ IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", 
 NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
-def made_from(script: str, *named: str) -> Callable:
-    """What gives a job's parameter: a digest of its code, and of its inputs that no rule makes.
+def made_from(script: str, *named: str, reads: Callable = lambda wildcards: ()) -> Callable:
+    """What gives a job's parameter: a digest of its code and of files of the project it reads.
+
+    It asks for wildcards alone: Snakemake compares no parameter that follows from inputs.
 
     Args:
         named: as for `code`.
+        reads: gives the paths of files that no rule makes, for some wildcards.
     """
 
-    def digest(wildcards: object, input: Iterable[str]) -> str:
-        sources = (path for path in map(str, input) if not path.startswith(f"{RESULTS}/"))
-        return "".join([code(script, *named), *map(_digest, sources)])
+    def digest(wildcards: object) -> str:
+        return "".join([code(script, *named), *map(_digest, map(str, reads(wildcards)))])
 
     return digest
 

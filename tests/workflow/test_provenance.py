@@ -64,7 +64,7 @@ DEPENDS = {
     "learners.ritter_double.*": "train",
     "experiments.scenarios": "all figure study_mapping summary",
     "experiments.learners": f"all {EVIDENCE} recording train summary",
-    "experiments.beside": f"all {EVIDENCE} summary",
+    "experiments.beside": f"all train {EVIDENCE} summary",
     "experiments.switches": "all figure summary",
     "experiments.ladder.*": f"all {EVIDENCE} summary",
     "experiments.evidence": "all claims",

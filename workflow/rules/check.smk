@@ -8,7 +8,7 @@ rule check:
     output:
         LAYOUT.check,
     params:
-        code=made_from("check.py"),
+        code=made_from("check.py", reads=lambda w: [study(w).expected]),
     localrule: True
     message:
         "Check the final errors against {input.expected}"

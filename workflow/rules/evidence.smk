@@ -83,7 +83,7 @@ rule page:
     output:
         LAYOUT.page("{page}"),
     params:
-        code=made_from("page.py"),
+        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
         job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),

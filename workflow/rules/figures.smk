@@ -14,7 +14,7 @@ rule figure:
         LAYOUT.figure("{figure}"),
         LAYOUT.figure("{figure}", ".png"),
     params:
-        code=lambda w, input: made_from("figure.py", FIGURES[w.figure].home)(w, input),
+        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
         job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),

@@ -90,7 +90,7 @@ for root_ in STUDIES:
             ],
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
         params:
-            code=made_from("report_pages.py"),
+            code=made_from("report_pages.py", reads=lambda w: sorted(TEXTS.iterdir())),
             kept=kept_in(root_),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
         localrule: True

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
+from matplotlib.layout_engine import PlaceHolderLayoutEngine
 
 SMALL = 8.5  # points: on a sheet of 10.5 inches, 9 pixels on a page of 830
 EDGE = 0.1  # inches
@@ -31,7 +32,8 @@ class Sheet:
     ):
         wide = sum(columns)
         tall = ABOVE + sum(heights) + BETWEEN * len(heights) + below
-        self.figure = plt.figure(figsize=(wide, tall), layout="none")
+        # With layout="none", saving a figure would bring back that of the style.
+        self.figure = plt.figure(figsize=(wide, tall), layout=PlaceHolderLayoutEngine(True, True))
         self.panels: list[Axes] = []
         left = (columns[0] + EDGE) / wide
         top = tall - ABOVE
