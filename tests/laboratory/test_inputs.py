@@ -16,6 +16,8 @@ from recalib.laboratory.command_line import REFUSED, main
 from tests.conftest import ROOT
 from tests.laboratory.test_command_line import ARM
 
+pytestmark = pytest.mark.slow  # each in a process of its own
+
 SECONDS, BYTES = 10, 1e9
 MEMORY = "memory"
 END = "</robot>"

@@ -31,6 +31,8 @@ from recalib.study.trainings import Trainings, rules
 from recalib.training import measuring_grid
 from tests.conftest import ROOT
 
+pytestmark = pytest.mark.slow  # thousands of settings take a minute
+
 SHIPPED = ROOT / "config.yaml"
 TREE = from_file(SHIPPED).plain()
 WRONG = None, True, "", "nonsense", [], [[]], {"a": 1}
