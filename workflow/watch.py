@@ -24,8 +24,8 @@ from urllib.request import urlopen
 import jinja2
 
 from recalib.errors import RecalibError
-from recalib.study.layout import RESULTS, SHIPPED
 from recalib.study.recording.viewer import PROGRAM, quiet
+from recalib.study.shipped import RESULTS, SHIPPED
 
 HERE = "127.0.0.1"
 PORT = 9090

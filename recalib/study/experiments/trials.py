@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Commandable, Learner
+from recalib import interfaces
+from recalib.interfaces import Commandable
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.randomness import generator
-from recalib.study import jobs
-from recalib.study.configuration.study import Budget
+from recalib.study.configuration.study import Budget, Learner
 from recalib.study.experiments import search
 from recalib.study.experiments.campaign import desired_poses, test_poses
 from recalib.study.experiments.settings import rules_of
@@ -26,26 +26,39 @@ if TYPE_CHECKING:
 DIGITS = 4  # of errors and scores
 
 
-def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
+def search_for(
+    scenario: Path,
+    training: str,
+    learner: Learner,
+    budget: Budget,
+    first: int,
+    last: int,
+    tests: int,
+) -> "pd.DataFrame":
     """All trials of some searches, a row each.
 
     Args:
         scenario: file of the scenario as resolved.
+        training: its name.
+        learner: its rules.
+        budget: what each search may spend.
+        first, last: the first of its searches that are done, and one past the last.
+        tests: poses on which a trial is measured.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
     resolved = Resolved.read(scenario)
-    controller, seeds = resolved.controller(), [*range(job.budget.seeds)]
+    controller, seeds = resolved.controller(), [*range(budget.seeds)]
 
     def robots(runs: int) -> Commandable:
-        return resolved.plant(controller, job.budget.seed, seeds * (runs // len(seeds)))
+        return resolved.plant(controller, budget.seed, seeds * (runs // len(seeds)))
 
     found = []
-    for number in range(job.first + 1, job.last + 1):
+    for number in range(first + 1, last + 1):
         # nothing of a search is that of another one, or of a training
-        scope = f"search {number} for {job.training} on {resolved.scenario}"
-        rules, iterations = rules_of(job.learner), job.learner.iterations
-        trials = Search(robots, rules, iterations, job.budget, job.tests, scope).all_rounds()
+        scope = f"search {number} for {training} on {resolved.scenario}"
+        rules, iterations = rules_of(learner), learner.iterations
+        trials = Search(robots, rules, iterations, budget, tests, scope).all_rounds()
         trials.insert(0, "search", number)
         found.append(trials)
     return pd.concat(found, ignore_index=True)
@@ -77,7 +90,7 @@ class Search:
     fixed: Mapping[str, float] = field(default_factory=dict)
     error: str = "norm"
     order: str = "random"
-    learner: Callable[[int, Rules, Schedule], Learner] = HierarchicalLearner
+    learner: Callable[[int, Rules, Schedule], interfaces.Learner] = HierarchicalLearner
 
     def all_rounds(self) -> "pd.DataFrame":
         """All trials, round after round, a row each."""

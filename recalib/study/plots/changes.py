@@ -12,6 +12,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.plots.looks import looks
 from recalib.study.plots.steady import LOG
 from recalib.study.plots.style import BORDER, INTERVALS, at_line, legend_below, plain, title
+from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
 
 MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
@@ -24,7 +25,7 @@ def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     rows, own = {}, evidence.fact("switches")
     if own and evidence.fact("shipped"):
         measured = {across.column: across for across in SEPARATE.across.values()}
-        reference = evidence.reference()
+        reference = evidence.table(REFERENCE)
         rows[MAPS.label] = [measured[each].in_reference(reference) for each in NESTED]
     for switch in OTHERS if own else ():
         pairs = with_and_without(evidence, switch).values()
@@ -96,7 +97,7 @@ def figure4(evidence: Evidence) -> Figure:
     if MAPS.label in rows:
         how = (
             f"\n{MAPS.label}: both searches go on from one winner;"
-            f" {len(evidence.reference())} replicates, 95 % interval of their mean"
+            f" {len(evidence.table(REFERENCE))} replicates, 95 % interval of their mean"
         )
     title(figure, _heading(rows))
     legend_below(

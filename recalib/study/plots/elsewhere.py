@@ -18,7 +18,10 @@ STYLES = SOLID, DASHED  # of cm and degrees: colours are learners
 def figure11(evidence: Evidence) -> Figure:
     """Other assignments, other amounts and other robots."""
     figure, panels = plt.subplots(1, 3, figsize=(12, 5.2))
-    tables = {learner: evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)}
+    tables = {
+        learner: evidence.table(f"ensemble/assignments.{learner}.parquet")
+        for learner in (IMPROVED, RITTER)
+    }
     _draw_assignments(panels[0], tables)
     _draw_amounts(panels[1], evidence)
     _draw_robots(panels[2], evidence)
@@ -51,7 +54,7 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
 
 
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
-    scaled = evidence.ensemble(IMPROVED, "scaled").groupby("scale")
+    scaled = evidence.table(f"ensemble/scaled.{IMPROVED}.parquet").groupby("scale")
     color = looks([IMPROVED])[IMPROVED].color
     styles = zip(ERRORS, UNITS, STYLES, "os", strict=True)
     for error, unit, linestyle, marker in styles:

@@ -54,7 +54,7 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
         trials = np.arange(1, best.shape[1] + 1)
         low, median[role], high = np.percentile(best, (BAND[0], 50, BAND[1]), axis=0)
         axes.fill_between(trials, low, high, color=look.color, alpha=0.2, linewidth=0)
-        length = evidence.searched_for(evidence.fact(role)).learner.iterations
+        length = evidence.sought(evidence.fact(role)).learner.iterations
         name = f"{look.label}, {length:,} iterations"
         axes.plot(trials, median[role], label=name, **look.line())
     limit = rough_search.CLAIM.limits["left"]
@@ -64,7 +64,7 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     at_line(axes, f"{rough} trials", x=rough)
     axes.set(xscale=LOG, yscale=LOG)
     axes.set_xlabel("random trials, of which the best counts", fontsize=SIZE)
-    axes.set_ylabel(REMAINS[evidence.searched_for(evidence.fact(IMPROVED)).budget.score])
+    axes.set_ylabel(REMAINS[evidence.sought(evidence.fact(IMPROVED)).budget.score])
     axes.yaxis.label.set_size(SIZE)
     plain(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
     plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
@@ -106,7 +106,7 @@ def figure6(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 3, figsize=(10, 4.8))
     remaining = _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
-    trials, budget = _first_rounds(evidence, improved), evidence.searched_for(improved)
+    trials, budget = _first_rounds(evidence, improved), evidence.sought(improved)
     styles = zip(panels[1:], KINDS, ERRORS, (POSITION, ORIENTATION), strict=True)
     for axes, kind, error, style in styles:
         _draw_order(axes, trials, kind, error, style["color"])

@@ -13,6 +13,7 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.storage import whole
+from recalib.study.recording.acts import AFTER, BEFORE
 from recalib.study.recording.viewer import PROGRAM, quiet
 
 WINDOW = 1400, 800  # pixels
@@ -23,6 +24,11 @@ REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not 
 
 class ViewerUnavailable(RecalibError):
     """The viewer does not run here, most often for want of a Vulkan driver."""
+
+
+def before_and_after(recording: Path, before: Path, after: Path) -> None:
+    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
+    take_pictures(recording, {before: BEFORE, after: AFTER})
 
 
 def take_pictures(

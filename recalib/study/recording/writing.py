@@ -8,18 +8,18 @@ import rerun as rr
 
 from recalib.interfaces import Learner
 from recalib.storage import whole
-from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among, disturbances_among
 from recalib.study.experiments import campaign
 from recalib.study.plants import Resolved
 from recalib.study.recording import about, arms, colours, corrections, errors, scatter, scene, story
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.seal import check_errors, check_recording, write_sealed
+from recalib.study.recordings import Recording
 
 
 def write_recording(
     path: Path,
-    job: jobs.Recording,
+    job: Recording,
     resolved: Resolved,
     learners: Mapping[str, Learner],
     measured: Mapping[str, Mapping[str, Sequence]],
@@ -79,7 +79,7 @@ def write_recording(
     return watched
 
 
-def _measured_at(job: jobs.Recording, name: str) -> Sequence[int]:
+def _measured_at(job: Recording, name: str) -> Sequence[int]:
     """The iterations of a learner after which it is measured: today's after each of its moves."""
     learner = job.learners[name]
     if learner:

@@ -15,6 +15,7 @@ from recalib.study.evidence.claims.across import (
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
+from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
 
 WORDS = {0.1: "tenth", 0.25: "quarter", 3.0: "three"}
@@ -127,7 +128,7 @@ class Claim:
             return
         request.fact("seed")
         if self.measure is None:
-            request.reference()
+            request.shipped(REFERENCE)
         for table in {across.table for across in self.across.values()}:
             request.setups(table)
 
@@ -167,11 +168,11 @@ class Claim:
         for system, across in self.across.items():
             outcomes = evidence.setups(across.table)
             if outcomes is not None:
-                found[system] = across.over(outcomes, evidence.design())
+                found[system] = across.over(outcomes, evidence.levels())
         return found
 
     def _from(self, evidence: Evidence) -> Finding:
-        reference = evidence.reference()
+        reference = evidence.table(REFERENCE)
         return Finding({name: its.in_reference(reference) for name, its in self.across.items()})
 
     def _verdict(self, system: str, finding: Finding, setups: Mapping[str, Setups]) -> Verdict:
