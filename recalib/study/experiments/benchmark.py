@@ -53,7 +53,7 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
 
 
 def compete(
-    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None
+    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None = None
 ) -> "pd.DataFrame":
     """Let a learner work through scenarios of one robot side by side.
 

@@ -110,6 +110,15 @@ class _Poses:
             raise TypeError(f"{cls.__name__} expected, {type(poses).__name__} found: {poses.name}")
         return poses
 
+    @classmethod
+    def side_by_side(cls, poses: Iterable["SearchPoses | ResultPoses"]) -> Self:
+        """Those of all runs, one group of them after the other. Raises TypeError, as `only`."""
+        parts = [cls.only(each) for each in poses]
+        desired, tests = (
+            np.concatenate([getattr(each, name) for each in parts]) for name in ("desired", "tests")
+        )
+        return cls(", ".join(dict.fromkeys(each.name for each in parts)), desired, tests)
+
 
 class SearchPoses(_Poses):
     """By which a search chooses settings."""
@@ -118,19 +127,20 @@ class SearchPoses(_Poses):
 class ResultPoses(_Poses):
     """On which winners, and today's learners, are trained and measured."""
 
-    @classmethod
-    def side_by_side(cls, poses: Iterable[Self]) -> Self:
-        """Those of all runs, one group of them after the other."""
-        parts = [cls.only(each) for each in poses]
-        desired, tests = (
-            np.concatenate([getattr(each, name) for each in parts]) for name in ("desired", "tests")
-        )
-        return cls(", ".join(each.name for each in parts), desired, tests)
+
+def train_on(
+    plant: Commandable,
+    learner: Learner,
+    poses: SearchPoses | ResultPoses,
+    measure_at: Sequence[int],
+    **how,
+) -> History:
+    """As `recalib.training.train`."""
+    return train(plant, learner, poses.desired, poses.tests, measure_at, **how)
 
 
 def train_for_results(
     plant: Commandable, learner: Learner, poses: ResultPoses, measure_at: Sequence[int], **how
 ) -> History:
-    """As `recalib.training.train`. Raises TypeError: the poses are those of a search."""
-    its = ResultPoses.only(poses)
-    return train(plant, learner, its.desired, its.tests, measure_at, **how)
+    """As `train_on`. Raises TypeError: the poses are those of a search."""
+    return train_on(plant, learner, ResultPoses.only(poses), measure_at, **how)

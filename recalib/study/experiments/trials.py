@@ -15,10 +15,9 @@ from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Budget
 from recalib.study.experiments import search
-from recalib.study.experiments.poses import SearchPoses, Stream
+from recalib.study.experiments.poses import SearchPoses, Stream, train_on
 from recalib.study.experiments.settings import rules_of
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -113,11 +112,10 @@ class Search:
         """The trials with their errors and scores."""
         seeds, iterations, _ = self.poses.desired.shape
         runs = len(trials) * seeds
-        history = train(
+        history = train_on(
             self.robots(runs),
             self.learner(runs, self.rules, search.schedule(trials, self.rules, seeds)),
-            np.tile(self.poses.desired, (len(trials), 1, 1)),
-            np.tile(self.poses.tests, (len(trials), 1, 1)),
+            SearchPoses.side_by_side([self.poses] * len(trials)),
             [iterations],
             error=self.error,
         )
