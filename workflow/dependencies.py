@@ -12,6 +12,8 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from recalib.study.shipped import RESULTS
+
 ROOT = Path(__file__).parents[1]
 SCRIPT = "workflow/scripts/call.py"
 # Read as text: to parse all modules takes longer than all else that happens at the start.
@@ -26,21 +28,21 @@ def nothing(wildcards: object) -> tuple[()]:
 
 
 def calls(function: str, also: Callable = nothing, reads: Callable = nothing) -> dict:
-    """The parameters of a rule that say which function it calls, and what stands in its code.
+    """The parameters of a rule that say which function it calls, and what that is made from.
 
-    The digest follows from wildcards alone: Snakemake compares no parameter that follows from
-    inputs.
+    This is a digest of code, and of what is read and no rule makes. It follows from wildcards
+    alone: Snakemake compares no parameter that follows from inputs.
 
     Args:
         function: its dotted name.
         also: gives the names of modules that it imports by a name that it is told.
-        reads: gives the paths of files that no rule makes.
+        reads: gives the paths of files; results do not count among them.
     """
 
     def digest(wildcards: object) -> str:
         home = function.rpartition(".")[0]
-        files = map(_digest, map(str, reads(wildcards)))
-        return "".join([code(home, *also(wildcards)), *files])
+        given = [path for path in map(str, reads(wildcards)) if not path.startswith(f"{RESULTS}/")]
+        return "".join([code(home, *also(wildcards)), *map(_digest, given)])
 
     return {"function": function, "code": digest}
 

@@ -4,16 +4,22 @@ from recalib.study.chunks import batches
 from recalib.study.trainings import rules_unless_peer
 
 
+def sample_of_competitor(wildcards):
+    """The sample for a learner of the paper; today's need none."""
+    papers = rules_unless_peer(study(wildcards), wildcards.learner)
+    return sample(wildcards, wildcards.learner) if papers else []
+
+
 rule benchmark_run:
     input:
         scenarios=lambda w: [
             f"{w.root}/scenarios/{name}.json" for name in batches(study(w))[w.batch]
         ],
-        sample=lambda w: sample(w, w.learner) if rules_unless_peer(study(w), w.learner) else [],
+        sample=sample_of_competitor,
     output:
         "{root}/chunks/benchmark/{learner}.{batch}.parquet",
     params:
-        **calls("recalib.study.experiments.benchmark.compete"),
+        **calls("recalib.study.experiments.benchmark.compete", reads=lambda w: [sample_of_competitor(w)]),
         arguments=lambda w: as_text(
             name=w.learner,
             rules=rules_unless_peer(study(w), w.learner),
@@ -83,7 +89,10 @@ rule real_run:
     output:
         "{root}/real/runs/{learner}.csv",
     params:
-        **calls("recalib.study.experiments.real_arm.learn_from_tables"),
+        **calls(
+            "recalib.study.experiments.real_arm.learn_from_tables",
+            reads=lambda w: [study(w).real.description],
+        ),
         arguments=lambda w: as_text(
             nominal=nominal(study(w), study(w).real.robot),
             learner=w.learner,
@@ -108,7 +117,10 @@ rule real_twin:
     output:
         "{root}/real/twin/{learner}.csv",
     params:
-        **calls("recalib.study.experiments.real_arm.learn_on_twin"),
+        **calls(
+            "recalib.study.experiments.real_arm.learn_on_twin",
+            reads=lambda w: [study(w).real.description, sample(w, w.learner)],
+        ),
         arguments=lambda w: as_text(
             nominal=nominal(study(w), study(w).real.robot),
             name=w.learner,

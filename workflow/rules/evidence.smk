@@ -42,15 +42,18 @@ rule summary:
         "../scripts/call.py"
 
 
+def judged_by(wildcards):
+    claims = judging(request(wildcards.root)).values()
+    return sorted({path for evidence in claims for path in evidence.inputs})
+
+
 rule claims:
     input:
-        evidence=lambda w: sorted(
-            {path for its in judging(request(w.root)).values() for path in its.inputs}
-        ),
+        evidence=judged_by,
     output:
         "{root}/claims.json",
     params:
-        **calls("recalib.study.evidence.claims.judge"),
+        **calls("recalib.study.evidence.claims.judge", reads=judged_by),
         arguments=lambda w: as_text(claims=judging(request(w.root))),
     threads: 1
     resources:
@@ -61,14 +64,21 @@ rule claims:
         "../scripts/call.py"
 
 
+def outcome_evidence(wildcards):
+    return asked(wildcards.root, needs_of_outcome)
+
+
 rule outcome:
     input:
-        evidence=lambda w: asked(w.root, needs_of_outcome).inputs,
+        evidence=lambda w: outcome_evidence(w).inputs,
     output:
         "{root}/outcome.txt",
     params:
-        **calls("recalib.study.evidence.outcome.outcome"),
-        arguments=lambda w: as_text(evidence=asked(w.root, needs_of_outcome)),
+        **calls(
+            "recalib.study.evidence.outcome.outcome",
+            reads=lambda w: outcome_evidence(w).inputs,
+        ),
+        arguments=lambda w: as_text(evidence=outcome_evidence(w)),
     localrule: True
     message:
         "Say what came out"
@@ -89,7 +99,7 @@ rule page:
     params:
         **calls(
             "recalib.study.evidence.pages.page",
-            reads=lambda w: [f"workflow/templates/{w.page}.j2"],
+            reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_evidence(w).inputs],
         ),
         arguments=lambda w: as_text(name=w.page, evidence=page_evidence(w)),
     wildcard_constraints:

@@ -9,7 +9,10 @@ rule train:
         history="{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
         learned="{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
     params:
-        **calls("recalib.study.experiments.campaign.train_seeds"),
+        **calls(
+            "recalib.study.experiments.campaign.train_seeds",
+            reads=lambda w: [sample(w, w.learner)],
+        ),
         arguments=lambda w: as_text(
             rules=rules_of(study(w), w.learner),
             seeds=study(w).training.seeds,
@@ -72,7 +75,10 @@ rule ensemble_chunk:
     output:
         "{root}/chunks/ensemble/{series}.{learner}.{chunk}.parquet",
     params:
-        **calls("recalib.study.experiments.ensemble.train_draws"),
+        **calls(
+            "recalib.study.experiments.ensemble.train_draws",
+            reads=lambda w: [sample(w, w.learner)],
+        ),
         arguments=lambda w: as_text(
             nominal=nominal(study(w), study(w).robot),
             shorten=study(w).paper_damage.shorten,
@@ -114,14 +120,18 @@ rule ensemble:
 MEASURED = ["improved", "ritter"]
 
 
+def samples_of_measured(wildcards):
+    return [sample(wildcards, name) for name in MEASURED]
+
+
 rule bench:
     input:
         scenario=own_scenario,
-        samples=lambda w: [sample(w, learner) for learner in MEASURED],
+        samples=samples_of_measured,
     output:
         "{root}/bench.txt",
     params:
-        **calls("recalib.study.experiments.speed.measure_speed"),
+        **calls("recalib.study.experiments.speed.measure_speed", reads=samples_of_measured),
         arguments=lambda w: as_text(
             learners={name: rules_of(study(w), name) for name in MEASURED},
         ),

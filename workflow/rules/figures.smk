@@ -15,7 +15,9 @@ rule figure:
         png="{root}/figures/{figure}.png",
     params:
         **calls(
-            "recalib.study.plots.registry.publish", also=lambda w: [FIGURES[w.figure].home]
+            "recalib.study.plots.registry.publish",
+            also=lambda w: [FIGURES[w.figure].home],
+            reads=lambda w: figure_evidence(w).inputs,
         ),
         arguments=lambda w: as_text(figure=w.figure, evidence=figure_evidence(w)),
     wildcard_constraints:

@@ -47,7 +47,10 @@ rule study_replay:
     output:
         "{root}/mapping/replay.parquet",
     params:
-        **calls("recalib.study.experiments.replay.replay"),
+        **calls(
+            "recalib.study.experiments.replay.replay",
+            reads=lambda w: [sample(w, "improved")],
+        ),
         arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),
     threads: 1
     resources:

@@ -13,17 +13,21 @@ def recorded(wildcards):
     return recording_of(wildcards.root, wildcards.recording)
 
 
+def samples_of_recorded(wildcards):
+    return [sample(wildcards, name) for name in recorded(wildcards).papers()]
+
+
 rule recording:
     input:
         scenario=lambda w: f"{w.root}/scenarios/{recorded(w).scenario}.json",
-        samples=lambda w: [sample(w, name) for name in recorded(w).papers()],
+        samples=samples_of_recorded,
         histories=lambda w: [
             f"{w.root}/runs/{recorded(w).scenario}/{name}.parquet" for name in recorded(w).papers()
         ],
     output:
         rrd="{root}/recordings/{recording}.rrd",
     params:
-        **calls("recalib.study.recording.files.record"),
+        **calls("recalib.study.recording.files.record", reads=samples_of_recorded),
         arguments=lambda w: as_text(recording=recorded(w)),
     threads: 1
     resources:

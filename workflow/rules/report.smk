@@ -65,6 +65,11 @@ def report_of(root):
     return [f"{root}/report/{page}.html" for pages in pages_of(root).values() for page in pages]
 
 
+def read_by_report(root):
+    """Texts, pages and evidence."""
+    return [*sorted(TEXTS.iterdir()), *read_in(root).values(), *asked(root, report_.needs).inputs]
+
+
 # How many pages there are is known of each study by itself, hence a rule for each.
 for root_ in STUDIES:
     own_ = {*sum(pages_of(root_).values(), [])} - {*other_pages_of(root_)}
@@ -91,7 +96,8 @@ for root_ in STUDIES:
             rst=f"{root_}/report/{report_.FRONT}.rst",
         params:
             **calls(
-                "recalib.study.evidence.report.write", reads=lambda w: sorted(TEXTS.iterdir())
+                "recalib.study.evidence.report.write",
+                reads=lambda w, root=root_: read_by_report(root),
             ),
             kept=kept_in(root_),
             arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.needs)),

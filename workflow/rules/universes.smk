@@ -185,7 +185,10 @@ rule efforts_of:
     output:
         "{root}/chunks/universes/efforts/{training}.csv",
     params:
-        **calls("recalib.study.multiverse.efforts.efforts"),
+        **calls(
+            "recalib.study.multiverse.efforts.efforts",
+            reads=lambda w: [sample_at(w.root, w.training)],
+        ),
         arguments=lambda w: as_text(
             training=w.training,
             learner=rules_of(study(w), w.training),

@@ -10,11 +10,10 @@ import numpy as np
 from recalib import interfaces
 from recalib.study.configuration.study import Learner
 from recalib.study.entrants import MOVES, make_peer
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,13 +92,12 @@ def compete(
         iterations, each = rules.iterations, MOVES
         searches = [run + 1 for run in runs] * len(scenarios)
         learner = Timed(build_tuned(rules, sample, searches))
-    desired, tested = (
-        np.concatenate([poses(seed, scenario, runs, count) for scenario in names])
-        for poses, count in ((desired_poses, iterations), (test_poses, tests))
+    poses = ResultPoses.side_by_side(
+        Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scope) for scope in names
     )
     budgets = measured_at([*moves, *longer], iterations, each)
     with progress_bar(f"{name} on {', '.join(names)}", iterations) as progress:
-        history = train(plants, learner, desired, tested, budgets, progress)
+        history = train_for_results(plants, learner, poses, budgets, progress=progress)
     frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     return frame.assign(
         scenario=np.array(names)[frame["seed"] // len(runs)],

@@ -14,11 +14,10 @@ from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study.assignments import Ways
 from recalib.study.configuration.study import Learner
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.nominal import Nominal
 from recalib.study.plants import nominal_controller
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -77,11 +76,10 @@ def train_draws(
     cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
     arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]
     runs = [first + index for index, _ in cases]
-    history = train(
+    history = train_for_results(
         Plant(controller, arms),
         build_tuned(rules, sample, [run + 1 for run in runs]),
-        desired_poses(seed, "ensemble", runs, iterations),
-        test_poses(seed, "ensemble", runs, tests),
+        Stream.ENSEMBLE.draw(seed, runs, iterations, tests),
         [0, iterations],
     )
     table = {

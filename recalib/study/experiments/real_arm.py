@@ -24,12 +24,11 @@ from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.entrants import MOVES
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.nominal import Nominal
 from recalib.study.plants import nominal_robot
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -209,11 +208,10 @@ def learn_on_twin(
     twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}
-    history = train(
+    history = train_for_results(
         Plant(Controller(robot, nominal.controller.greatest_condition), [twin]),
         build_tuned(rules, sample, [run + 1 for run in runs]),
-        desired_poses(seed, "twin", runs, iterations),
-        test_poses(seed, "twin", runs, tests),
+        Stream.TWIN.draw(seed, runs, iterations, tests),
         sorted(met | {iterations}),
     )
     return pd.DataFrame(

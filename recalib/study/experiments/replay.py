@@ -7,7 +7,7 @@ import numpy as np
 
 from recalib.archives import flat
 from recalib.study.configuration.study import Learner
-from recalib.study.experiments.campaign import desired_poses
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
 
@@ -28,7 +28,7 @@ def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> "pd.DataF
 
     resolved, iterations = Resolved.read(scenario), rules.iterations
     plant = resolved.plant(resolved.controller(), seed, [0])
-    desired = desired_poses(seed, "replay", [0], iterations)
+    desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
     table = {}
 
     def by_robot(commands):

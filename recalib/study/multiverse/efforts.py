@@ -4,19 +4,17 @@ A full search is one of workflow/search. Its first round holds several rough one
 quasi-random trials each as a rough search has.
 """
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.study.configuration.study import Learner
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
 from recalib.study.lengths import LONG
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -78,11 +76,10 @@ def _trained(
     if iterations >= LONG:
         grid = np.geomspace(FIRST, iterations, WATCHED).round().astype(int).tolist()
     settings = np.repeat(winners.to_dict("records"), each)
-    history = train(
+    history = train_for_results(
         resolved.plant(resolved.controller(), seed, seeds),
         build(learner, settings),
-        _of(desired_poses, seed, seeds, iterations),
-        _of(test_poses, seed, seeds, tests),
+        Stream.EFFORTS.draw(seed, seeds, iterations, tests),
         grid,
     )
     runs = np.arange(len(seeds))
@@ -96,7 +93,3 @@ def _trained(
             "orientation_error_deg": np.degrees(history.orientation[..., 0]).ravel(),
         }
     )
-
-
-def _of(poses, seed: int, seeds: Sequence[int], count: int) -> np.ndarray:
-    return poses(seed, "efforts", seeds, count)
