@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from recalib.study.configuration.damages import (
     damages_among,
     disturbances_among,
 )
-from recalib.study.kept import Kept
+from recalib.study.configuration.part import Frozen
 from recalib.study.nominal import Nominal
 
 
@@ -41,6 +42,15 @@ def nominal_robot(nominal: Nominal) -> Robot:
 def nominal_controller(nominal: Nominal) -> Controller:
     """Its controller; see `Controller` for what it raises."""
     return Controller(nominal_robot(nominal), nominal.controller.greatest_condition)
+
+
+class Kept(Frozen):
+    """A typed value that a file of JSON keeps."""
+
+    @classmethod
+    def read(cls, path: str | Path) -> Self:
+        """The value in a file."""
+        return cls.model_validate_json(Path(path).read_bytes())
 
 
 class Resolved(Kept):

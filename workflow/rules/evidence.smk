@@ -49,7 +49,7 @@ def judged_by(wildcards):
 
 rule claims:
     input:
-        evidence=judged_by,
+        files=judged_by,
     output:
         "{root}/claims.json",
     params:
@@ -70,7 +70,7 @@ def outcome_evidence(wildcards):
 
 rule outcome:
     input:
-        evidence=lambda w: outcome_evidence(w).inputs,
+        files=lambda w: outcome_evidence(w).inputs,
     output:
         "{root}/outcome.txt",
     params:
@@ -93,7 +93,7 @@ def page_evidence(wildcards):
 rule page:
     input:
         template="workflow/templates/{page}.j2",
-        evidence=lambda w: page_evidence(w).inputs,
+        files=lambda w: page_evidence(w).inputs,
     output:
         "{root}/pages/{page}",
     params:

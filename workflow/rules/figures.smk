@@ -9,7 +9,7 @@ def figure_evidence(wildcards):
 
 rule figure:
     input:
-        evidence=lambda w: figure_evidence(w).inputs,
+        files=lambda w: figure_evidence(w).inputs,
     output:
         svg="{root}/figures/{figure}.svg",
         png="{root}/figures/{figure}.png",

@@ -15,7 +15,14 @@ rule study_mapping:
         quantisation="{root}/mapping/quantisation.parquet",
     params:
         **calls("recalib.study.mapping.measured.measure"),
-        arguments=lambda w: as_text(plan=study(w).mapping, seed=study(w).seed),
+        arguments=lambda w: as_text(
+            poses=study(w).mapping.poses,
+            balls=study(w).mapping.balls,
+            points=study(w).mapping.points,
+            radius=study(w).mapping.radius,
+            scales=study(w).mapping.scales,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),

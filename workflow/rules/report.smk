@@ -86,7 +86,7 @@ for root_ in STUDIES:
             ],
             read=list(read_in(root_).values()),
             figures=[*(path for path in figures_of(root_) if path.endswith(".svg")), *ideas_],
-            evidence=asked(root_, report_.needs).inputs,
+            files=asked(root_, report_.needs).inputs,
         output:
             pages=[
                 page_in_report(root_, page, category)

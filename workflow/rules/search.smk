@@ -3,6 +3,7 @@
 from functools import cache
 
 from recalib.study.chunks import bounds, chunks, searches_per_job
+from recalib.study.experiments.samples import searched_for, sought
 from recalib.study.trainings import budget, training
 
 
@@ -15,8 +16,6 @@ def sample(wildcards, learner):
 def sample_at(root, name):
     shipped, wanted = Path(SEARCHED, f"{name}.csv"), rules_of(STUDIES[root], name)
     if STUDIES[root].settings == "shipped" and (ROOT / shipped).exists():
-        from recalib.study.experiments.samples import searched_for
-
         found = searched_for(ROOT / shipped)
         if found.learner == wanted and found.searches >= searches(STUDIES[root], name):
             return shipped.as_posix()
@@ -62,15 +61,7 @@ rule search_sample:
         "{root}/search/{training}.csv",
     params:
         **calls("recalib.study.experiments.samples.put_together"),
-        arguments=lambda w: as_text(
-            sought=dict(
-                learner=rules_of(study(w), w.training),
-                searches=searches(study(w), w.training),
-                budget=budget(study(w)),
-                robot=study(w).robot,
-                scenario=study(w).scenario,
-            ),
-        ),
+        arguments=lambda w: as_text(sought=sought(study(w), w.training)),
     localrule: True
     message:
         "Keep all trials of the searches for {wildcards.training}"

@@ -32,8 +32,8 @@ def run(snakemake) -> None:
         left = [path for output, path in outputs.items() if output not in asked]
         files = {**dict(snakemake.input.items()), **outputs}
         given = json.loads(snakemake.params.get("arguments", "{}"))
-        given |= {file: path for file, path in files.items() if file in asked and path}
-        returned = function(**checked(function, given))
+        paths = {file: path for file, path in files.items() if file in asked and path}
+        returned = function(**checked(function, dict(**given, **paths)))
         values = [returned] if len(left) == 1 else returned or ()
         for path, value in zip(left, values, strict=True):
             write(Path(path), value, snakemake.params.get("digits"))
@@ -52,7 +52,7 @@ def checked(function: Callable, given: Mapping) -> dict[str, Any]:
     return {name: getattr(typed, name) for name in fields}
 
 
-def write(path: Path, value: Any, digits: int | None) -> None:
+def write(path: Path, value: Any, digits: int | None = None) -> None:
     """Write a table, a value or a text, whole or not at all.
 
     Args:

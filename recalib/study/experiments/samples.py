@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, Learner
+from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.trainings import budget, rules, searches
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -25,6 +26,17 @@ class Sought(Frozen):
     budget: Budget
     robot: str
     scenario: str
+
+
+def sought(study: Study, training: str) -> Sought:
+    """What the searches for a training of a study are for."""
+    return Sought(
+        learner=rules(study, training),
+        searches=searches(study, training),
+        budget=budget(study),
+        robot=study.robot,
+        scenario=study.scenario,
+    )
 
 
 class BrokenSample(RecalibError):

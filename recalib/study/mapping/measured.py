@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from recalib.study.configuration.study import Mapping
 from recalib.study.mapping.coupling import couplings
 from recalib.study.mapping.propagation import propagation
 from recalib.study.mapping.quantisation import quantisation
@@ -13,18 +12,23 @@ if TYPE_CHECKING:
 
 
 def measure(
-    scenarios: list[Path], own: Path, plan: Mapping, seed: int
+    scenarios: list[Path],
+    own: Path,
+    poses: int,
+    balls: int,
+    points: int,
+    radius: float,
+    scales: tuple[float, ...],
+    seed: int,
 ) -> "tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]":
-    """Coupling, propagation and quantisation.
+    """Coupling, propagation and quantisation: see `couplings`, `propagation` and `quantisation`.
 
     Args:
         scenarios: files of the scenarios as resolved.
         own: that of the paper's damage.
-        plan: how much is measured.
-        seed: of the study.
     """
     return (
-        couplings(scenarios, plan.poses, seed),
-        propagation(own, plan, seed),
+        couplings(scenarios, poses, seed),
+        propagation(own, balls, points, radius, scales, seed),
         quantisation(seed),
     )

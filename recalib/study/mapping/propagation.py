@@ -14,7 +14,6 @@ import numpy as np
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
 from recalib.randomness import generator
 from recalib.study.configuration.damages import damages_among
-from recalib.study.configuration.study import Mapping as Plan
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from recalib.study.plants import Resolved
 
@@ -75,12 +74,15 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
     return [*links, *encoders]
 
 
-def propagation(scenario: Path, plan: Plan, seed: int) -> "pd.DataFrame":
+def propagation(
+    scenario: Path, balls: int, points: int, radius: float, scales: Sequence[float], seed: int
+) -> "pd.DataFrame":
     """The integrals in balls about random centres, from slight to large damage.
 
     Args:
         scenario: file of the paper's damage as resolved.
-        plan: how many balls, how large, and the scales of the damage.
+        balls, points, radius: how many balls, of how many points, how large.
+        scales: of the damage.
         seed: of the study.
 
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
@@ -92,11 +94,11 @@ def propagation(scenario: Path, plan: Plan, seed: int) -> "pd.DataFrame":
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)
     random = partial(generator, seed, "study")
-    offsets = ball(random("ball"), plan.points, 6, plan.radius)
-    centres = robot.workspace.sample(random("centres"), plan.balls) * (1 - plan.radius)
+    offsets = ball(random("ball"), points, 6, radius)
+    centres = robot.workspace.sample(random("centres"), balls) * (1 - radius)
     starts = {"intact": [], "damaged": damages}
     rows = []
-    for scale in plan.scales:
+    for scale in scales:
         for start, before in starts.items():
             arms = [apply(robot, each) for each in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):

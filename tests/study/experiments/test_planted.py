@@ -16,8 +16,8 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan import Plan
 from recalib.study.trainings import rules, training
+from recalib.study.trainings import seeds as seeds_of
 from tests.conftest import ROOT
 
 
@@ -31,8 +31,8 @@ def final_errors(study, controller, learner="improved"):
         {"encoder": "shoulder_lift_joint", "shift": "-4 deg"},
         {"encoder": "wrist_3_joint", "shift": "3 deg"},
     ]
-    settings, plan = rules(study, learner), Plan(study)
-    seeds = np.arange(plan.seeds(learner))  # those of the bands
+    settings = rules(study, learner)
+    seeds = np.arange(seeds_of(study, learner))  # those of the bands
     searches = 1 + seeds // study.training.seeds
     sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
     history = train_for_results(

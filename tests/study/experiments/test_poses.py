@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.study.chunks import batches, chunks, searches_per_job
 from recalib.study.configuration.damages import Assigned
 from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, trials
 from recalib.study.experiments import poses as its
@@ -15,15 +16,16 @@ from recalib.study.experiments.poses import (
     train_for_results,
 )
 from recalib.study.experiments.trials import Search, search_for
-from recalib.study.layout import DESIGN, SEARCHED
 from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.universe import universe
 from recalib.study.plants import resolve
-from recalib.study.trainings import Trainings, training
+from recalib.study.shipped import DESIGN, SEARCHED
+from recalib.study.trainings import Trainings, searches, seeds, training
 from recalib.training import History
 from tests.conftest import ROOT
 from tests.test_architecture import imported
+from workflow.scripts.call import write
 
 SEARCHED_ON = {"number": 1, "training": "improved_4", "scenario": "links"}
 
@@ -121,7 +123,7 @@ def drawn(monkeypatch):
     return Drawn(monkeypatch)
 
 
-def run_all_jobs(study, plan, folder, monkeypatch):
+def run_all_jobs(study, rules, folder, monkeypatch):
     """All jobs of a study that learn."""
 
     def sample(name):
@@ -130,34 +132,41 @@ def run_all_jobs(study, plan, folder, monkeypatch):
     def resolved(name):
         path = folder / f"{name}.json"
         if not path.exists():
-            job = plan.scenario(name)
-            there = any(isinstance(entry, Assigned) for entry in job.damages)
-            resolve(job.model_copy(update={"damages": ()} if there else {})).write(path)
+            job = rules.arguments(study, "scenario", scenario=name)
+            there = any(isinstance(entry, Assigned) for entry in job["damages"])
+            write(path, resolve(**job | ({"damages": ()} if there else {})))
         return path
 
     own, trainings = study.scenario, Trainings(study)
     for scenario, learner in trainings.runs:
-        for chunk in plan.training_chunks(learner):
-            job = plan.training(scenario, learner, chunk)
-            campaign.train_seeds(job, resolved(scenario), sample(learner))
+        for chunk in chunks(seeds(study, learner), study.training.seeds_per_job):
+            which = {"scenario": scenario, "learner": learner, "chunk": chunk}
+            job, learned = rules.arguments(study, "train", **which), folder / "learned.npz"
+            campaign.train_seeds(resolved(scenario), sample(learner), learned, **job)
     for name in trainings.tuned():
-        efforts.efforts(plan.efforts(name), resolved(own), sample(name))
-        for chunk in plan.search_chunks(name):
-            search_for(plan.search(name, chunk), resolved(own))
+        job = rules.arguments(study, "efforts_of", training=name)
+        efforts.efforts(resolved(own), sample(name), **job)
+        for chunk in chunks(searches(study, name), searches_per_job(study, name)):
+            job = rules.arguments(study, "search", training=name, chunk=chunk)
+            search_for(resolved(own), **job)
     for learner, series in study.experiments.ensemble.items():
-        for name in series:
-            for chunk in plan.draw_chunks(name, learner):
-                ensemble.train_draws(plan.draws(name, learner, chunk), sample(learner))
+        for name, robots in series.items():
+            for chunk in chunks(robots.draws, study.experiments.draws_per_job):
+                which = {"series": name, "learner": learner, "chunk": chunk}
+                job = rules.arguments(study, "ensemble_chunk", **which)
+                ensemble.train_draws(sample(learner), **job)
     for learner in study.benchmark.learners:
-        for batch, scenarios in plan.batches().items():
-            job = plan.benchmark(learner, batch)
-            benchmark.compete(job, [*map(resolved, scenarios)], job.learner and sample(learner))
+        job = rules.arguments(study, "benchmark_run", learner=learner)
+        for scenarios in batches(study).values():
+            file = job["rules"] and sample(learner)
+            benchmark.compete([*map(resolved, scenarios)], **job, sample=file)
     said = type("Said", (), {"target": np.eye(4)})
     monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
     for name in ("read_of", "calibrate_hybrid", "Plant"):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
     for name in study.real.twin:
-        real_arm.learn_on_twin(plan.real_twin(name), "", "", sample(name))
+        job = rules.arguments(study, "real_twin", learner=name)
+        real_arm.learn_on_twin("", "", sample(name), **job)
 
 
 def run_universes(study, monkeypatch):
@@ -173,9 +182,9 @@ def run_universes(study, monkeypatch):
 
 @pytest.mark.slow
 def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
-    study, plan, drawn, tmp_path, monkeypatch
+    study, rules, drawn, tmp_path, monkeypatch
 ):
-    run_all_jobs(study, plan, tmp_path, monkeypatch)
+    run_all_jobs(study, rules, tmp_path, monkeypatch)
     run_universes(study, monkeypatch)
     tests = np.unique(np.concatenate(drawn.tests[ResultPoses]))
     searched = np.unique(np.concatenate(drawn.tests[SearchPoses]))

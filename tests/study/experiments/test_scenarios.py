@@ -5,7 +5,6 @@ from scipy.stats import qmc
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.experiments.poses import Stream
 from recalib.study.plants import resolve
 from recalib.study.trainings import scenario_of
@@ -53,8 +52,7 @@ def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):
     commands = np.zeros((1, 4, 6))
 
     def met(name, seed, runs):
-        job = jobs.Scenario(name=name, damages=noisy, nominal=plan.nominal("ur10"), poses=2, seed=1)
-        resolved = resolve(job)
+        resolved = resolve(name, plan.nominal("ur10"), noisy, poses=2, seed=1)
         plant = resolved.plant(resolved.controller(), seed, runs)
         return plant.execute(np.repeat(commands, len(runs), axis=0)).achieved
 

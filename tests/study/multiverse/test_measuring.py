@@ -11,7 +11,6 @@ from recalib.study.evidence.claims import CLAIMS
 from recalib.study.experiments import poses, search
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
-from recalib.study.layout import DESIGN
 from recalib.study.multiverse import horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.measuring import measured, width_order
@@ -19,7 +18,8 @@ from recalib.study.multiverse.reference import reference_universe
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
-from recalib.study.plants import resolve
+from recalib.study.shipped import DESIGN
+from recalib.study.trainings import budget as budget_of
 from tests.conftest import ROOT
 
 ITERATIONS = 4
@@ -249,7 +249,7 @@ def test_the_direction_in_which_the_robot_is_moved_reaches_no_number_of_the_fact
 
 
 def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(study, plan, robot):
-    resolved = resolve(plan.scenario("links"), [])
+    resolved = plan.resolved("links")
     its = reference_universe(study, resolved)
     assert its.seed == its.budget.seed == study.seed and its.number == -1
     assert its.scenarios[its.own] == tuple(resolved.damages)
@@ -262,7 +262,7 @@ def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(s
         assert found.rate == rules.law_of_rate
         for part in ("centres", "spread", "dimensions", "theta_increments", "initial"):
             assert getattr(found, part) == getattr(rules, part)
-    budget = plan.budget().model_copy(update={"seed": study.seed})
+    budget = budget_of(study).model_copy(update={"seed": study.seed})
     assert its.budget == budget
 
 

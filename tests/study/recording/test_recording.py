@@ -23,11 +23,10 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
 from recalib.nominal.poses import position_error
-from recalib.study import jobs
 from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.poses import Stream, train_for_results
-from recalib.study.experiments.samples import write_sample
+from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import resolve
 from recalib.study.recording import about, colours, marks, scatter, scene, story
@@ -38,8 +37,11 @@ from recalib.study.recording.picture import ViewerUnavailable, take_pictures
 from recalib.study.recording.seal import SEAL, BrokenRecording, check_recording, write_sealed
 from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import write_recording
+from recalib.study.recordings import Recording
 from recalib.study.statistics import typical
+from recalib.study.trainings import Measuring
 from tests.conftest import changed
+from workflow.scripts import call
 
 SEED, ITERATIONS, TESTS = 7, 40, 30
 MEASURE_AT = range(0, ITERATIONS + 1, 4)
@@ -76,14 +78,14 @@ def learners(job):
 @pytest.fixture(scope="module")
 def job(study):
     """A recording of two learners."""
-    return jobs.Recording(
+    return Recording(
         scenario="links_encoders",
         learners={
             name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
             for name in ("improved", "ritter")
         },
         moves=5,
-        measuring=jobs.Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
+        measuring=Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
         seed=SEED,
         published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
         meshes_sha256="",
@@ -96,8 +98,7 @@ def resolved(plan):
 
     def resolved(damages, **robot):
         nominal = changed(plan.nominal("ur10"), **robot)
-        fields = {"name": "links_encoders", "nominal": nominal, "poses": 2, "seed": SEED}
-        return resolve(jobs.Scenario(damages=damages, **fields))
+        return resolve("links_encoders", nominal, damages, poses=2, seed=SEED)
 
     return resolved
 
@@ -337,7 +338,7 @@ def test_a_recording_says_what_it_shows(job, columns):
     def said(key):
         return columns("/__properties/run", key)[1][0][0]
 
-    assert jobs.Recording.model_validate_json(said("job")) == job
+    assert Recording.model_validate_json(said("job")) == job
     assert said("robot") == "ur10" and said("numpy") == np.__version__
     assert json.loads(said("damage"))[1] == "link forearm_link, shorten 4 cm"
 
@@ -388,13 +389,14 @@ def test_what_is_published_is_shown(job, columns):
 
 
 @pytest.fixture
-def sample(plan, tmp_path):
+def sample(study, tmp_path):
     """Three searches, of which the first one found the best settings, and the second the worst."""
     trials = pd.DataFrame({"search": [1, 2, 3], "initial_width": [3.8, 0.3, 1.0]})
     finals = {f"{name}/{net}": 0.3 for name in ("position", "orientation") for net in search.NETS}
     trials = trials.assign(**finals, initial_rate=0.8, final_rate=0.4, **dict.fromkeys(ERRORS, 1))
     path = tmp_path / "improved_40.csv"
-    write_sample(path, plan.sample("improved_40").model_copy(update={"searches": 3}), trials)
+    head = sought(study, "improved_40").model_copy(update={"searches": 3})
+    path.write_text(sample_of(head, trials))
     return path
 
 
@@ -403,12 +405,15 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
 ):
     disturbed, undisturbed = resolved((*DAMAGES, *DISTURBANCES)), resolved(DAMAGES[:-1])
     scenario, other = tmp_path / "disturbed.json", tmp_path / "undisturbed.json"
-    disturbed.write(scenario)
-    undisturbed.write(other)
+    call.write(scenario, disturbed)
+    call.write(other, undisturbed)
     job = job.model_copy(update={"learners": {"improved": job.learners["improved"]}})
-    training = jobs.Training(
-        scenario=job.scenario,
-        learner=job.learners["improved"],
+    history = tmp_path / "improved.parquet"
+    columns = campaign.train_seeds(
+        scenario,
+        sample,
+        tmp_path / "improved.npz",
+        job.learners["improved"],
         seeds=5,
         first=0,
         last=15,
@@ -416,8 +421,6 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
         throughout=True,
         seed=SEED,
     )
-    history = tmp_path / "improved.parquet"
-    columns, _, _ = campaign.train_seeds(training, scenario, sample)
     frame = pd.DataFrame(columns)
     frame.to_parquet(history)
     assert frame.groupby("search")["seed"].unique().map(list).tolist() == [
