@@ -35,13 +35,9 @@ def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
 
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(job.budget.seeds)]
-
-    def robots(runs: int) -> Commandable:
-        return resolved.plant(controller, job.budget.seed, seeds * (runs // len(seeds)))
-
     found = []
-    for number in range(job.first + 1, job.last + 1):
-        poses = Stream.SEARCH.draw(  # no other search has them, and no training
+    for number in range(job.first + 1, job.last + 1):  # nothing is that of another, or of results
+        poses = Stream.SEARCH.draw(
             job.budget.seed,
             seeds,
             job.learner.iterations,
@@ -50,6 +46,11 @@ def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
             training=job.training,
             scenario=resolved.scenario,
         )
+
+        def robots(runs: int, stream: str = poses.name) -> Commandable:
+            each = seeds * (runs // len(seeds))
+            return resolved.plant(controller, job.budget.seed, each, stream)
+
         trials = Search(robots, rules_of(job.learner), job.budget, poses).all_rounds()
         trials.insert(0, "search", number)
         found.append(trials)
