@@ -9,6 +9,7 @@ import pytest
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.findings import (
     FIRST,
+    FIRST_OUTCOMES,
     _campaign,
     _ensemble,
     _first_campaign,
@@ -19,6 +20,7 @@ from recalib.study.evidence.findings import (
     needs,
 )
 from recalib.study.measured import ERRORS
+from recalib.study.shipped import DESIGN, POWER
 
 
 def test_refused_moves_are_said_by_learner_and_scenario_and_none_is_said_as_none():
@@ -89,9 +91,8 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
     ]
     evidence = SimpleNamespace(
         setups=lambda table: pd.DataFrame({"universe": [0, 0, 1, 1], "replicate": [0, 1, 0, 1]}),
-        power=lambda: pd.DataFrame(rows),
-        design=lambda: pd.DataFrame({"one": [1, 2], "two": [1, 2]}),
-        whole_design=lambda: pd.DataFrame({"homes_refused": [2, 3]}),
+        table={POWER: pd.DataFrame(rows), DESIGN: pd.DataFrame({"homes_refused": [2, 3]})}.get,
+        levels=lambda: pd.DataFrame({"one": [1, 2], "two": [1, 2]}),
     )
     said = _campaign(evidence)
     assert (said["setups"], said["replicates"], said["factors"], said["homes"]) == (2, 2, 2, 5)
@@ -103,7 +104,7 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
 def test_the_first_campaign_is_counted_on_the_side_where_a_claim_held():
     columns = {column: [0.9, 1.1, 0.8] for column, _, _ in FIRST.values()}
     outcomes = pd.DataFrame(columns | {"factor": [40.0, 60.0, np.inf]})
-    rows = _first_campaign(SimpleNamespace(first_campaign=lambda: (None, outcomes)))
+    rows = _first_campaign(SimpleNamespace(table={FIRST_OUTCOMES: outcomes}.get))
     assert {row["holds"] for row in rows[:-1]} == {2} and rows[-1]["holds"] == 2
     assert {row["of"] for row in rows} == {3} and len(rows) == len(FIRST)
 
