@@ -87,15 +87,15 @@ DEPENDS = {
     "mapping.balls": "study_mapping figure",
     "mapping.radius": "study_mapping figure",
     "mapping.*": "study_mapping",
-    "training.seeds": "run train",
-    "training.seeds_per_job": "run train",
+    "training.seeds": "train",
+    "training.seeds_per_job": "train",
     "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
     "training.*": "train recording",
     "universes.count": f"all design {EVIDENCE}",  # of how many setups all have to be there
     "universes.rough_trials": "design claims figure",
     "universes.*": "design",
     "search.short": "page",
-    "search.searches": f"{TRAINED} figure page run search_sample search",
+    "search.searches": f"{TRAINED} figure page search_sample search",
     "search.searches_long": f"{LONG} figure page",
     "search.*": "search_sample search",
 }

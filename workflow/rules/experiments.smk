@@ -1,4 +1,19 @@
-"""Train every learner on its scenarios, in chunks of seeds."""
+"""Train every learner on its scenarios: at once, or in chunks of seeds where there are many."""
+
+
+def training_chunks(root, learner):
+    its = STUDIES[root]
+    return chunks(seeds(its, learner), its.training.seeds_per_job)
+
+
+def in_chunks(root):
+    """Whether a study has a training with more seeds than a job trains."""
+    return any(len(training_chunks(root, learner)) > 1 for _, learner in TRAININGS[root].runs)
+
+
+IN_CHUNKS = [root for root in STUDIES if in_chunks(root)]
+AT_ONCE = [root for root in STUDIES if root not in IN_CHUNKS]
+NOWHERE = "(?!)"
 
 
 rule train:
@@ -6,8 +21,8 @@ rule train:
         scenario="{root}/scenarios/{scenario}.json",
         sample=lambda w: sample(w, w.learner),
     output:
-        history="{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
-        learned="{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
+        history="{root}/runs/{scenario}/{learner}.parquet",
+        learned="{root}/runs/{scenario}/{learner}.npz",
     params:
         **calls(
             "recalib.study.experiments.campaign.train_seeds",
@@ -16,19 +31,33 @@ rule train:
         arguments=lambda w: as_text(
             rules=rules_of(study(w), w.learner),
             seeds=study(w).training.seeds,
-            **bounds(w.chunk, seeds(study(w), w.learner), study(w).training.seeds_per_job),
+            **bounds(
+                w.get("chunk", 0), seeds(study(w), w.learner), study(w).training.seeds_per_job
+            ),
             measuring=measuring(study(w)),
             throughout=is_shown(study(w), w.scenario, w.learner),
             seed=study(w).seed,
         ),
+    wildcard_constraints:
+        root="|".join(AT_ONCE) or NOWHERE,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     priority: 10
     message:
-        "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
+        "Train {wildcards.learner} on {wildcards.scenario}"
     script:
         "../scripts/call.py"
+
+
+use rule train as train_chunk with:
+    output:
+        history="{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
+        learned="{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
+    wildcard_constraints:
+        root="|".join(IN_CHUNKS) or NOWHERE,
+    message:
+        "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
 
 
 def is_shown(study, scenario, learner):
@@ -37,26 +66,25 @@ def is_shown(study, scenario, learner):
     return scenario_of(study, scenario)[1] == study.robot and learner in shown
 
 
-def training_chunks(wildcards):
-    its = study(wildcards)
-    return chunks(seeds(its, wildcards.learner), its.training.seeds_per_job)
-
-
 rule run:
     input:
         histories=lambda w: expand(
             "{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
-            chunk=training_chunks(w),
+            chunk=training_chunks(w.root, w.learner),
             **w,
         ),
         parts=lambda w: expand(
-            "{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz", chunk=training_chunks(w), **w
+            "{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
+            chunk=training_chunks(w.root, w.learner),
+            **w,
         ),
     output:
         history="{root}/runs/{scenario}/{learner}.parquet",
         learned="{root}/runs/{scenario}/{learner}.npz",
     params:
         **calls("recalib.study.experiments.joining.training"),
+    wildcard_constraints:
+        root="|".join(IN_CHUNKS) or NOWHERE,
     localrule: True
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"

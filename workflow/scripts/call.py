@@ -25,8 +25,8 @@ from workflow.digests import check, keep
 def run(snakemake) -> None:
     """Do the job of a rule."""
     module, _, name = snakemake.params.function.rpartition(".")
+    function = getattr(import_module(module), name)
     with job(snakemake):
-        function = getattr(import_module(module), name)
         asked = inspect.signature(function).parameters
         outputs = dict(snakemake.output.items()) or {"": snakemake.output[0]}
         left = [path for output, path in outputs.items() if output not in asked]
