@@ -53,7 +53,7 @@ def dotted(path: KeyPath) -> str:
 
 def unlike(path: KeyPath, stood: Any, valid: str) -> Mistake:
     """A value that is none of the valid ones."""
-    return Mistake(path, f" is {shown(stood)}; valid: {valid}")
+    return Mistake(path, f" is {shown(stood)}; expected: {valid}")
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
