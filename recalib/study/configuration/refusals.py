@@ -1,17 +1,19 @@
 """What the types refuse, as mistakes: the key, what stood there, and pydantic's own words."""
 
 import re
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce
 from operator import getitem
 from typing import Any
 
 from pydantic import ValidationError
 
-from recalib.spelling import instead, nearest
-from recalib.study.configuration.messages import KeyPath, Mistake, unlike
+from recalib.spelling import instead, listed, nearest
+from recalib.study.configuration.messages import EXPECTED, KeyPath, Mistake, unlike
 from recalib.study.configuration.schema import Schema, json_schema
 
+MISSING = " is missing: "
 KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
 # What it says of Python, said of YAML.
 SAID = {
@@ -42,7 +44,24 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
             mistake = _refusal(schema, each, whole)
         if mistake.path not in meant:
             found.setdefault(mistake.path, mistake)
-    return [*found.values()]
+    return [*_together(found.values(), whole)]
+
+
+def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
+    """Several keys that one part lacks, and several wrong values of one list, told at once."""
+    groups = defaultdict(list)
+    for each in mistakes:
+        missing = each.fault.startswith(MISSING)
+        shared = missing or isinstance(each.path[-1], int)
+        groups[each.path[:-1] if shared else each.path, missing].append(each)
+    for (path, missing), its in groups.items():
+        if len(its) == 1:
+            yield its[0]
+        elif missing:
+            yield Mistake(path, f" lacks {listed((each.path[-1] for each in its), 'and')}")
+        else:
+            _, _, expected = its[0].fault.partition(EXPECTED)
+            yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
 
 
 def _unknown(
@@ -62,7 +81,7 @@ def _refusal(schema: Schema, error: Mapping, whole: Any) -> Mistake:
     path, its = schema.find(parents if last == KEY else location)
     if error["type"] == "missing" and isinstance(last, str):
         meaning = its.get("description") or schema.resolved(its)["description"]
-        return Mistake(path, f" is missing: {meaning[0].lower()}{meaning[1:-1]}")
+        return Mistake(path, f"{MISSING}{meaning[0].lower()}{meaning[1:-1]}")
     if error["type"] == "missing":  # the last of so many in a list
         *parents, _ = path
         stood = reduce(getitem, parents, whole)
