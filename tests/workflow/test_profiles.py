@@ -8,8 +8,10 @@ import yaml
 from tests.conftest import ROOT
 
 RULE = re.compile(r"^( *)rule(?: (\w+))?:\n((?:\1    .*\n|\n)+)", re.MULTILINE)
+ALIKE = re.compile(r"^use rule (\w+) as (\w+) with:$", re.MULTILINE)
 TEXTS = [path.read_text(encoding="utf-8") for path in (ROOT / "workflow" / "rules").glob("*.smk")]
 RULES = [(match[2], match[3]) for text in TEXTS for match in RULE.finditer(text)]
+RULES += [(new, dict(RULES)[old]) for text in TEXTS for old, new in ALIKE.findall(text)]
 WORKING = [rule for rule in RULES if re.search(r"^ *(script|shell):", rule[1], re.MULTILINE)]
 
 
@@ -19,7 +21,7 @@ def profile():
 
 
 def test_all_rules_are_seen():
-    heads = [re.findall(r"^ *rule\b.*:$", text, re.MULTILINE) for text in TEXTS]
+    heads = [re.findall(r"^ *(?:use )?rule\b.*:$", text, re.MULTILINE) for text in TEXTS]
     assert len(RULES) == sum(map(len, heads)) > 30
 
 

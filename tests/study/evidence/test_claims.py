@@ -70,6 +70,7 @@ def test_what_is_measured_is_what_was_made_up(judged):
         "identity": {
             "largest position error [cm]": 1e-9,
             "largest orientation error [degrees]": 1e-9,
+            "improved system": 1e-9,
         },
         "grid": {
             "grid / after Kohonen's rule": 0.5 / 0.55,

@@ -314,7 +314,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
     assert (
         np.mean(arrows[-1], axis=0) @ misses < -0.5 * misses @ misses
     )  # they make up for the misses
-    last = controller.robot.workspace.to_poses(poses()[0][0, -1])[:3, 3]
+    last = controller.robot.workspace.to_poses(poses().desired[0, -1])[:3, 3]
     winner = np.linalg.norm(training.cells.centres - last, axis=-1).argmin()
     weights = training.cells.weights
     assert weights[-1].argmax() == winner and weights[-1, winner] == 1

@@ -58,7 +58,7 @@ class Finding:
         """As the contract of claims.json has it.
 
         A bound is the end of what could be measured, and `bounds` says which numbers are bounds. An
-        interval that is not known, as that of a single search, is left out.
+        interval that is not known, as that of a single search or of an extreme, is left out.
         """
         measured, interval, bounds = {}, {}, {}
         for label, estimate in self.estimates.items():
@@ -66,7 +66,7 @@ class Finding:
             within = [
                 least if np.isnan(each) or each < least else min(each, most) for each in estimate
             ]
-            known = label in self.ends or not np.isnan(estimate[1:]).any()
+            known = label in self.ends or estimate.low < estimate.high
             measured[label] = within[0]
             if known:
                 interval[label] = [rounded(each) for each in within[1:]]
