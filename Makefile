@@ -12,7 +12,7 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: all help quick study setup size cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -35,9 +35,6 @@ setup: .venv/installed ## the environment, from the lock file
 	$(PIP) --require-hashes -r requirements.lock
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .
 	touch $@
-
-size: setup ## how large the environment is, and what for
-	.venv/bin/python -m workflow.size
 
 cluster: setup ## what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
 	$(PIP) --no-build-isolation --editable .[cluster]
