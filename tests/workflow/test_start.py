@@ -29,12 +29,13 @@ STARTS = {
     "benchmark_table check expect piece real_table search_sample study_visits summarise": {
         "pandas"
     },
-    "assign bench benchmark design ensemble real_run real_twin record scenario search": ARMS,
+    "assign bench benchmark design ensemble real_run real_twin scenario search": ARMS,
     "study_mapping study_replay train universe efforts": ARMS - {"scipy.spatial"},
     "horizon reference": ARMS - {"scipy.spatial"},
     "real_data": ARMS - {"numba"},
     "figure": {"matplotlib"},
     "film pictures": {"rerun"},
+    "record": ARMS | {"pandas", "rerun"},
 }
 SCRIPTS = ROOT / "workflow" / "scripts"
 EXPLAINED = [its.home for its in FIGURES.values() if its.part == "ideas"]

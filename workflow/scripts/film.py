@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from recalib.study.recording.film import take_film
+from recalib.study.recording.pictures import take_film
 from workflow.scripts.job import job
 
 with job(snakemake):

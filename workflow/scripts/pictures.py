@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from recalib.study.recording.acts import AFTER, BEFORE
-from recalib.study.recording.picture import take_pictures
+from recalib.study.recording.phases import AFTER, BEFORE
+from recalib.study.recording.pictures import take_pictures
 from workflow.scripts.job import job
 
 with job(snakemake):

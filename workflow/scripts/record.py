@@ -1,7 +1,7 @@
 """Record the arm of a scenario before, during and after its recalibration."""
 
 from recalib.study.jobs import Recording
-from recalib.study.recording.files import record
+from recalib.study.recording.writing import record
 from workflow.scripts.job import job
 
 with job(snakemake):
