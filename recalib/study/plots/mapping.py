@@ -8,17 +8,17 @@ from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.looks import DASHED
-from recalib.study.plots.steady import LOG
+from recalib.study.plots.palette import DASHED
 from recalib.study.plots.style import (
-    BORDER,
     NEUTRAL,
     ORIENTATION,
     POSITION,
-    at_line,
     legend_below,
-    plain,
+    line_across,
+    logarithmic,
+    name_rows,
     title,
+    with_intervals,
     words,
 )
 
@@ -32,23 +32,14 @@ def figure5(evidence: Evidence) -> Figure:
     styles = zip((0.15, -0.15), KINDS, (POSITION, ORIENTATION), "os", strict=True)
     for offset, kind, style, marker in styles:
         quantiles = table.groupby("scenario")[kind].quantile([0.05, 0.5, 0.95]).unstack()
-        quantiles = quantiles.loc[scenarios]
-        axes.hlines(rows + offset, quantiles[0.05], quantiles[0.95], color=style["color"])
-        axes.scatter(
-            quantiles[0.5],
-            rows + offset,
-            color=style["color"],
-            marker=marker,
-            label=f"{kind} commands",
-            zorder=3,
-        )
-    axes.axvline(limit, **BORDER)
-    at_line(axes, f"criterion: below {limit:g}", x=limit)
+        low, middle, high = quantiles.loc[scenarios].to_numpy().T
+        signs = {"color": style["color"], "marker": marker}
+        with_intervals(axes, rows + offset, middle, (low, high), f"{kind} commands", signs)
+    line_across(axes, f"criterion: below {limit:g}", x=limit)
     axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block")
     widest = max(table.groupby("scenario")[kind].quantile(0.95).max() for kind in KINDS)
     axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
-    axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
-    axes.grid(axis="y", visible=False)
+    name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
     title(figure, "Figure 5: how much positions influence orientation commands, and the reverse")
     legend_below(figure, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
@@ -71,23 +62,18 @@ def figure7(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
-    axes.axhline(1, **BORDER)
-    at_line(axes, "above: a constant would be the better guess", y=1)
-    axes.set(
-        xscale=LOG,
-        yscale=LOG,
-        xlabel="encoder shifts, times the paper's (links at most once)",
-        ylabel="$E_{upd} / E_{clas}$",
-        ylim=(None, 3),
-    )
-    plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
-    plain(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
+    line_across(axes, "above: a constant would be the better guess", y=1)
+    axes.set_xlabel("encoder shifts, times the paper's (links at most once)")
+    axes.set_ylabel("$E_{upd} / E_{clas}$")
+    logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
+    logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
+    axes.set_ylim(top=3)
     largest = ratio.dropna().index.get_level_values("scale").max()
-    kept = (ratio["theta"].dropna() < 1).all()
+    better = (ratio["theta"].dropna() < 1).all()
     title(
         figure,
         "Figure 7: the old mapping of commands is a better guess than a constant"
-        + (f",\nup to {largest:g} times the paper's damage" if kept else " in slight damage"),
+        + (f",\nup to {largest:g} times the paper's damage" if better else " in slight damage"),
     )
     legend_below(
         figure,
@@ -115,11 +101,9 @@ def figure8(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"width {width:g}",
         )
-    axes.axhline(1, **BORDER)
-    at_line(axes, "equation (10)", y=1, until=0.65)
+    line_across(axes, "equation (10)", y=1, until=0.65)
     away = expected_learning.CLAIM.limits["away"]
-    axes.axvline(away, **BORDER)
-    at_line(axes, f"criterion: from {away:g} on", x=away)
+    line_across(axes, f"criterion: from {away:g} on", x=away)
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",

@@ -10,18 +10,17 @@ from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import rough_search
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.looks import looks
-from recalib.study.plots.steady import LOG
+from recalib.study.plots.palette import styles_of
 from recalib.study.plots.style import (
     BAND,
-    BORDER,
     LABELS,
     NEUTRAL,
     ORIENTATION,
     POSITION,
-    at_line,
+    band,
     legend_under,
-    plain,
+    line_across,
+    logarithmic,
     title,
 )
 
@@ -49,25 +48,22 @@ def _best(trials: pd.DataFrame) -> np.ndarray:
 def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     """How little the best of few trials leaves; returns the improved system's median."""
     rough, median = evidence.fact("rough_trials"), {}
-    for role, look in looks([IMPROVED, RITTER]).items():
+    for role, style in styles_of([IMPROVED, RITTER]).items():
         best = _best(_first_rounds(evidence, evidence.fact(role)))
         trials = np.arange(1, best.shape[1] + 1)
         low, median[role], high = np.percentile(best, (BAND[0], 50, BAND[1]), axis=0)
-        axes.fill_between(trials, low, high, color=look.color, alpha=0.2, linewidth=0)
+        band(axes, trials, (low, high), style.color)
         length = evidence.searched_for(evidence.fact(role)).learner.iterations
-        name = f"{look.label}, {length:,} iterations"
-        axes.plot(trials, median[role], label=name, **look.line())
+        name = f"{style.label}, {length:,} iterations"
+        axes.plot(trials, median[role], label=name, **style.line())
     limit = rough_search.CLAIM.limits["left"]
-    axes.axhline(limit, **BORDER)
-    at_line(axes, f"a {limit:word}", y=limit)
-    axes.axvline(rough, **BORDER)
-    at_line(axes, f"{rough} trials", x=rough)
-    axes.set(xscale=LOG, yscale=LOG)
+    line_across(axes, f"a {limit:word}", y=limit)
+    line_across(axes, f"{rough} trials", x=rough)
     axes.set_xlabel("random trials, of which the best counts", fontsize=SIZE)
     axes.set_ylabel(REMAINS[evidence.searched_for(evidence.fact(IMPROVED)).budget.score])
     axes.yaxis.label.set_size(SIZE)
-    plain(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
-    plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
+    logarithmic(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
+    logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
     axes.set_title("How rough may the search be?", fontsize=11, pad=ABOVE)
     legend_under(axes)
     return median[IMPROVED][rough - 1]
@@ -83,13 +79,11 @@ def _draw_order(axes: Axes, trials: pd.DataFrame, kind: str, error: str, color: 
     ordered = trials.sort_values("ratio")[["ratio", error]].to_numpy()
     middles = np.array([np.median(part, axis=0) for part in np.array_split(ordered, PARTS)])
     axes.plot(*middles.T, color=NEUTRAL, linewidth=2, label="median of a tenth of the trials")
-    axes.axvline(1, **BORDER)
-    at_line(axes, "equally wide", x=1)
-    axes.set(xscale=LOG, yscale=LOG)
+    line_across(axes, "equally wide", x=1)
     axes.set_xlabel(f"final width of ${_sign(narrow)}$ over ${_sign(wide)}$", fontsize=SIZE)
     axes.set_ylabel(LABELS[error], fontsize=SIZE)
-    plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
-    plain(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
+    logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
+    logarithmic(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
     axes.set_title(
         f"{kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
     )

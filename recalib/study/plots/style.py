@@ -1,6 +1,9 @@
 """What all figures share: one style, legible in black and white and to the colour-blind."""
 
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -11,11 +14,12 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
+from numpy.typing import ArrayLike
 
 from recalib.storage import whole
 from recalib.study.measured import ERRORS
-from recalib.study.plots.looks import DASHED, SOLID
-from recalib.study.plots.steady import steady
+from recalib.study.plots.palette import DASHED, SOLID
+from recalib.study.plots.steady import LOG, steady
 
 STYLE = {
     "figure.figsize": (8, 4.5),
@@ -36,7 +40,7 @@ STYLE = {
     "svg.fonttype": "none",
 }
 LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
-# What colours mean besides learners, which have the palette of Okabe and Ito (`looks`).
+# What colours mean besides learners, which have the palette of Okabe and Ito (`palette`).
 POSITION = {"color": "#5D3A9B", "linestyle": SOLID}
 ORIENTATION = {"color": "#994F00", "linestyle": DASHED}
 HOLDS, FAILS = "#44AA99", "#882255"
@@ -65,6 +69,41 @@ def plain(axis: Axis, *ticks: float) -> None:
     axis.set_minor_locator(NullLocator())
 
 
+def logarithmic(axis: Axis, *ticks: float) -> None:
+    """Make an axis logarithmic, and label it at these values."""
+    axis.axes.set(**{f"{axis.axis_name}scale": LOG})
+    plain(axis, *ticks)
+
+
+def name_rows(axes: Axes, heights: Sequence[float], names: Iterable[str]) -> None:
+    """Name what stands in rows at these heights."""
+    axes.set_yticks(heights, names)
+    axes.grid(axis="y", visible=False)
+
+
+def band(axes: Axes, places: ArrayLike, ends: Iterable[ArrayLike], color: str) -> None:
+    """What lies between the lower and the upper end, paler than its line."""
+    axes.fill_between(places, *ends, color=color, alpha=0.2, linewidth=0)
+
+
+def with_intervals(
+    axes: Axes,
+    rows: ArrayLike,
+    values: ArrayLike,
+    ends: Iterable[ArrayLike],
+    label: str,
+    signs: Mapping[str, Any],
+) -> None:
+    """Signs in rows, each on the line from the lower to the upper end of its interval."""
+    axes.hlines(rows, *ends, color=signs["color"])
+    axes.scatter(values, rows, label=label, zorder=3, **signs)
+
+
+def note(axes: Axes, text: str, at: tuple, points: tuple[float, float], **font) -> None:
+    """Words, so many points to the right of a place in the data and above it."""
+    axes.annotate(text, at, points, textcoords="offset points", **font)
+
+
 def title(figure: Figure, text: str, below: str = "") -> None:
     """What the figure shows above it, and what its signs mean below it."""
     figure.suptitle(text, fontweight="bold", fontsize=12, x=0.01, ha="left")
@@ -91,21 +130,25 @@ def legend_under(axes: Axes, columns: int = 1) -> None:
     )
 
 
-def at_line(
+def line_across(
     axes: Axes, text: str, x: float | None = None, y: float | None = None, until: float = 1
 ) -> None:
-    """Say what a line across the axes is: an upright one at x, a level one at y.
+    """A line that parts one side of the axes from the other, and what it is.
+
+    An upright one at x, or a level one at y.
 
     Args:
         until: the part of the axes' width at which the words on a level line end.
     """
     upright = x is not None
-    axes.annotate(
+    draw = partial(axes.axvline, x) if upright else partial(axes.axhline, y)
+    draw(**BORDER)
+    note(
+        axes,
         text,
         (x, 1) if upright else (until, y),
         (0, 2) if upright else (-2, 2),
         xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
-        textcoords="offset points",
         ha="center" if upright else "right",
         va="bottom",
         fontsize=8,

@@ -58,8 +58,8 @@ def fake_pose(evidence: Evidence) -> Figure:
 
 
 def _arm(axes: Axes, joints: np.ndarray, color: str) -> None:
-    look = {"color": color, "linewidth": 5, "solid_capstyle": "round", "marker": "o"}
-    axes.plot(*(joints + BASE).T, markersize=9, markerfacecolor="white", **look)
+    style = {"color": color, "linewidth": 5, "solid_capstyle": "round", "marker": "o"}
+    axes.plot(*(joints + BASE).T, markersize=9, markerfacecolor="white", **style)
 
 
 def _point(axes: Axes, at: np.ndarray, name: str, color: str, marker: str, offset) -> None:

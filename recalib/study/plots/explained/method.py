@@ -72,6 +72,6 @@ def _nets(axes: Axes) -> None:
             (2.6, 7.6), (NETS.w_k, NETS.w_kl), learns, ("$g_k$", "$g_{kl}$"), strict=True
         ):
             points = np.array([x, y]) + 1.7 * cells[:, :2]
-            look = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
-            axes.scatter(*points.T, s=200, zorder=3, **look)
+            style = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
+            axes.scatter(*points.T, s=200, zorder=3, **style)
             axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=10)

@@ -31,8 +31,8 @@ def multiverse(evidence: Evidence) -> Figure:
     steps = np.arange(paths.shape[1])
     for path, its in zip(paths, holds, strict=True):
         # pale and dark, too: the colours alone are much the same grey to some
-        look = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
-        axes.plot(steps, path, linewidth=0.6, **look)
+        style = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
+        axes.plot(steps, path, linewidth=0.6, **style)
     for step, factor in enumerate(SHOWN):
         _column(axes, step, factor, levels[factor])
     for share, words in ((holds, "a tenth of both\nerrors remains,\nor less"), (~holds, "more")):

@@ -12,7 +12,7 @@ SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 
 @dataclass(frozen=True)
-class Look:
+class Style:
     """How a learner is shown.
 
     Attributes:
@@ -36,9 +36,9 @@ class Look:
         return {"color": self.color, "marker": self.marker or "."}
 
 
-LOOKS = {
-    name: Look(each.color, each.marker, DASHED if name == "ritter" else SOLID, each.label)
-    for name, each in ENTRANTS.items()
+STYLES = {
+    name: Style(its.color, its.marker, DASHED if name == "ritter" else SOLID, its.label)
+    for name, its in ENTRANTS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
@@ -47,18 +47,18 @@ OTHER = {"improved": ("#80B9D9", "d"), "ritter": ("#EFA07A", "^")}
 UNKNOWN = ("#661100", "X"), ("#DDCC77", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
 
 
-def looks(learners: Iterable[str]) -> dict[str, Look]:
+def styles_of(learners: Iterable[str]) -> dict[str, Style]:
     """How the learners of one figure are shown, by name."""
-    found: dict[str, Look] = {}
+    found: dict[str, Style] = {}
     unknown = cycle(UNKNOWN)
     for learner in learners:
         name = re.sub(r"_\d+$", "", learner)
-        if learner in LOOKS:
-            found[learner] = LOOKS[learner]
+        if learner in STYLES:
+            found[learner] = STYLES[learner]
         elif name in OTHER:
             color, marker = OTHER[name]
-            found[learner] = replace(LOOKS[name], color=color, marker=marker, linestyle=DOTTED)
+            found[learner] = replace(STYLES[name], color=color, marker=marker, linestyle=DOTTED)
         else:
             color, marker = next(unknown)
-            found[learner] = Look(color, marker, DASHED, label_of(learner))
+            found[learner] = Style(color, marker, DASHED, label_of(learner))
     return found
