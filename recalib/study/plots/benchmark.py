@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.evidence.real import ERROR
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.palette import styles_of
-from recalib.study.plots.style import BORDER, LABELS, band, logarithmic, note, title, words
+from recalib.study.plots.palette import BORDER, BOTH, styles_of
+from recalib.study.plots.style import band, logarithmic, note, title, words
 
 SHOWN = {
     "links_encoders": "the paper's damage",
@@ -36,11 +36,11 @@ def figure12(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(2, len(shown), sharex=True, sharey="row", **size)
     for column, (scenario, name) in zip(panels.T, shown.items(), strict=True):
         column[0].set_title(name, fontsize=11)
-        for axes, (error, label) in zip(column, LABELS.items(), strict=True):
+        for axes, error in zip(column, BOTH, strict=True):
             for learner, style in learners.items():
                 own = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
                 low, middle, high = (
-                    own[f"{error}{end}"].clip(SMALLEST) for end in ("_low", "", "_high")
+                    own[f"{error.column}{end}"].clip(SMALLEST) for end in ("_low", "", "_high")
                 )
                 band(axes, own["moves"], (low, high), style.color)
                 axes.plot(
@@ -52,7 +52,7 @@ def figure12(evidence: Evidence) -> Figure:
                     color=style.color,
                 )
             if axes in panels[:, 0]:
-                axes.set_ylabel(label)
+                axes.set_ylabel(error.label)
             logarithmic(axes.xaxis, 1, 10, 100, 1000, 10_000)
             logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1, 10)
             axes.set_ylim(SMALLEST, 30)

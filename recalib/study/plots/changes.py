@@ -12,12 +12,11 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.plots.palette import Style, styles_of
 from recalib.study.plots.style import (
     INTERVALS,
-    legend_below,
+    finish,
     line_across,
     logarithmic,
     name_rows,
     note,
-    title,
     with_intervals,
 )
 from recalib.study.statistics import Estimate
@@ -47,7 +46,7 @@ def _draw(
     axes: Axes, heights: np.ndarray, ratios: list[Estimate], style: Style, label: str, above: bool
 ) -> None:
     means, *ends = np.transpose(ratios)
-    with_intervals(axes, heights, means, ends, label, style.signs())
+    with_intervals(axes, heights, means, ends, label, style)
     for height, mean in zip(heights, means, strict=True):
         note(
             axes,
@@ -103,9 +102,9 @@ def figure4(evidence: Evidence) -> Figure:
             f"\n{MAPS.label}: both searches go on from one winner;"
             f" {len(evidence.reference())} replicates, 95 % interval of their mean"
         )
-    title(figure, _heading(rows))
-    legend_below(
+    finish(
         figure,
+        _heading(rows),
         axes,
         len(cases),
         f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"

@@ -11,8 +11,9 @@ from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import short
+from recalib.study.plots.palette import BORDER, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
-from recalib.study.plots.style import BORDER, NEUTRAL, logarithmic, plain
+from recalib.study.plots.style import logarithmic, plain
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -7,11 +7,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, UNITS
-from recalib.study.plots.palette import DASHED, SOLID, styles_of
+from recalib.study.plots.palette import BOTH, styles_of
 from recalib.study.plots.style import legend_under, logarithmic, title
-
-STYLES = SOLID, DASHED  # of cm and degrees: colours are learners
 
 
 def figure11(evidence: Evidence) -> Figure:
@@ -34,15 +31,15 @@ def figure11(evidence: Evidence) -> Figure:
 
 
 def _draw_assignments(axes: Axes, tables: dict) -> None:
-    for error, unit, linestyle in zip(ERRORS, UNITS, STYLES, strict=True):
+    for error in BOTH:
         for learner, style in styles_of(tables).items():
-            values = np.sort(tables[learner][f"final_{error}"])
+            values = np.sort(tables[learner][f"final_{error.column}"])
             axes.step(
                 values,
                 np.arange(1, len(values) + 1) / len(values),
                 color=style.color,
-                linestyle=linestyle,
-                label=f"{style.label}, {unit}",
+                linestyle=error.linestyle,
+                label=f"{style.label}, {error.unit}",
             )
     axes.set(xlabel="final error [cm, degrees]", ylabel="share of the assignments")
     logarithmic(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
@@ -52,13 +49,14 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
     scaled = evidence.ensemble(IMPROVED, "scaled").groupby("scale")
     color = styles_of([IMPROVED])[IMPROVED].color
-    styles = zip(ERRORS, UNITS, STYLES, "os", strict=True)
-    for error, unit, linestyle, marker in styles:
+    for error in BOTH:
         for moment, shade in (("initial", "0.5"), ("final", color)):
-            low, middle, high = (scaled[f"{moment}_{error}"].quantile(q) for q in (0.05, 0.5, 0.95))
+            low, middle, high = (
+                scaled[f"{moment}_{error.column}"].quantile(q) for q in (0.05, 0.5, 0.95)
+            )
             axes.fill_between(middle.index, low, high, color=shade, alpha=0.12, linewidth=0)
-            style = {"color": shade, "linestyle": linestyle, "marker": marker}
-            axes.plot(middle.index, middle, label=f"{moment} {unit}", **style)
+            style = {"color": shade, "linestyle": error.linestyle, "marker": error.marker}
+            axes.plot(middle.index, middle, label=f"{moment} {error.unit}", **style)
     axes.set(xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
     logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)

@@ -10,15 +10,8 @@ from recalib.study.evidence.factor import CELLS, DOUBLE, PUBLISHED, leading
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.words import ranged
-from recalib.study.plots.palette import Style, styles_of
-from recalib.study.plots.style import (
-    INTERVALS,
-    LABELS,
-    legend_below,
-    line_across,
-    logarithmic,
-    title,
-)
+from recalib.study.plots.palette import BOTH, Style, styles_of
+from recalib.study.plots.style import INTERVALS, finish, line_across, logarithmic
 from recalib.study.statistics import estimate
 
 SMALL = 9.5  # points: a label no wider than its panel
@@ -42,17 +35,17 @@ def figure9(evidence: Evidence) -> Figure:
             axes.vlines(rungs, low, high, color=style.color, alpha=0.6)
             label = _named(name, style)
             axes.plot(rungs, means, marker=style.marker, label=label, **style.line())
-    for axes, label in zip(panels[:2], LABELS.values(), strict=True):
+    for axes, error in zip(panels[:2], BOTH, strict=True):
         axes.set_xlabel("iterations, tuned for each number", fontsize=SMALL)
-        axes.set_ylabel(label, fontsize=SMALL)
+        axes.set_ylabel(error.label, fontsize=SMALL)
         logarithmic(axes.xaxis, 100, 1000, 10_000)
         logarithmic(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 4, 8)
     _draw_factors(panels[2], evidence, ladders)
     searches = sorted({len(errors) for ladder in ladders.values() for errors in ladder.values()})
-    title(figure, f"Figure 9: with as many cells as {CELLS[DOUBLE]},\n{_needs(evidence, ladders)}")
+    text = f"Figure 9: with as many cells as {CELLS[DOUBLE]},\n{_needs(evidence, ladders)}"
     means = f"means over {' or, for short trainings, '.join(map(str, searches))} searches"
     spread = f"{means} and their seeds; {INTERVALS};\nan arrow at the border: it goes on"
-    legend_below(figure, panels[0], len(ladders), spread)
+    finish(figure, text, panels[0], len(ladders), spread)
     return figure
 
 

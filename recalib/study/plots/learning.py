@@ -13,21 +13,16 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
-from recalib.study.measured import ERRORS, KINDS, UNITS, errors_of
-from recalib.study.plots.palette import Style, styles_of
+from recalib.study.measured import ERRORS, errors_of
+from recalib.study.plots.palette import BORDER, BOTH, ErrorStyle, Style, styles_of
 from recalib.study.plots.style import (
     BAND,
-    BORDER,
-    LABELS,
-    ORIENTATION,
-    POSITION,
     band,
-    legend_below,
+    finish,
     line_across,
     logarithmic,
     name_rows,
     note,
-    title,
     with_intervals,
     words,
 )
@@ -38,9 +33,9 @@ NEAR = 1.2  # times: two numbers beside a linear axis that would stand on each o
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
 
-def curves(history: pd.DataFrame, error: str) -> pd.DataFrame:
+def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
     """Errors by iteration (row) and seed (column)."""
-    return history.pivot(index="iteration", columns="seed", values=error)
+    return history.pivot(index="iteration", columns="seed", values=error.column)
 
 
 def label(style: Style, history: pd.DataFrame) -> str:
@@ -62,10 +57,10 @@ def of_typical_search(history: pd.DataFrame) -> pd.DataFrame:
 def draw_learning(axes: Axes, history: pd.DataFrame) -> None:
     """Both errors over the iterations on one scale, as in the paper's Figure 1."""
     bold = of_typical_search(history)
-    for error, style, name in zip(ERRORS, (POSITION, ORIENTATION), KINDS, strict=True):
-        draw_band(axes, curves(history, error), style["color"])
+    for error in BOTH:
+        draw_band(axes, curves(history, error), error.color)
         line = curves(bold, error).mean(axis=1)
-        axes.plot(line.index, line, linewidth=2.4, label=name, **style)
+        axes.plot(line.index, line, linewidth=2.4, label=error.kind, **error.line())
     axes.set(xlabel="iterations (two moves each)", xlim=(0, history["iteration"].max()))
 
 
@@ -79,18 +74,18 @@ def figure1(evidence: Evidence) -> Figure:
     logarithmic(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     panels[1].set_ylim(bottom=0.75 * panels[1].get_ylim()[0])  # room for the number under a line
     ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
-    for error, style, unit in zip(ERRORS, (POSITION, ORIENTATION), UNITS, strict=True):
+    for error in BOTH:
         for axes, row, where in zip(panels, (0, -1), ("left", "right"), strict=True):
-            upper = ends.iloc[row][list(ERRORS)].idxmax() == error
+            upper = ends.iloc[row][list(ERRORS)].idxmax() == error.column
             near = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
             beside = (18, (8 if upper else -8) if near else 0)
             note(
                 axes,
-                f"{ends[error].iloc[row]:.{2 if row else 1}f} {unit}",
-                (ends.index[row], ends[error].iloc[row]),
+                f"{ends[error.column].iloc[row]:.{2 if row else 1}f} {error.unit}",
+                (ends.index[row], ends[error.column].iloc[row]),
                 beside if where == "left" else (0, 10 if upper else -14),
                 ha=where,
-                color=style["color"],
+                color=error.color,
             )
     remaining = 100 * ends.iloc[-1] / ends.iloc[0]
     text = (
@@ -103,13 +98,12 @@ def figure1(evidence: Evidence) -> Figure:
         short = 0 < len(entries) <= NAMED
         damage = "; ".join(entries) if short else words(evidence.fact("scenario"))
         text += f"\n({evidence.study}: {resolved['robot'].upper()}, {damage})"
-    title(figure, text)
     seeds = history.groupby("search")["seed"].nunique().iloc[0]
     spread = f"means over {evidence.fact('tests')} test poses;"
     spread += f" bold: the median of {history['search'].nunique()} searches for widths and rates"
     spread += f", mean of its {seeds} seeds;"
     spread += f" band: {BAND[0]}-{BAND[1]} % of all {history['seed'].nunique()} runs"
-    legend_below(figure, panels[0], 2, spread)
+    finish(figure, text, panels[0], 2, spread)
     return figure
 
 
@@ -122,19 +116,19 @@ def figure2(evidence: Evidence) -> Figure:
     histories = {learner: evidence.history(learner) for learner in drawn}
     styles = styles_of(histories)
     shown = {learner: _by_cells(learner, style) for learner, style in styles.items()}
-    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
+    for axes, error in zip(panels, BOTH, strict=True):
         for learner, history in histories.items():
             table = curves(history, error)
             table = table[table.index > 0]
             style = shown[learner]
             draw_band(axes, table, style.color)
             axes.plot(table.index, table.mean(axis=1), label=label(style, history), **style.line())
-        first = next(iter(histories.values())).groupby("iteration")[error].mean().iloc[0]
+        first = next(iter(histories.values())).groupby("iteration")[error.column].mean().iloc[0]
         line_across(axes, f"before: {first:.2f}", y=first)
         reached = []
         for one, other in (compared, compared[::-1]) if compared else ():
-            level = histories[other].groupby("iteration")[error].mean().iloc[-1]
-            when = _reached(histories[one], [error], np.array([level]))
+            level = histories[other].groupby("iteration")[error.column].mean().iloc[-1]
+            when = _reached(histories[one], [error.column], np.array([level]))
             reached.append(
                 (level, f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}")
             )
@@ -149,13 +143,13 @@ def figure2(evidence: Evidence) -> Figure:
                 va="bottom" if above else "top",
                 fontsize=9,
             )
-        axes.set(xlabel="iterations (two moves each)", ylabel=text)
+        axes.set(xlabel="iterations (two moves each)", ylabel=error.label)
         logarithmic(axes.xaxis, 1, 10, 100, 1000, 10_000)
         logarithmic(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-    title(figure, f"Figure 2: {_in_one_sentence(histories, compared)}")
+    text = f"Figure 2: {_in_one_sentence(histories, compared)}"
     runs = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
     spread = f"lines: means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %"
-    legend_below(figure, panels[0], min(len(histories), 2), spread)
+    finish(figure, text, panels[0], min(len(histories), 2), spread)
     return figure
 
 
@@ -196,7 +190,7 @@ def figure3(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
     offsets = 0.22 * (np.arange(len(learners))[::-1] - (len(learners) - 1) / 2)
-    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
+    for axes, error in zip(panels, BOTH, strict=True):
         initial = [
             curves(histories[scenario, learners[0]], error).iloc[0].mean() for scenario in scenarios
         ]
@@ -214,12 +208,12 @@ def figure3(evidence: Evidence) -> Figure:
             means = np.maximum([values.mean() for values in final], FLOOR)
             ends = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
             name = label(style, histories[scenarios[0], learner])
-            with_intervals(axes, rows + offset, means, ends, name, style.signs())
-        axes.set_xlabel(f"{text}; {FLOOR:g} stands for less")
+            with_intervals(axes, rows + offset, means, ends, name, style)
+        axes.set_xlabel(f"{error.label}; {FLOOR:g} stands for less")
         logarithmic(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)
         name_rows(axes, rows, map(words, scenarios))
-    title(figure, "Figure 3: errors before and after learning, in every scenario")
+    text = "Figure 3: errors before and after learning, in every scenario"
     spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
-    legend_below(figure, panels[0], 1 + len(learners), spread)
+    finish(figure, text, panels[0], 1 + len(learners), spread)
     return figure

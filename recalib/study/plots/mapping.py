@@ -8,16 +8,12 @@ from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.palette import DASHED
+from recalib.study.plots.palette import BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (
-    NEUTRAL,
-    ORIENTATION,
-    POSITION,
-    legend_below,
+    finish,
     line_across,
     logarithmic,
     name_rows,
-    title,
     with_intervals,
     words,
 )
@@ -29,20 +25,19 @@ def figure5(evidence: Evidence) -> Figure:
     table, scenarios = evidence.mapping("coupling"), evidence.fact("scenarios")
     limit = coupling.CLAIM.limits["ratio"]
     rows = np.arange(len(scenarios))[::-1]
-    styles = zip((0.15, -0.15), KINDS, (POSITION, ORIENTATION), "os", strict=True)
-    for offset, kind, style, marker in styles:
-        quantiles = table.groupby("scenario")[kind].quantile([0.05, 0.5, 0.95]).unstack()
+    for offset, error in zip((0.15, -0.15), BOTH, strict=True):
+        quantiles = table.groupby("scenario")[error.kind].quantile([0.05, 0.5, 0.95]).unstack()
         low, middle, high = quantiles.loc[scenarios].to_numpy().T
-        signs = {"color": style["color"], "marker": marker}
-        with_intervals(axes, rows + offset, middle, (low, high), f"{kind} commands", signs)
+        name = f"{error.kind} commands"
+        with_intervals(axes, rows + offset, middle, (low, high), name, error)
     line_across(axes, f"criterion: below {limit:g}", x=limit)
     axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block")
     widest = max(table.groupby("scenario")[kind].quantile(0.95).max() for kind in KINDS)
     axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
     name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
-    title(figure, "Figure 5: how much positions influence orientation commands, and the reverse")
-    legend_below(figure, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
+    text = "Figure 5: how much positions influence orientation commands, and the reverse"
+    finish(figure, text, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
 
 
@@ -70,13 +65,10 @@ def figure7(evidence: Evidence) -> Figure:
     axes.set_ylim(top=3)
     largest = ratio.dropna().index.get_level_values("scale").max()
     better = (ratio["theta"].dropna() < 1).all()
-    title(
+    finish(
         figure,
         "Figure 7: the old mapping of commands is a better guess than a constant"
         + (f",\nup to {largest:g} times the paper's damage" if better else " in slight damage"),
-    )
-    legend_below(
-        figure,
         axes,
         2,
         f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
@@ -110,9 +102,9 @@ def figure8(evidence: Evidence) -> Figure:
         xlim=(-0.1, 6.2),
         ylim=(0, 1.15),
     )
-    title(figure, "Figure 8: equation (10), from the border of the workspace inwards")
-    legend_below(
+    finish(
         figure,
+        "Figure 8: equation (10), from the border of the workspace inwards",
         axes,
         table["width"].nunique(),
         "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
@@ -159,6 +151,6 @@ def figure10(evidence: Evidence) -> Figure:
         xlim=(0, None),
         ylim=(0, None),
     )
-    title(figure, "Figure 10: the initial errors of every assignment of the paper's damage")
-    legend_below(figure, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
+    text = "Figure 10: the initial errors of every assignment of the paper's damage"
+    finish(figure, text, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
     return figure

@@ -1,4 +1,4 @@
-"""How each learner is shown, in every figure: a colour, and a sign for black and white."""
+"""What colours and signs mean in every figure: also in black and white, and to the colour-blind."""
 
 import re
 from collections.abc import Iterable
@@ -7,16 +7,17 @@ from itertools import cycle
 from typing import Any
 
 from recalib.study.entrants import ENTRANTS, label_of
+from recalib.study.measured import ERRORS, KINDS, UNITS
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a learner is shown.
+    """How a learner or an error is shown.
 
     Attributes:
-        color: of Okabe and Ito's palette, which the colour-blind can tell apart.
+        color: a learner's is of Okabe and Ito's palette, which the colour-blind can tell apart.
         marker: empty for none.
         linestyle: as Matplotlib has them.
         label: what it is called.
@@ -36,6 +37,27 @@ class Style:
         return {"color": self.color, "marker": self.marker or "."}
 
 
+@dataclass(frozen=True)
+class ErrorStyle(Style):
+    """How one of the two errors is shown; its label is that of an axis.
+
+    Attributes:
+        column: of a table that has it.
+        kind: position or orientation.
+        unit: as it is written behind a number.
+    """
+
+    column: str
+    kind: str
+    unit: str
+
+
+LABELS = "position error [cm]", "orientation error [degrees]"
+COLOURS, LINES = ("#5D3A9B", "#994F00"), (SOLID, DASHED)
+BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS))
+HOLDS, FAILS = "#44AA99", "#882255"
+NEUTRAL = "black"
+BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 STYLES = {
     name: Style(its.color, its.marker, DASHED if name == "ritter" else SOLID, its.label)
     for name, its in ENTRANTS.items()

@@ -9,26 +9,15 @@ from matplotlib.figure import Figure
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import rough_search
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.palette import styles_of
-from recalib.study.plots.style import (
-    BAND,
-    LABELS,
-    NEUTRAL,
-    ORIENTATION,
-    POSITION,
-    band,
-    legend_under,
-    line_across,
-    logarithmic,
-    title,
-)
+from recalib.study.plots.palette import BOTH, NEUTRAL, ErrorStyle, styles_of
+from recalib.study.plots.style import BAND, band, legend_under, line_across, logarithmic, title
 
 REMAINS = {  # what the search minimises
     "worse": "larger remaining share of both errors",
     "geometric_mean": "remaining share, geometric mean",
 }
-NETS = {KINDS[0]: ("g_k", "g_kl"), KINDS[1]: ("g_kl", "g_k")}  # narrow and wide, as the paper wants
+# narrow and wide, as the paper wants
+NETS = {"position": ("g_k", "g_kl"), "orientation": ("g_kl", "g_k")}
 SIZE = 9.5  # points: a label no wider than its panel
 ABOVE = 18  # points, in which stands what an upright line is
 PARTS = 10  # of the trials, from one end of the ratios to the other
@@ -69,23 +58,26 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     return median[IMPROVED][rough - 1]
 
 
-def _draw_order(axes: Axes, trials: pd.DataFrame, kind: str, error: str, color: str) -> None:
+def _draw_order(axes: Axes, trials: pd.DataFrame, error: ErrorStyle) -> None:
     """One map's error against the order of its widths, and the mean rank correlation."""
-    narrow, wide = NETS[kind]
-    trials = trials.assign(ratio=trials[f"{kind}/{narrow}"] / trials[f"{kind}/{wide}"])
-    ranks = [its[["ratio", error]].rank() for _, its in trials.groupby("search")]
+    narrow, wide = NETS[error.kind]
+    table = trials[["search"]].assign(
+        ratio=trials[f"{error.kind}/{narrow}"] / trials[f"{error.kind}/{wide}"],
+        error=trials[error.column],
+    )
+    ranks = [its[["ratio", "error"]].rank() for _, its in table.groupby("search")]
     found = float(np.mean([its.corr().iloc[0, 1] for its in ranks]))
-    axes.scatter(trials["ratio"], trials[error], s=5, alpha=0.4, color=color, linewidths=0)
-    ordered = trials.sort_values("ratio")[["ratio", error]].to_numpy()
+    axes.scatter(table["ratio"], table["error"], s=5, alpha=0.4, color=error.color, linewidths=0)
+    ordered = table.sort_values("ratio")[["ratio", "error"]].to_numpy()
     middles = np.array([np.median(part, axis=0) for part in np.array_split(ordered, PARTS)])
     axes.plot(*middles.T, color=NEUTRAL, linewidth=2, label="median of a tenth of the trials")
     line_across(axes, "equally wide", x=1)
     axes.set_xlabel(f"final width of ${_sign(narrow)}$ over ${_sign(wide)}$", fontsize=SIZE)
-    axes.set_ylabel(LABELS[error], fontsize=SIZE)
+    axes.set_ylabel(error.label, fontsize=SIZE)
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     logarithmic(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
     axes.set_title(
-        f"{kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
+        f"{error.kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
     )
     legend_under(axes)
 
@@ -101,9 +93,8 @@ def figure6(evidence: Evidence) -> Figure:
     remaining = _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
     trials, budget = _first_rounds(evidence, improved), evidence.searched_for(improved)
-    styles = zip(panels[1:], KINDS, ERRORS, (POSITION, ORIENTATION), strict=True)
-    for axes, kind, error, style in styles:
-        _draw_order(axes, trials, kind, error, style["color"])
+    for axes, error in zip(panels[1:], BOTH, strict=True):
+        _draw_order(axes, trials, error)
     title(
         figure,
         f"Figure 6: the best of {evidence.fact('rough_trials')} random trials leaves"

@@ -1,9 +1,8 @@
-"""What all figures share: one style, legible in black and white and to the colour-blind."""
+"""What all figures share: one style, and the words, lines and axes that they have in common."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import matplotlib
 
@@ -17,8 +16,7 @@ from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
 from recalib.storage import whole
-from recalib.study.measured import ERRORS
-from recalib.study.plots.palette import DASHED, SOLID
+from recalib.study.plots.palette import BORDER, Style
 from recalib.study.plots.steady import LOG, steady
 
 STYLE = {
@@ -39,16 +37,9 @@ STYLE = {
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
-LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
-# What colours mean besides learners, which have the palette of Okabe and Ito (`palette`).
-POSITION = {"color": "#5D3A9B", "linestyle": SOLID}
-ORIENTATION = {"color": "#994F00", "linestyle": DASHED}
-HOLDS, FAILS = "#44AA99", "#882255"
-NEUTRAL = "black"
 BAND = (5, 95)  # percent of the runs
 # of `statistics.Estimate`
 INTERVALS = "lines: where 95 % of repetitions with other searches and seeds would lie"
-BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
@@ -92,11 +83,11 @@ def with_intervals(
     values: ArrayLike,
     ends: Iterable[ArrayLike],
     label: str,
-    signs: Mapping[str, Any],
+    style: Style,
 ) -> None:
     """Signs in rows, each on the line from the lower to the upper end of its interval."""
-    axes.hlines(rows, *ends, color=signs["color"])
-    axes.scatter(values, rows, label=label, zorder=3, **signs)
+    axes.hlines(rows, *ends, color=style.color)
+    axes.scatter(values, rows, label=label, zorder=3, **style.signs())
 
 
 def note(axes: Axes, text: str, at: tuple, points: tuple[float, float], **font) -> None:
@@ -111,14 +102,21 @@ def title(figure: Figure, text: str, below: str = "") -> None:
         figure.supxlabel(below, fontsize=9)
 
 
-def legend_below(figure: Figure, axes: Axes, columns: int, text: str = "") -> None:
-    """The legend of one of the panels for all of them, below the figure: it hides no data."""
+def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) -> None:
+    """The title, and below the figure, where it hides no data, the legend of one of the panels.
+
+    Args:
+        axes: whose legend is that of all panels.
+        columns: of the legend.
+        explained: what its signs mean.
+    """
+    title(figure, text)
     figure.legend(
         *axes.get_legend_handles_labels(),
         loc="outside lower center",
         ncols=columns,
         fontsize=9,
-        title=text,
+        title=explained,
         title_fontsize=9,
     )
 

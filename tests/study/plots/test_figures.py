@@ -9,18 +9,10 @@ from matplotlib.colors import to_rgb
 
 from recalib.study.evidence.findings import figures as figures_of_findings
 from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.plots.palette import OTHER, STYLES, UNKNOWN, styles_of
+from recalib.study.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
 from recalib.study.plots.registry import FIGURES, draw, drawn, needs_of
 from recalib.study.plots.steady import LOG, rounded
-from recalib.study.plots.style import (
-    FAILS,
-    HOLDS,
-    ORIENTATION,
-    POSITION,
-    STYLE,
-    plt,
-    save,
-)
+from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
 from tests.made_up import NOISE, OF_SEARCHES, MadeUp, few_resamples
 
@@ -141,7 +133,7 @@ def test_legends_hide_no_data_and_the_grid_lies_below(drawing):
 def test_a_colour_means_one_thing_throughout():
     """A learner, its kin of other iterations, an error, or a verdict."""
     of_learners = {style.color for style in STYLES.values()}
-    others = [POSITION["color"], ORIENTATION["color"], HOLDS, FAILS]
+    others = [*(error.color for error in BOTH), HOLDS, FAILS]
     others += [color for color, _ in (*OTHER.values(), *UNKNOWN)]
     assert len({*others}) == len(others)
     assert not {*others} & of_learners
@@ -160,7 +152,7 @@ def test_every_colour_of_a_figure_has_its_meaning(figure, made_up, tmp_path):
     """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
     (svg,) = bytes_of(figure, needs_of(figure, made_up.request), tmp_path, [".svg"])
     known = [style.color for style in STYLES.values()] + [color for color, _ in OTHER.values()]
-    known += [color for color, _ in UNKNOWN] + [style["color"] for style in (POSITION, ORIENTATION)]
+    known += [color for color, _ in UNKNOWN] + [error.color for error in BOTH]
     known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]
     used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", svg.decode())}]
     strange = [color for color in used if not any(is_a_shade_of(color, its) for its in known)]

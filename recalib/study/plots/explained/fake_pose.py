@@ -8,7 +8,8 @@ from scipy.optimize import root
 
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK, LEARNED, blank, planar_arm
-from recalib.study.plots.style import FAILS, NEUTRAL, title
+from recalib.study.plots.palette import FAILS, NEUTRAL
+from recalib.study.plots.style import title
 
 NOMINAL, DAMAGED = (1.0, 0.9), (1.0, 0.72)  # lengths of links, shortened as bad ones are
 SLIPPED = np.radians([0, 14])  # encoders

@@ -11,7 +11,8 @@ from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.evidence.claims import figure_1
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK
-from recalib.study.plots.style import FAILS, HOLDS, title
+from recalib.study.plots.palette import FAILS, HOLDS
+from recalib.study.plots.style import title
 
 SHOWN = "robot", "home", "assignment", "cells", "effort", "tool"  # of all factors
 WIDE = 15  # characters of a column
