@@ -7,23 +7,20 @@ import argparse
 import getpass
 import re
 import socket
-import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from urllib.error import URLError
 from urllib.request import urlopen
 
 import jinja2
 
 from recalib.errors import RecalibError
 from recalib.study.layout import RESULTS, SHIPPED
-from recalib.study.recording.viewer import HERE, free_port, viewer
+from recalib.study.recording.viewer import HERE, answer, free_port, viewer
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
 VIEWER = ("index.html", "re_viewer.js", "re_viewer_bg.wasm", "favicon.ico")
@@ -39,7 +36,6 @@ window.fetch = (asked, how) =>
 </script>"""
 # The viewer is WebAssembly, which counts as eval.
 POLICY = "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'"
-PATIENCE = 30.0  # seconds for the viewer's own server to start
 
 
 @contextmanager
@@ -88,22 +84,16 @@ def _copy_viewer(folder: Path) -> None:
     # with an address to show it starts no other server, which would take a core all the time
     with viewer("--serve-web", "--web-viewer-port", port, f"http://{HERE}/_.rrd") as process:
         for name in VIEWER:
-            (folder / name).write_bytes(_fetch(f"http://{HERE}:{port}/{name}", process))
+            fetch = partial(_fetch, f"http://{HERE}:{port}/{name}")
+            (folder / name).write_bytes(answer(process, fetch))
     page = folder / "index.html"
     text = ELSEWHERE.sub("", page.read_text(encoding="utf-8"))
     page.write_text(text.replace("<head>", QUIET, 1), encoding="utf-8")
 
 
-def _fetch(address: str, process: subprocess.Popen) -> bytes:
-    deadline = time.monotonic() + PATIENCE
-    while True:
-        try:
-            with urlopen(address) as answer:
-                return answer.read()
-        except URLError:
-            if process.poll() is not None or time.monotonic() > deadline:
-                raise
-            time.sleep(0.05)
+def _fetch(address: str) -> bytes:
+    with urlopen(address) as page:
+        return page.read()
 
 
 def main(arguments: list[str] | None = None) -> None:

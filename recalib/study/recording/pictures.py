@@ -13,11 +13,10 @@ from rerun.experimental import ViewerClient
 from recalib.errors import RecalibError
 from recalib.storage import whole
 from recalib.study.recording.phases import ARM, LEARNING, VISITS
-from recalib.study.recording.viewer import HERE, free_port, viewer
+from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
 WINDOW = 1400, 800  # pixels
 TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
-PATIENCE = 60.0  # seconds for the viewer to start and to load, in software on a busy machine
 REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
 
 FILM = 1160, 600  # pixels of the window, of which the arm has five eighths
@@ -93,12 +92,7 @@ def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
     with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
         try:
             with viewer(*options, *size, log=log) as process:
-                deadline = time.monotonic() + PATIENCE
-                while (client := _connect(port)) is None:
-                    if process.poll() is not None or time.monotonic() > deadline:
-                        raise ConnectionError
-                    time.sleep(0.1)
-                yield client
+                yield answer(process, lambda: _connect(port))
         except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
             log.seek(0)
             reason = next((line.strip() for line in log if "panicked" in line), "no answer")
@@ -108,12 +102,9 @@ def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
             ) from None
 
 
-def _connect(port: str) -> ViewerClient | None:
-    try:
-        client = ViewerClient(f"rerun+http://{HERE}:{port}/proxy")
-        client.get_state()
-    except (ConnectionError, RuntimeError):
-        return None
+def _connect(port: str) -> ViewerClient:
+    client = ViewerClient(f"rerun+http://{HERE}:{port}/proxy")
+    client.get_state()
     return client
 
 

@@ -3,16 +3,19 @@
 import os
 import socket
 import subprocess
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO
+from typing import IO, TypeVar
 
 import rerun_cli
 
+T = TypeVar("T")
 HERE = "127.0.0.1"
 # Not the script that starts it, so that it can be ended.
 PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
+PATIENCE = 60.0  # seconds for it to start and to load, in software on a busy machine
 
 
 def quiet() -> dict[str, str]:
@@ -33,6 +36,17 @@ def viewer(*options: str, log: int | IO = subprocess.DEVNULL) -> Iterator[subpro
     finally:
         process.terminate()
         process.wait()
+
+
+def answer(process: subprocess.Popen, ask: Callable[[], T]) -> T:
+    """What it answers as soon as it listens. Raises ConnectionError: it ended, or never does."""
+    deadline = time.monotonic() + PATIENCE
+    while process.poll() is None and time.monotonic() < deadline:
+        try:
+            return ask()
+        except (OSError, RuntimeError):
+            time.sleep(0.05)
+    raise ConnectionError
 
 
 def free_port() -> str:
