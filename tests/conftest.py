@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 # before NumPy is there: small matrices are slower on many threads than on one
 os.environ["OMP_NUM_THREADS"] = "1"
@@ -18,9 +19,8 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
-from recalib.study.jobs import Nominal
-from recalib.study.plan import Plan
-from recalib.study.plants import nominal_controller
+from recalib.study.nominal import Nominal, nominal
+from recalib.study.plants import Resolved, nominal_controller, resolve
 from tests.made_up import NOISE, MadeUp
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
@@ -43,6 +43,29 @@ def loaded_with(statement: str, heavy: set[str]) -> set[str]:
 @pytest.fixture(scope="session")
 def study() -> Study:
     return read_study(ROOT / "config.yaml")
+
+
+@pytest.fixture(scope="session")
+def rules():
+    """The rules of the workflow; see `tests.rules.Rules`."""
+    from tests.rules import Rules
+
+    return Rules()
+
+
+class Plan(NamedTuple):
+    """Parts of a study, as jobs get them."""
+
+    study: Study
+
+    def nominal(self, robot: str) -> Nominal:
+        return nominal(self.study, robot)
+
+    def resolved(self, scenario: str) -> Resolved:
+        """A scenario on the study's robot without a part that is assigned."""
+        damages, poses = self.study.scenarios[scenario], self.study.paper_damage.poses
+        its = self.nominal(self.study.robot)
+        return resolve(scenario, its, damages, poses, self.study.seed)
 
 
 @pytest.fixture(scope="session")

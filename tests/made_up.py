@@ -4,6 +4,7 @@ As they are, they support every claim. Tests change what they are about.
 """
 
 import json
+import shutil
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
@@ -16,23 +17,33 @@ import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study import jobs, lengths, statistics
+from recalib.study import lengths, statistics
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence import effects
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
-from recalib.study.evidence.needs import Needs, Request
+from recalib.study.evidence.needs import Request
 from recalib.study.evidence.real import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
-from recalib.study.experiments.samples import write_sample
-from recalib.study.layout import EFFORTS, PIECES, REFERENCE, SECOND, Layout, pieces
+from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.measured import ERRORS
-from recalib.study.plan import Plan
-from recalib.study.trainings import Trainings, training
+from recalib.study.plots.registry import FIGURES
+from recalib.study.shipped import (
+    DESIGN,
+    DEVIATIONS,
+    EFFORTS,
+    FIRST,
+    PIECES,
+    POWER,
+    REFERENCE,
+    pieces,
+)
+from recalib.study.trainings import Trainings, searches, training
 
+ROOT = Path(__file__).parents[1]
 INITIAL = np.array([8.3, 4.7])
 AT_FIRST = {"intact": INITIAL * 0, "translation": INITIAL * [1, 0]}
 FINAL = {
@@ -50,6 +61,22 @@ UNMEASURED = "scale", "width", "distance"  # but of assignments
 REPLICATES = 8  # of the reference study
 # Spread of logarithms of what the campaign measures: of replicates, and of setups
 LUCK, OWN = 0.1, 0.05
+
+
+def evidence_of(figure: str, results: "MadeUp") -> Evidence:
+    """What a figure may read."""
+    ask = results.request()
+    FIGURES[figure].needs(ask)
+    return ask.evidence
+
+
+def without_one(evidence: Evidence) -> Iterator[tuple[str, Evidence]]:
+    """Each thing that was declared, and what is left without it."""
+    for kind in ("files", "facts"):
+        its = getattr(evidence, kind)
+        for name in its:
+            left = {other: value for other, value in its.items() if other != name}
+            yield name, evidence.model_copy(update={kind: left})
 
 
 @contextmanager
@@ -73,25 +100,32 @@ class MadeUp:
     """
 
     def __init__(self, folder: Path, study: Study, final=None, noise: float = 0.0):
-        self.study, self.plan, self.trainings = study, Plan(study), Trainings(study)
-        self.layout = its = Layout(str(folder / "results"))
+        self.study, self.trainings, self.folder = study, Trainings(study), folder
         self._final, self._noise = FINAL | (final or {}), noise
         self._samples = folder / "search"
         self._tables: dict[str, Callable[[], pd.DataFrame]] = {
-            its.assignments(study.robot): self.assignments,
-            its.shipped(REFERENCE): self.reference,
-            its.shipped(EFFORTS): self.efforts,
+            f"assignments/{study.robot}.parquet": self.assignments,
+            REFERENCE: self.reference,
+            EFFORTS: self.efforts,
         }
         for name in ("coupling", "propagation", "quantisation", "visits", "replay"):
-            self._tables[its.mapping(name)] = getattr(self, name)
+            self._tables[f"mapping/{name}.parquet"] = getattr(self, name)
         for scenario, learner in self.trainings.runs:
-            path = its.history(scenario, learner)
+            path = f"runs/{scenario}/{learner}.parquet"
             self._tables[path] = partial(self.history, learner, scenario)
         for learner, series in study.experiments.ensemble.items():
             for name, plan in series.items():
-                self._tables[its.ensemble(name, learner)] = partial(self.ensemble, plan)
+                path = f"ensemble/{name}.{learner}.parquet"
+                self._tables[path] = partial(self.ensemble, plan)
         for scenario in self.trainings.scenarios():
             self.scenario(scenario)
+        for name in (DESIGN, POWER, DEVIATIONS, f"{FIRST}/outcomes.csv"):  # as they are shipped
+            self.path(name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, self.path(name))
+
+    def path(self, name: str) -> Path:
+        """Where a result lies, or what is shipped."""
+        return self.folder / (name if name.startswith("workflow/") else f"results/{name}")
 
     def sample_at(self, name: str) -> str:
         """Where the searches for a training lie, made up when they are asked for."""
@@ -102,39 +136,40 @@ class MadeUp:
 
     def request(self) -> Request:
         """How to ask for these results."""
-        return Request(self.study, self.trainings, self.layout, self.sample_at)
+        return Request(self.study, self.trainings, f"{self.folder}/results", self.sample_at)
 
-    def needs(self, ask_for: Callable[[Request], None]) -> Needs:
+    def evidence(self, needs: Callable[[Request], None]) -> Evidence:
         """What something reads of them, made up where it is not there."""
         ask = self.request()
-        ask_for(ask)
+        needs(ask)
         assert ask.lacking == []
-        return self.made(ask.needs)
+        return self.made(ask.evidence)
 
-    def made(self, needs: Needs) -> Needs:
+    def made(self, evidence: Evidence) -> Evidence:
         """Make up what something reads and is not there."""
-        for path in needs.files:
-            if path in self._tables and not Path(path).exists():
-                self.write(path, self._tables[path]())
-        return needs
+        for name in evidence.files:
+            if name in self._tables and not self.path(name).exists():
+                self.write(name, self._tables[name]())
+        return evidence
 
-    def write(self, path: str, table: pd.DataFrame) -> None:
+    def write(self, name: str, table: pd.DataFrame) -> None:
         """Keep a table of measurements, with their noise."""
-        rng = np.random.default_rng(len(path))
+        path = self.path(name)
+        rng = np.random.default_rng(len(str(path)))
         table = table.reset_index(drop=True)
         for column in table.select_dtypes("float") if self._noise else ():
-            if column not in UNMEASURED or "assignments" in path:
+            if column not in UNMEASURED or "assignments" in name:
                 signs = rng.choice([-1.0, 1.0], len(table))
                 table[column] = table[column] * (1 + self._noise * signs)
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        if path.endswith(".csv"):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if name.endswith(".csv"):
             table.to_csv(path, index=False, float_format="%.6g")
         else:
             table.to_parquet(path, index=False)
 
     def train(self, learner: str, repetition: int) -> None:
         """Repeat a training on the study's own scenario with other luck."""
-        path = self.layout.history(self.study.scenario, learner)
+        path = f"runs/{self.study.scenario}/{learner}.parquet"
         self.write(path, self.history(learner, self.study.scenario, repetition))
 
     def history(self, learner: str, scenario: str, repetition: int = 0) -> pd.DataFrame:
@@ -143,10 +178,10 @@ class MadeUp:
         fallback = LADDERS[which.name] / which.iterations if which.name in LADDERS else 0.3
         final = self._final.get((learner, scenario), self._final.get(learner, fallback))
         initial = AT_FIRST.get(scenario, INITIAL)
-        searches, seeds = self.plan.searches(learner), self.study.training.seeds
+        count, seeds = searches(self.study, learner), self.study.training.seeds
         rng = generator(repetition, "made up", scenario, learner)
-        luck = OF_SEARCHES * rng.normal(size=(searches, 1, 2))
-        luck = luck + OF_SEEDS * rng.normal(size=(searches, seeds, 2))
+        luck = OF_SEARCHES * rng.normal(size=(count, 1, 2))
+        luck = luck + OF_SEEDS * rng.normal(size=(count, seeds, 2))
         last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
         parts = np.array([0, 0.1, 0.4, 1])
         each = parts[:, None, None]
@@ -155,7 +190,7 @@ class MadeUp:
         return pd.DataFrame(
             {
                 **dict(zip(ERRORS, measured.T, strict=True)),
-                "search": np.tile(np.repeat(np.arange(searches) + 1, seeds), len(parts)),
+                "search": np.tile(np.repeat(np.arange(count) + 1, seeds), len(parts)),
                 "seed": np.tile(np.arange(len(last)), len(parts)),
                 "iteration": done,
                 "moves": 2 * done,
@@ -195,7 +230,7 @@ class MadeUp:
         """Keep the tables of the campaign; those that are not given support the claims."""
         for name in PIECES:
             table = tables[name] if name in tables else getattr(self, name)()
-            paths = pieces(name, table["universe"].nunique(), self.layout.shipped(SECOND))
+            paths = pieces(name, table["universe"].nunique())
             piece = pd.factorize(table["universe"])[0] // PIECES[name]
             for number, path in enumerate(paths):
                 self.write(path, table[piece == number])
@@ -209,14 +244,14 @@ class MadeUp:
         ]
         tables = []
         for (name, iterations), (effort, worse) in product(cases, (("full", 1.0), ("rough", 1.5))):
-            searches, seeds = (4 if effort == "full" else 8), self.study.training.seeds
+            count, seeds = (4 if effort == "full" else 8), self.study.training.seeds
             whens = np.linspace(0.1, 1, 10) if iterations >= lengths.LONG else np.ones(1)
-            keys = product(range(searches), range(seeds), np.rint(whens * iterations).astype(int))
+            keys = product(range(count), range(seeds), np.rint(whens * iterations).astype(int))
             table = pd.DataFrame(keys, columns=["search", "seed", "iteration"])
             rng = generator(0, "made up", "efforts", name, iterations, effort)
-            luck = np.exp(OF_SEARCHES * rng.normal(size=(searches, 1, 1, 2)))
-            luck = luck * np.exp(OF_SEEDS * rng.normal(size=(searches, seeds, 1, 2)))
-            luck = np.broadcast_to(luck, (searches, seeds, len(whens), 2)).reshape(-1, 2)
+            luck = np.exp(OF_SEARCHES * rng.normal(size=(count, 1, 1, 2)))
+            luck = luck * np.exp(OF_SEEDS * rng.normal(size=(count, seeds, 1, 2)))
+            luck = np.broadcast_to(luck, (count, seeds, len(whens), 2)).reshape(-1, 2)
             level = worse * LADDERS[name] / table[["iteration"]].to_numpy()
             table[list(ERRORS)] = level * luck
             about = {"training": f"{name}_{iterations}", "effort": effort, "iterations": iterations}
@@ -272,8 +307,8 @@ class MadeUp:
 
     def trials(self, learner: str) -> pd.DataFrame:
         """A hundred trials of each search, of which thirty are good."""
-        searches = range(1, self.plan.searches(learner) + 1)
-        trials = pd.concat([self._trials(learner, number) for number in searches])
+        numbers = range(1, searches(self.study, learner) + 1)
+        trials = pd.concat([self._trials(learner, number) for number in numbers])
         return trials.reset_index(drop=True)
 
     def _trials(self, learner: str, search: int) -> pd.DataFrame:
@@ -297,7 +332,7 @@ class MadeUp:
         """Keep the searches for a training."""
         path = self._samples / f"{training(self.study, learner)}.csv"
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_sample(path, self.plan.sample(learner), trials)
+        path.write_text(sample_of(sought(self.study, learner), trials), encoding="utf-8")
 
     def scenario(self, scenario: str) -> None:
         damages = {
@@ -311,23 +346,23 @@ class MadeUp:
             "damages": damages,
             **{f"initial_{error}": value for error, value in zip(ERRORS, initial, strict=True)},
         }
-        path = Path(self.layout.scenario(scenario))
+        path = self.path(f"scenarios/{scenario}.json")
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(described), encoding="utf-8")
 
     def judge(self) -> list[dict]:
         """The claims, judged by these results."""
-        job = judging(self.request)
-        for needs in job.claims.values():
-            self.made(needs)
-        return judge(job)
+        claims = judging(self.request)
+        for evidence in claims.values():
+            self.made(evidence)
+        return judge(claims)
 
     def judged(self, claim: str) -> dict:
         """One claim, judged by these results, of which it may lack some."""
         home = next(each for each in CLAIMS if each.id == claim)
         ask = self.request()
         home.ask(ask)
-        return home.judge(Evidence(self.made(ask.needs)))
+        return home.judge(self.made(ask.evidence))
 
     def verdict(self, claim: str) -> str:
         """The verdict on one claim."""
@@ -336,17 +371,18 @@ class MadeUp:
     @few_resamples()
     def conclude(self) -> None:
         """Make the tables and verdicts that figures and pages read, as the workflow does."""
-        layout, plan = self.campaign().layout, self.plan
+        self.campaign()
         for path, table in self._tables.items():
             self.write(path, table())
-        histories = [layout.history(*run) for run in self.trainings.runs]
-        scenarios = [layout.scenario(name) for name in self.trainings.scenarios()]
-        self.write(layout.summary, summarise(plan.summary(), histories, scenarios))
-        history = self.benchmark()
-        self.write(layout.benchmark, errors(plan.benchmark_table(), history))
-        self.write(layout.benchmark_moves, reached(plan.benchmark_table(), history))
-        self.write(layout.real, real_errors(jobs.RealTable(seed=self.study.seed), self.real()))
-        Path(layout.claims).write_text(json.dumps(self.judge()), encoding="utf-8")
+        runs, plan, seed = self.trainings.runs, self.study.benchmark, self.study.seed
+        histories = [self.path(f"runs/{on}/{learner}.parquet") for on, learner in runs]
+        scenarios = [self.path(f"scenarios/{name}.json") for name in self.trainings.scenarios()]
+        self.write("summary.csv", summarise(histories, scenarios, runs, seed))
+        history = self.benchmark(), plan.scenarios, plan.learners
+        self.write("benchmark.csv", errors(*history, seed))
+        self.write("benchmark_moves.csv", reached(*history, plan.thresholds))
+        self.write("real.csv", real_errors(self.real(), seed))
+        self.path("claims.json").write_text(json.dumps(self.judge()), encoding="utf-8")
 
     def benchmark(self) -> pd.DataFrame:
         plan, rng = self.study.benchmark, np.random.default_rng(5)

@@ -9,10 +9,10 @@ import pytest
 from recalib.study.evidence.checks import expect
 from recalib.study.evidence.pages import PAGES, render
 from recalib.study.evidence.readme import in_a_sentence
-from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.results import Undeclared
 from recalib.study.evidence.words import amounts, headline, n, pair, verdicts
 from tests.conftest import ROOT
-from tests.made_up import MadeUp
+from tests.made_up import MadeUp, without_one
 
 RESULTS = ROOT / "results"
 README = ROOT / "README.md"
@@ -43,7 +43,7 @@ def test_numbers_are_written_for_people():
 
 
 def rendered(page: str, made_up: MadeUp) -> str:
-    context = PAGES[page].context(Evidence(made_up.needs(PAGES[page].needs)))
+    context = PAGES[page].context(made_up.evidence(PAGES[page].needs))
     return render(ROOT / "workflow" / "templates" / f"{page}.j2", context)
 
 
@@ -51,7 +51,7 @@ def rendered(page: str, made_up: MadeUp) -> str:
 def test_noise_in_the_last_digits_changes_no_letter(page, made_up, disturbed):
     assert rendered(page, made_up) == rendered(page, disturbed)
     bands = [
-        expect(pd.read_csv(each.layout.summary)).to_csv(float_format="%.4g")
+        expect(pd.read_csv(each.path("summary.csv"))).to_csv(float_format="%.4g")
         for each in (made_up, disturbed)
     ]
     assert bands[0] == bands[1]
@@ -59,14 +59,9 @@ def test_noise_in_the_last_digits_changes_no_letter(page, made_up, disturbed):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_a_page_reads_what_it_declares_and_nothing_else(page, made_up):
-    needs = made_up.needs(PAGES[page].needs)
-    cases = [{"files": tuple(p for p in needs.files if p != path)} for path in needs.files]
-    for kind in ("facts", "samples"):
-        its = getattr(needs, kind)
-        cases += [{kind: {k: v for k, v in its.items() if k != key}} for key in its]
-    for case in cases:
+    for _, less in without_one(made_up.evidence(PAGES[page].needs)):
         with pytest.raises(Undeclared):
-            PAGES[page].context(Evidence(needs.model_copy(update=case)))
+            PAGES[page].context(less)
 
 
 def test_no_computing_time_is_printed(made_up):

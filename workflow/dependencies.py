@@ -1,4 +1,4 @@
-"""Which code a script runs, and which files of the project it reads: editing one of them runs
+"""Which code a job runs, and which files of the project it reads: editing one of them runs
 again what depends on it, and nothing else.
 
 A digest is handed to each job as a parameter. As inputs, modules would be looked at by their times,
@@ -12,27 +12,39 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from recalib.study.shipped import RESULTS
+
 ROOT = Path(__file__).parents[1]
+SCRIPT = "workflow/scripts/call.py"
 # Read as text: to parse all modules takes longer than all else that happens at the start.
 OURS = r"((?:recalib|workflow)[\w.]*)"
 IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", re.MULTILINE)
 NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
-def made_from(script: str, *named: str, reads: Callable = lambda wildcards: ()) -> Callable:
-    """What gives a job's parameter: a digest of its code and of files of the project it reads.
+def nothing(wildcards: object) -> tuple[()]:
+    """What a rule has of most things."""
+    return ()
 
-    It asks for wildcards alone: Snakemake compares no parameter that follows from inputs.
+
+def calls(function: str, also: Callable = nothing, reads: Callable = nothing) -> dict:
+    """The parameters of a rule that say which function it calls, and what that is made from.
+
+    This is a digest of code, and of what is read and no rule makes. It follows from wildcards
+    alone: Snakemake compares no parameter that follows from inputs.
 
     Args:
-        named: as for `code`.
-        reads: gives the paths of files that no rule makes, for some wildcards.
+        function: its dotted name.
+        also: gives the names of modules that it imports by a name that it is told.
+        reads: gives the paths of files; results do not count among them.
     """
 
     def digest(wildcards: object) -> str:
-        return "".join([code(script, *named), *map(_digest, map(str, reads(wildcards)))])
+        home = function.rpartition(".")[0]
+        given = [path for path in map(str, reads(wildcards)) if not path.startswith(f"{RESULTS}/")]
+        return "".join([code(home, *also(wildcards)), *map(_digest, given)])
 
-    return digest
+    return {"function": function, "code": digest}
 
 
 @cache
@@ -43,22 +55,18 @@ def _digest(path: str) -> str:
 
 
 @cache
-def code(script: str, *named: str) -> str:
-    """A digest of the script and of every module that it imports, directly or not.
-
-    Args:
-        named: dotted names of further modules, which it imports by a name that it is told.
-    """
+def code(*named: str) -> str:
+    """A digest of the script, of modules by their dotted names, and of all that they import."""
     digest = hashlib.sha256()
-    for module in modules(script, *named):
+    for module in modules(*named):
         digest.update(module.encode() + b"\0" + content(module))
     return digest.hexdigest()
 
 
 @cache
-def modules(script: str, *named: str) -> list[str]:
-    """The script and every module that it imports, as paths below the project."""
-    needed, waiting = set(), {f"workflow/scripts/{script}"}.union(*map(_files, named))
+def modules(*named: str) -> list[str]:
+    """Those modules and every module that they import, as paths below the project."""
+    needed, waiting = set(), {SCRIPT}.union(*map(_files, named))
     while waiting:
         needed |= waiting
         waiting = set().union(*map(imported, waiting)) - needed

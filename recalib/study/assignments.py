@@ -13,11 +13,9 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from recalib.randomness import generator
-from recalib.study import jobs
-from recalib.study.configuration.damages import Entry
-from recalib.study.configuration.study import Published
-from recalib.study.kept import Kept
-from recalib.study.plants import nominal_controller
+from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.nominal import Nominal
+from recalib.study.plants import Assignment, nominal_controller
 
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 
@@ -97,27 +95,19 @@ def initial_errors(
         yield errors[0].mean(axis=1), errors[1].mean(axis=1)
 
 
-class Assignment(Kept):
-    """The assignment that is used, as the file of the rule `assignments` keeps it."""
-
-    robot: str
-    assignments: int
-    damages: tuple[Entry, ...]
-    distance: float
-    within_5_percent: int
-
-
-def assign(job: jobs.Assignments) -> tuple[dict[str, np.ndarray], Assignment]:
+def assign(
+    nominal: Nominal, damage: PaperDamage, seed: int
+) -> tuple[dict[str, np.ndarray], Assignment]:
     """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
 
     Returns the columns of a table with a row for each of `Ways`: the mean initial errors
     position_error_cm and orientation_error_deg, and `distance`, the larger of their relative
     deviations from the published ones. Of several equally near, up to rounding, the first is used.
     """
-    controller = nominal_controller(job.nominal)
-    robot, damage = controller.robot, job.damage
-    ways = Ways(job.nominal.robot.links, damage.shorten, robot.joints, damage.shift)
-    poses = robot.workspace.sample(generator(job.seed, "assignments"), damage.poses)
+    controller = nominal_controller(nominal)
+    robot = controller.robot
+    ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
     position, orientation = map(
         np.concatenate, zip(*initial_errors(controller, ways, poses), strict=True)
     )

@@ -1,6 +1,8 @@
 """Scenarios as resolved: a robot, its controller and its damages, from which a plant is made."""
 
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -11,17 +13,17 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.nominal.robots import Robot, load_robot
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.configuration.damages import (
     Assigned,
     Entry,
     damages_among,
     disturbances_among,
 )
-from recalib.study.kept import Kept
+from recalib.study.configuration.part import Frozen
+from recalib.study.nominal import Nominal
 
 
-def nominal_robot(nominal: jobs.Nominal) -> Robot:
+def nominal_robot(nominal: Nominal) -> Robot:
     """The robot that an entry of the configuration describes; see `load_robot` for its errors."""
     entry = nominal.robot
     return load_robot(
@@ -37,9 +39,18 @@ def nominal_robot(nominal: jobs.Nominal) -> Robot:
     )
 
 
-def nominal_controller(nominal: jobs.Nominal) -> Controller:
+def nominal_controller(nominal: Nominal) -> Controller:
     """Its controller; see `Controller` for what it raises."""
     return Controller(nominal_robot(nominal), nominal.controller.greatest_condition)
+
+
+class Kept(Frozen):
+    """A typed value that a file of JSON keeps."""
+
+    @classmethod
+    def read(cls, path: str | Path) -> Self:
+        """The value in a file."""
+        return cls.model_validate_json(Path(path).read_bytes())
 
 
 class Resolved(Kept):
@@ -51,7 +62,7 @@ class Resolved(Kept):
     workspace: dict[str, list]
     initial_position_error_cm: float
     initial_orientation_error_deg: float
-    nominal: jobs.Nominal
+    nominal: Nominal
 
     def controller(self) -> Controller:
         """The nominal controller."""
@@ -81,30 +92,53 @@ def fleet(
     return controller, Fleet(controller, [each.plant(controller, seed, runs) for each in scenarios])
 
 
-def resolve(job: jobs.Scenario, assignment: Sequence[Entry] = ()) -> Resolved:
-    """The scenario with its part of the assignment put in, and the initial errors that it causes.
+class Assignment(Kept):
+    """The assignment of the paper's damage that is used, as the rule `assignments` keeps it."""
+
+    robot: str
+    assignments: int
+    damages: tuple[Entry, ...]
+    distance: float
+    within_5_percent: int
+
+
+def resolve(
+    name: str,
+    nominal: Nominal,
+    damages: tuple[Entry, ...],
+    poses: int,
+    seed: int,
+    assignment: Path | None = None,
+) -> Resolved:
+    """A scenario with its part of the assignment put in, and the initial errors that it causes.
 
     Args:
-        assignment: of the paper's damage to the robot.
+        name: of the scenario.
+        nominal: its robot.
+        damages: as the configuration has them.
+        poses: random ones, over which the errors are averaged.
+        seed: of the study.
+        assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
-    damages: list[Entry] = []
-    for entry in job.damages:
-        damages += entry.part_of(assignment) if isinstance(entry, Assigned) else [entry]
-    controller = nominal_controller(job.nominal)
+    assigned = Assignment.read(assignment).damages if assignment else ()
+    resolved: list[Entry] = []
+    for entry in damages:
+        resolved += entry.part_of(assigned) if isinstance(entry, Assigned) else [entry]
+    controller = nominal_controller(nominal)
     workspace = controller.robot.workspace
-    tests = workspace.sample(generator(job.seed, job.name, "initial errors"), 1, job.poses)
-    arm = apply(controller.robot, damages_among(damages))
+    tests = workspace.sample(generator(seed, name, "initial errors"), 1, poses)
+    arm = apply(controller.robot, damages_among(resolved))
     achieved, _ = Plant(controller, [arm]).achieve(tests)
     desired = workspace.to_poses(tests)
     return Resolved(
-        scenario=job.name,
-        robot=job.nominal.name,
-        damages=tuple(damages),
+        scenario=name,
+        robot=nominal.name,
+        damages=tuple(resolved),
         workspace={
             "centre": workspace.centre.round(6).tolist(),
             "half_ranges_m_rad": workspace.half_ranges.round(6).tolist(),
         },
         initial_position_error_cm=100 * position_error(achieved, desired).mean(),
         initial_orientation_error_deg=np.degrees(orientation_error(achieved, desired).mean()),
-        nominal=job.nominal,
+        nominal=nominal,
     )

@@ -19,7 +19,7 @@ from recalib.study.configuration.messages import (
 from recalib.study.configuration.reading import Check, Source, placed, read_study
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import Placed, from_mapping, shown
-from recalib.study.layout import SHIPPED, root_of
+from recalib.study.shipped import SHIPPED, root_of
 from recalib.study.trainings import Trainings
 
 CONFIGURATION = "config.yaml"

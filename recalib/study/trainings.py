@@ -6,7 +6,8 @@ from itertools import product
 from typing import NamedTuple
 
 from recalib.errors import UnknownName
-from recalib.study.configuration.study import Learner, Study
+from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.study import Budget, Learner, Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 
 
@@ -37,6 +38,52 @@ def rules(study: Study, learner: str) -> Learner:
     """A learner's settings, with the iterations that its name asks for. Raises UnknownName."""
     which = training(study, learner)
     return study.every_learner[which.name].model_copy(update={"iterations": which.iterations})
+
+
+def rules_unless_peer(study: Study, learner: str) -> Learner | None:
+    """A learner's settings; None for one of today's, which have none."""
+    try:
+        return rules(study, learner)
+    except UnknownName:  # names were checked before
+        return None
+
+
+def searches(study: Study, learner: str) -> int:
+    """How many independent searches there are for a learner."""
+    short = training(study, learner).iterations <= study.search.short
+    return study.search.searches if short else study.search.searches_long
+
+
+def seeds(study: Study, learner: str) -> int:
+    """How many seeds a learner is trained with, those of all its searches."""
+    return searches(study, learner) * study.training.seeds
+
+
+def budget(study: Study) -> Budget:
+    """What a search may spend."""
+    return Budget.model_construct(
+        **{name: getattr(study.search, name) for name in Budget.model_fields}
+    )
+
+
+class Measuring(Frozen):
+    """On how many poses a training is measured, and when."""
+
+    tests: int
+    every: int
+    evenly: int
+    measurements: int
+
+
+def measuring(study: Study) -> Measuring:
+    """How trainings are measured."""
+    its = study.training
+    return Measuring(
+        tests=its.tests,
+        every=its.measure_every,
+        evenly=its.measure_evenly,
+        measurements=its.measurements,
+    )
 
 
 def ritter_short(study: Study) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from recalib.study.layout import DESIGN
+from recalib.study.shipped import DESIGN
 from tests.conftest import copy_project
 from tests.slurm.cluster import Cluster, missing, wait_until
 

@@ -6,7 +6,6 @@ from recalib.nominal.poses import orientation_error, position_error
 from recalib.randomness import generator
 from recalib.study.assignments import Ways, assign, distance_to
 from recalib.study.configuration.study import PaperDamage, Published
-from recalib.study.jobs import Assignments
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 
@@ -31,14 +30,13 @@ def assigned(plan):
     damage = PaperDamage.model_construct(
         shorten=(0.01, 0.04), shift=(0.05,), published=published, poses=10
     )
-    job = Assignments(nominal=plan.nominal("ur10"), damage=damage, seed=1)
-    return job, *assign(job)
+    return damage, *assign(plan.nominal("ur10"), damage, seed=1)
 
 
 def test_every_row_has_the_errors_of_its_damages(assigned, controller):
-    job, table, _ = assigned
+    damage, table, _ = assigned
     robot = controller.robot
-    ways = Ways(LINKS, job.damage.shorten, robot.joints, job.damage.shift)
+    ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
     assert len(table["distance"]) == len(ways) == 12 * 12
     poses = robot.workspace.sample(generator(1, "assignments"), 10)
     desired = robot.workspace.to_poses(poses)

@@ -11,14 +11,16 @@ from recalib.errors import UnknownName
 from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
-from recalib.study.experiments import campaign, samples, search
+from recalib.study.experiments import samples, search
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import best, build_tuned, rules_of
 from recalib.study.experiments.trials import Search, search_for
-from recalib.study.layout import SEARCHED
-from recalib.study.plants import resolve
-from recalib.study.trainings import Trainings, ritter_short, rules, switched, training
+from recalib.study.shipped import SEARCHED
+from recalib.study.trainings import Trainings, ritter_short, rules, searches, switched, training
+from recalib.study.trainings import budget as budget_of
 from recalib.training import train
 from tests.conftest import ROOT
+from workflow.scripts.call import write
 
 RANGES = {
     "initial_width": [0.2, 5],
@@ -83,21 +85,18 @@ def test_the_score_is_the_part_left_of_the_initial_errors(study, score, expected
     assert search.scores(errors, budget).tolist() == expected
 
 
-def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, controller, robot):
-    whole = plan.search("improved_200", 0)
-    budget = whole.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
-    arm = apply(robot, [EncoderShift("elbow_joint", 0.05)])
+def poses_of_a_search(budget, tests, order="random"):
+    words = {"number": 1, "training": "improved_8", "scenario": "luck"}
+    return Stream.SEARCH.draw(budget.seed, range(budget.seeds), 8, tests, order, **words)
 
-    def found(**told):
-        trials = Search(
-            lambda runs: Plant(controller, [arm]),
-            rules_of(whole.learner),
-            8,
-            budget,
-            20,
-            "luck",
-            **told,
-        ).all_rounds()
+
+def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(study, controller, robot):
+    budget = budget_of(study).model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
+    plant = Plant(controller, [apply(robot, [EncoderShift("elbow_joint", 0.05)])])
+
+    def found(order="random", **told):
+        its, poses = rules_of(rules(study, "improved_200")), poses_of_a_search(budget, 20, order)
+        trials = Search(lambda runs: plant, its, budget, poses, **told).all_rounds()
         return trials["position_error_cm"], trials["orientation_error_deg"], trials["score"]
 
     usual, coordinates, even = found(), found(error="coordinates"), found(order="even")
@@ -108,17 +107,16 @@ def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, c
 
 
 @pytest.fixture
-def searched(plan, tmp_path):
+def searched(study, plan, tmp_path):
     """A function that searches in no time: few trials of few iterations, on an easy damage."""
-    resolve(plan.scenario("rotation"), []).write(tmp_path / "rotation.json")
-    whole = plan.search("improved_200", 0)
-    budget = whole.budget.model_copy(update={"rounds": 2, "trials": 4, "seeds": 1})
-    learner = whole.learner.model_copy(update={"iterations": 3})
+    path = tmp_path / "rotation.json"
+    write(path, plan.resolved("rotation"))
+    budget = budget_of(study).model_copy(update={"rounds": 2, "trials": 4, "seeds": 1})
+    learner = rules(study, "improved_200").model_copy(update={"iterations": 3})
     small = {"budget": budget, "learner": learner, "tests": 5, "first": 0, "last": 3}
 
     def searched(**update):
-        job = whole.model_copy(update=small | update)
-        return search_for(job, tmp_path / "rotation.json")
+        return search_for(path, **{"training": "improved_200"} | small | update)
 
     return searched
 
@@ -144,23 +142,23 @@ def test_a_search_does_not_depend_on_those_beside_it(searched):
     pd.testing.assert_frame_equal(alone, beside)
 
 
-def test_another_learner_is_searched_for_alike(plan, controller, damaged):
+def test_another_learner_is_searched_for_alike(study, controller, damaged):
     """The same trials, in the same columns, on the same poses; errors are those of the learner."""
     given = {"rounds": 1, "trials": 4, "seeds": 2}
-    budget = plan.budget().model_copy(update=given)
+    budget = budget_of(study).model_copy(update=given)
     rules = Rules(False, True, False, True)
-    args = (lambda runs: Plant(controller, [damaged]), rules, 8, budget, 5, "luck")
+    poses = poses_of_a_search(budget, 5)
+    args = (lambda runs: Plant(controller, [damaged]), rules, budget, poses)
     first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
     numbers = search.columns(rules)
     assert other[numbers].equals(first[numbers]) and list(other) == list(first)
     assert (other["score"] != first["score"]).all()
     trial = other.iloc[1]
-    seeds = range(given["seeds"])
     history = train(
         Plant(controller, [damaged]),
         RadialLearner(2, rules, search.schedule(trial, rules)),
-        campaign.desired_poses(budget.seed, "luck", seeds, 8),
-        campaign.test_poses(budget.seed, "luck", seeds, 5),
+        poses.desired,
+        poses.tests,
         [8],
     )
     error = np.exp(np.log(100 * history.position[:, 0, 0]).mean())
@@ -191,10 +189,13 @@ def test_a_switch_changes_one_thing_of_each_system(study, switch):
     assert added == ritter | {switch.key: improved[switch.key]} != ritter
 
 
-def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(plan, tmp_path):
+def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(study, tmp_path):
     path = tmp_path / "improved_200.csv"
-    job, trials = plan.sample("improved_200").model_copy(update={"searches": 2}), sample_of_two()
-    samples.write_sample(path, job, trials)
+    job, trials = (
+        samples.sought(study, "improved_200").model_copy(update={"searches": 2}),
+        sample_of_two(),
+    )
+    path.write_text(samples.sample_of(job, trials))
     assert samples.searched_for(path) == job
     assert samples.read_sample(path).equals(trials)
     path.write_text("round,initial_width\n1,2\n")
@@ -209,10 +210,10 @@ def sample_of_two() -> pd.DataFrame:
     return trials.assign(score=[0.1, 0.2, 0.4, 0.3, 0.3, 0.2, 0.2, 0.4])
 
 
-def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(plan, tmp_path):
+def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(study, tmp_path):
     path, trials = tmp_path / "improved_200.csv", sample_of_two()
-    job = plan.sample("improved_200").model_copy(update={"searches": 2})
-    samples.write_sample(path, job, trials)
+    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
+    path.write_text(samples.sample_of(job, trials))
     assert best(trials).index.tolist() == [0, 5]
     assert samples.winners(path) == best(trials).to_dict("records")
 
@@ -227,21 +228,19 @@ def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(plan, tmp_
     ],
     ids=["cut off", "cut off in a row", "a further search", "no number"],
 )
-def test_a_sample_without_a_winner_for_each_search_is_refused(spoil, plan, tmp_path):
+def test_a_sample_without_a_winner_for_each_search_is_refused(study, spoil, tmp_path):
     path = tmp_path / "improved_200.csv"
-    job = plan.sample("improved_200").model_copy(update={"searches": 2})
-    samples.write_sample(path, job, sample_of_two())
+    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
+    path.write_text(samples.sample_of(job, sample_of_two()))
     path.write_text("\n".join(spoil(path.read_text().splitlines())) + "\n")
     with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
         samples.winners(path)
 
 
-def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(
-    study, plan, tmp_path
-):
+def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(study, tmp_path):
     path, trials = tmp_path / "improved_200.csv", sample_of_two()
-    job = plan.sample("improved_200").model_copy(update={"searches": 2})
-    samples.write_sample(path, job, trials)
+    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
+    path.write_text(samples.sample_of(job, trials))
     learner = build_tuned(rules(study, "improved"), path, [2, 1, 3])
     widths = best(trials)["initial_width"].tolist()
     assert np.ravel(learner.schedule.initial_width).tolist() == [widths[1], widths[0], widths[0]]
@@ -251,10 +250,10 @@ SHIPPED = sorted(Path(ROOT, SEARCHED).glob("*.csv"))
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
-def test_a_shipped_sample_was_searched_for_what_the_study_trains(study, plan, path):
-    assert samples.searched_for(path) == plan.sample(path.stem)
+def test_a_shipped_sample_was_searched_for_what_the_study_trains(study, path):
+    assert samples.searched_for(path) == samples.sought(study, path.stem)
     trials, plan_ = samples.read_sample(path), study.search
-    numbers = product(range(1, plan.searches(path.stem) + 1), range(1, plan_.rounds + 1))
+    numbers = product(range(1, searches(study, path.stem) + 1), range(1, plan_.rounds + 1))
     assert trials.groupby(["search", "round"]).size().to_dict() == dict.fromkeys(
         numbers, plan_.trials
     )

@@ -7,7 +7,6 @@ import subprocess
 import pytest
 
 from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.layout import Layout
 from recalib.study.studies import read_studies
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
@@ -67,7 +66,7 @@ def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
     ],
 )
 def test_a_command_speaks_of_its_study(project, command, said):
-    recording = project / Layout("results/studies/my_arm").recording("fall")
+    recording = project / "results/studies/my_arm/recordings/fall.rrd"
     recording.parent.mkdir(parents=True)
     recording.touch()
     assert said in make(project, *command.split()).stdout

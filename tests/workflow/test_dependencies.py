@@ -41,15 +41,15 @@ def test_imports_are_seen_as_python_sees_them(path):
 
 
 def test_a_training_depends_on_its_rules_and_not_on_figures_or_other_learners():
-    needed = dependencies.modules("train.py")
+    needed = dependencies.modules("recalib.study.experiments.campaign")
     assert {"recalib/learners/hierarchical.py", "recalib/nominal/controller.py"} <= {*needed}
-    assert "workflow/scripts/train.py" in needed
+    assert "workflow/scripts/call.py" in needed
     others = ("plots", "evidence", "recording", "identification", "learners/geo", "regression")
     assert not [path for path in needed if any(other in path for other in others)]
 
 
 def test_a_figure_depends_on_the_module_that_draws_it_and_not_on_other_figures():
-    needed = dependencies.modules("figure.py", FIGURES["method"].home)
+    needed = dependencies.modules("recalib.study.plots.registry", FIGURES["method"].home)
     drawing = [path for path in needed if "/plots/" in path]
     others = [figure.home.replace(".", "/") for figure in FIGURES.values()]
     assert [path for path in drawing if path.removesuffix(".py") in others] == [
@@ -62,9 +62,8 @@ def test_an_edited_module_changes_the_digest(tmp_path, monkeypatch):
     for name in ("recalib/__init__.py", "workflow/__init__.py", "workflow/scripts/__init__.py"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("")
-    (tmp_path / "workflow/scripts/a.py").write_text(
-        "from recalib.one import (\n    f,\n    g,\n)\n"
-    )
+    (tmp_path / "workflow/scripts/call.py").write_text("")
+    (tmp_path / "recalib/a.py").write_text("from recalib.one import (\n    f,\n    g,\n)\n")
     (tmp_path / "recalib/one.py").write_text("def f():\n    from recalib import two\n")
     monkeypatch.setattr(dependencies, "ROOT", tmp_path)
     seen = set()
@@ -72,16 +71,17 @@ def test_an_edited_module_changes_the_digest(tmp_path, monkeypatch):
         (tmp_path / "recalib/two.py").write_text(text)
         for function in vars(dependencies).values():
             getattr(function, "cache_clear", int)()
-        seen.add(dependencies.code("a.py"))
+        seen.add(dependencies.code("recalib.a"))
     assert len(seen) == 2
-    assert dependencies.modules("a.py")[-1] == "workflow/scripts/a.py"
-    assert {"recalib/one.py", "recalib/two.py"} <= {*dependencies.modules("a.py")}
+    needed = {"recalib/a.py", "recalib/one.py", "recalib/two.py", "workflow/scripts/call.py"}
+    assert needed <= {*dependencies.modules("recalib.a")}
 
 
 def test_a_source_counts_by_what_stands_in_it_whatever_its_date(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     template, seen = tmp_path / "page.md.j2", []
-    digest = dependencies.made_from("page.py", reads=lambda w: [template.name, "not_there.csv"])
+    reads = [template.name, "not_there.csv"]
+    digest = dependencies.calls("recalib.study.evidence.pages.page", reads=lambda w: reads)["code"]
     for written in ("as it was", "edited", "as it was"):
         template.write_text(written)
         os.utime(template, (0, 0))
@@ -93,4 +93,4 @@ def test_a_source_counts_by_what_stands_in_it_whatever_its_date(tmp_path, monkey
 def test_every_rule_with_a_script_counts_its_sources():
     for path in (ROOT / "workflow" / "rules").glob("*.smk"):
         text = path.read_text(encoding="utf-8")
-        assert text.count("    script:\n") == text.count(" made_from(") + text.count("=made_from(")
+        assert text.count("    script:\n") == text.count("**calls(") == text.count("/call.py")

@@ -7,9 +7,9 @@ import sys
 from types import SimpleNamespace
 
 import pytest
+from workflow.scripts.job import job
 
 from tests.conftest import ROOT
-from workflow.scripts.job import job
 
 IMPORTING = "print('importing', flush=True); import time; time.sleep(600)"
 

@@ -14,17 +14,16 @@ from unittest import mock
 import pandas as pd
 import pytest
 import yaml
-from snakemake.api import SnakemakeApi
-from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
+from snakemake.settings.types import DAGSettings
 
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
-from recalib.study.experiments.samples import write_sample
-from recalib.study.layout import EFFORTS, REFERENCE, SEARCHED
-from recalib.study.plan import Plan
+from recalib.study.experiments.samples import sample_of, sought
+from recalib.study.shipped import EFFORTS, REFERENCE, SEARCHED
 from recalib.study.studies import layers_of
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT, copy_project
+from tests.rules import Rules
 
 EVIDENCE = "claims figure page"  # what is said and drawn
 TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
@@ -109,6 +108,10 @@ REPORTED = """robot scenario settings paper_damage.published.* paper_damage.pose
  mapping.points training.tests training.measure_every search.searches*""".split()  # noqa: SIM905
 
 
+# Others are those of experiments that came later: they are shown to depend on something below.
+NAMED = {rule for texts in DEPENDS.values() for rule in texts.split()} | {"report_pages"}
+
+
 def leaves(tree, path=()):
     """Paths of all leaves: a list of words is one, a list of numbers or quantities as many."""
     if isinstance(tree, dict):
@@ -172,37 +175,40 @@ def changes(path, value):
         yield value[:-1]
 
 
-class Workflow:
+class Workflow(Rules):
     """The workflow with these targets, read once."""
 
     def __init__(self, folder, targets):
-        with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
-            resources = ResourceSettings(cores=1)
-            its = api.workflow(resources, snakefile=folder / "Snakefile", workdir=folder)
-            its.dag(DAGSettings(targets=set(targets)))
-            workflow = its._workflow
+        with self.reading(folder) as api:
+            api.dag(DAGSettings(targets=set(targets)))
+            workflow = api._workflow
             workflow._prepare_dag(forceall=True, ignore_incomplete=True, lock_warn_only=True)
             workflow._build_dag()
-            self._jobs = [(job.rule, job.wildcards) for job in workflow.dag.jobs]
-        self._names = workflow.globals
-
-    def _become(self, studies):
-        self._names["STUDIES"].update(studies)
-        for root, study in studies.items():
-            self._names["PLANS"][root] = Plan(study)
-            self._names["TRAININGS"][root] = Trainings(study)
-        self._names["sample_at"].cache_clear()
-        self._names["recording_of"].cache_clear()
+            self.jobs = [(job.rule, job.wildcards) for job in workflow.dag.jobs]
+            self._read = [[*map(str, job.input)] for job in workflow.dag.jobs]
+        self.names = workflow.globals
 
     def sample(self, studies, name):
         """Where the searches for a training of the shipped study lie, were these the studies."""
-        self._become(studies)
-        return self._names["sample_at"]("results", name)
+        self.become(studies)
+        return self.names["sample_at"]("results", name)
 
     def asks(self, studies):
         """Rule, inputs and parameters of every job, were these the studies, by folder."""
-        self._become(studies)
-        return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
+        self.become(studies)
+        return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self.jobs]
+
+    def uncounted(self, studies):
+        """Rules with a script, and files that they read, no rule makes and no parameter counts."""
+        self.become(studies)
+        found = set()
+        for (rule, wildcards), paths in zip(self.jobs, self._read, strict=True):
+            if digest := dict(rule.params.items()).get("code"):
+                with mock.patch("workflow.dependencies._digest", "<{}>".format):
+                    counted = digest(wildcards)
+                given = (path for path in paths if not path.startswith("results/"))
+                found |= {(rule.name, path) for path in given if f"<{path}>" not in counted}
+        return found
 
     def _job(self, rule, wildcards):
         params = [its for name, its in rule.params.items() if name != "code"]
@@ -239,7 +245,7 @@ def project(tmp_path_factory):
     for name in Trainings(study).tuned():  # of which the workflow reads the head alone
         path = folder / SEARCHED / f"{name}.csv"
         path.parent.mkdir(exist_ok=True)
-        write_sample(path, Plan(study).sample(name), pd.DataFrame())
+        path.write_text(sample_of(sought(study, name), pd.DataFrame()))
     for path in (REFERENCE, EFFORTS):  # measured once, and shipped
         (folder / path).touch()
     return folder
@@ -302,10 +308,17 @@ def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
         expected = {*texts.split()}
         if expected and any(fnmatch(leaf, pattern) for pattern in REPORTED):
             expected.add("report_pages")
-        found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules}
+        found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules} & NAMED
         if found != expected:
             wrong[leaf] = sorted(found ^ expected)
     assert wrong == {}
+
+
+@of_all_jobs
+def test_every_job_with_arguments_depends_on_a_leaf(workflow, depending):
+    asking = {rule.name for rule, _ in workflow.jobs if "arguments" in dict(rule.params.items())}
+    assert asking == set().union(*depending.values()) & asking
+    assert {re.sub(r"(report_pages)_.*", r"\1", rule.name) for rule, _ in workflow.jobs} >= NAMED
 
 
 @of_all_jobs
@@ -315,14 +328,15 @@ def test_every_leaf_makes_a_difference(depending):
     assert len(depending) > 200
 
 
-# What scripts of the campaign see instead of a job.
-BESIDE = {"piece": {"design"}, "power": {"setups", "replicates"}, "reference": {"study"}}
+@of_all_jobs
+def test_what_a_job_reads_and_no_rule_makes_counts_by_its_content(workflow, tree):
+    assert workflow.uncounted(studies_of(tree)) == set()
 
 
-def test_a_script_sees_nothing_but_its_inputs_and_its_job():
-    for path in (ROOT / "workflow" / "scripts").glob("*.py"):
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r"snakemake\.(config|rule\b|workflow)", text) or path.name == "job.py"
-        seen = set(re.findall(r"snakemake\.params\.(\w+)", text))
-        assert seen <= BESIDE.get(path.stem, {"job"}), path
-        assert not re.search(r"config\.yaml|read_study|open\(", text), path
+def test_a_job_sees_nothing_but_its_files_and_its_rule_s_parameters():
+    text = (ROOT / "workflow" / "scripts" / "call.py").read_text(encoding="utf-8")
+    assert {*re.findall(r"snakemake\.(\w+)", text)} == {"params", "input", "output", "rule"}
+    assert not re.search(r"config\.yaml|read_study", text)
+    for path in (ROOT / "recalib" / "study").rglob("*.py"):
+        if "configuration" not in path.parts and path.name != "studies.py":
+            assert "read_study" not in path.read_text(encoding="utf-8"), path

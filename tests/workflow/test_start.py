@@ -1,9 +1,9 @@
 """What comes with a job's start: of what is heavy, each package takes a tenth of a second or more.
 
-None is too much to use, but a job waits for what its script imports, whether it needs it or not.
+None is too much to use, but a job waits for what its function's module imports, needed or not.
 """
 
-import ast
+import re
 
 import pytest
 
@@ -24,38 +24,40 @@ HEAVY = {
     "snakemake",
 }
 ARMS = {"numba", "pinocchio", "scipy.spatial"}
+# Modules of recalib.study, by what they bring.
 STARTS = {
-    "claims concat gather outcome page power report_pages": set(),
-    "benchmark_table check expect piece real_table search_sample study_visits summarise": {
-        "pandas"
-    },
-    "assign bench benchmark design ensemble real_run real_twin scenario search": ARMS,
-    "study_mapping study_replay train universe efforts": ARMS - {"scipy.spatial"},
-    "horizon reference": ARMS - {"scipy.spatial"},
-    "real_data": ARMS - {"numba"},
-    "figure": {"matplotlib"},
-    "film pictures": {"rerun"},
-    "record": ARMS | {"pandas", "rerun"},
+    "evidence.claims evidence.outcome evidence.pages evidence.real evidence.report"
+    " experiments.joining experiments.samples multiverse.design multiverse.power"
+    " plots.registry": set(),
+    "evidence.benchmark evidence.checks evidence.summary mapping.visits": {"pandas"},
+    "assignments experiments.benchmark experiments.ensemble experiments.real_arm"
+    " experiments.speed experiments.trials multiverse.drawing plants": ARMS,
+    "experiments.campaign experiments.replay mapping.measured multiverse.efforts"
+    " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"},
+    "experiments.tracker": ARMS - {"numba"},
+    "recording.pictures": {"rerun"},
+    "recording.writing": ARMS | {"pandas", "rerun"},
 }
-SCRIPTS = ROOT / "workflow" / "scripts"
 EXPLAINED = [its.home for its in FIGURES.values() if its.part == "ideas"]
 
 
-def imports_of(script: str) -> str:
-    nodes = ast.parse((SCRIPTS / f"{script}.py").read_text(encoding="utf-8")).body
-    imports = [each for each in nodes if isinstance(each, ast.Import | ast.ImportFrom)]
-    return "; ".join(map(ast.unparse, imports))
+def called() -> set[str]:
+    """The modules of the functions that rules call."""
+    texts = (path.read_text(encoding="utf-8") for path in (ROOT / "workflow/rules").glob("*.smk"))
+    names = re.findall(r'calls\(\s*"recalib\.study\.([\w.]+)\.\w+"', "".join(texts))
+    return {*names}
 
 
-def test_every_script_has_a_start():
-    scripts = {path.stem for path in SCRIPTS.glob("*.py")} - {"__init__", "job"}
-    assert scripts == set(" ".join(STARTS).split())
+def test_every_function_has_a_start():
+    assert called() == {*" ".join(STARTS).split()}
 
 
-@pytest.mark.parametrize("scripts", STARTS)
-def test_a_job_starts_with_what_it_needs(scripts):
-    imports = "; ".join(map(imports_of, scripts.split()))
-    assert loaded_with(imports, HEAVY) == STARTS[scripts]
+@pytest.mark.parametrize("modules", STARTS)
+def test_a_job_starts_with_what_it_needs(modules):
+    names = (f"recalib.study.{name}" for name in modules.split())
+    assert (
+        loaded_with(f"import workflow.scripts.call, {', '.join(names)}", HEAVY) == STARTS[modules]
+    )
 
 
 def test_a_figure_of_results_moves_no_arm():

@@ -1,111 +1,158 @@
 """What should one use today? No part of the default run."""
 
+from recalib.study.chunks import batches
+from recalib.study.trainings import rules_unless_peer
+
+
+def sample_of_competitor(wildcards):
+    """The sample for a learner of the paper; today's need none."""
+    papers = rules_unless_peer(study(wildcards), wildcards.learner)
+    return sample(wildcards, wildcards.learner) if papers else []
+
 
 rule benchmark_run:
     input:
-        scenarios=lambda w: [layout(w).scenario(name) for name in plan(w).batches()[w.batch]],
-        sample=lambda w: sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else [],
+        scenarios=lambda w: [
+            f"{w.root}/scenarios/{name}.json" for name in batches(study(w))[w.batch]
+        ],
+        sample=sample_of_competitor,
     output:
-        LAYOUT.benchmark_batch("{learner}", "{batch}"),
+        "{root}/chunks/benchmark/{learner}.{batch}.parquet",
     params:
-        code=made_from("benchmark.py"),
-        job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
+        **calls("recalib.study.experiments.benchmark.compete", reads=lambda w: [sample_of_competitor(w)]),
+        arguments=lambda w: as_text(
+            name=w.learner,
+            rules=rules_unless_peer(study(w), w.learner),
+            seeds=study(w).benchmark.seeds,
+            moves=study(w).benchmark.moves,
+            longer=study(w).benchmark.longer,
+            tests=study(w).training.tests,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
-        "../scripts/benchmark.py"
+        "../scripts/call.py"
 
 
 rule benchmark_table:
     input:
-        histories=lambda w: [
-            layout(w).benchmark_batch(learner, batch)
-            for learner in study(w).benchmark.learners
-            for batch in plan(w).batches()
-        ],
+        histories=lambda w: expand(
+            "{root}/chunks/benchmark/{learner}.{batch}.parquet",
+            root=w.root,
+            learner=study(w).benchmark.learners,
+            batch=batches(study(w)),
+        ),
     output:
-        table=LAYOUT.benchmark,
-        reached=LAYOUT.benchmark_moves,
-        seconds=LAYOUT.benchmark_seconds,
+        errors="{root}/benchmark.csv",
+        reached="{root}/benchmark_moves.csv",
+        seconds="{root}/benchmark_seconds.csv",  # which differ from run to run
     params:
-        code=made_from("benchmark_table.py"),
-        job=lambda w: as_text(plan(w).benchmark_table()),
+        **calls("recalib.study.evidence.benchmark.put_together"),
+        arguments=lambda w: as_text(
+            scenarios=study(w).benchmark.scenarios,
+            learners=study(w).benchmark.learners,
+            thresholds=study(w).benchmark.thresholds,
+            seed=study(w).seed,
+        ),
+        digits=6,
     localrule: True
     message:
         "Put the benchmark together"
     script:
-        "../scripts/benchmark_table.py"
+        "../scripts/call.py"
 
 
 rule real_data:
     output:
-        LAYOUT.real_data("{part}"),
+        table="{root}/real/{part}.csv",
     params:
-        code=made_from("real_data.py"),
-        job=lambda w: as_text(plan(w).real_data(w.part)),
+        **calls("recalib.study.experiments.tracker.fetch"),
+        arguments=lambda w: as_text(source=getattr(study(w).real.data, w.part)),
     wildcard_constraints:
         part="fit|test",
     localrule: True
     message:
         "Bring the poses of the real arm to {wildcards.part}"
     script:
-        "../scripts/real_data.py"
+        "../scripts/call.py"
 
 
 rule real_run:
     input:
-        fit=LAYOUT.real_data("fit"),
-        test=LAYOUT.real_data("test"),
+        fit="{root}/real/fit.csv",
+        test="{root}/real/test.csv",
         description=lambda w: study(w).real.description,
     output:
-        LAYOUT.real_run("{learner}"),
+        "{root}/real/runs/{learner}.csv",
     params:
-        code=made_from("real_run.py"),
-        job=lambda w: as_text(plan(w).real_run(w.learner)),
+        **calls(
+            "recalib.study.experiments.real_arm.learn_from_tables",
+            reads=lambda w: [study(w).real.description],
+        ),
+        arguments=lambda w: as_text(
+            nominal=nominal(study(w), study(w).real.robot),
+            learner=w.learner,
+            poses=study(w).real.poses,
+            subsets=study(w).real.subsets,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
-        "../scripts/real_run.py"
+        "../scripts/call.py"
 
 
 rule real_twin:
     input:
-        fit=LAYOUT.real_data("fit"),
+        fit="{root}/real/fit.csv",
         description=lambda w: study(w).real.description,
         sample=lambda w: sample(w, w.learner),
     output:
-        LAYOUT.real_twin("{learner}"),
+        "{root}/real/twin/{learner}.csv",
     params:
-        code=made_from("real_twin.py"),
-        job=lambda w: as_text(plan(w).real_twin(w.learner)),
+        **calls(
+            "recalib.study.experiments.real_arm.learn_on_twin",
+            reads=lambda w: [study(w).real.description, sample(w, w.learner)],
+        ),
+        arguments=lambda w: as_text(
+            nominal=nominal(study(w), study(w).real.robot),
+            name=w.learner,
+            rules=rules_of(study(w), w.learner),
+            poses=study(w).real.poses,
+            subsets=study(w).real.subsets,
+            tests=study(w).training.tests,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:
-        "../scripts/real_twin.py"
+        "../scripts/call.py"
 
 
 rule real_table:
     input:
         runs=lambda w: [
-            *(layout(w).real_run(learner) for learner in study(w).real.learners),
-            *(layout(w).real_twin(learner) for learner in study(w).real.twin),
+            *(f"{w.root}/real/runs/{learner}.csv" for learner in study(w).real.learners),
+            *(f"{w.root}/real/twin/{learner}.csv" for learner in study(w).real.twin),
         ],
     output:
-        LAYOUT.real,
+        "{root}/real.csv",
     params:
-        code=made_from("real_table.py"),
-        job=lambda w: as_text(plan(w).real_table()),
+        **calls("recalib.study.evidence.real.put_together"),
+        arguments=lambda w: as_text(seed=study(w).seed),
+        digits=5,
     localrule: True
     message:
         "Put the results on the real arm together"
     script:
-        "../scripts/real_table.py"
+        "../scripts/call.py"

@@ -3,28 +3,29 @@
 
 rule check:
     input:
-        summary=LAYOUT.summary,
+        summary="{root}/summary.csv",
         expected=lambda w: study(w).expected,
     output:
-        LAYOUT.check,
+        "{root}/check.txt",
     params:
-        code=made_from("check.py", reads=lambda w: [study(w).expected]),
+        **calls("recalib.study.evidence.checks.report", reads=lambda w: [study(w).expected]),
     localrule: True
     message:
         "Check the final errors against {input.expected}"
     script:
-        "../scripts/check.py"
+        "../scripts/call.py"
 
 
 rule expect:
     input:
-        summary=LAYOUT.summary,
+        summary="{root}/summary.csv",
     output:
-        LAYOUT.expected,
+        "{root}/expected.csv",
     params:
-        code=made_from("expect.py"),
+        **calls("recalib.study.evidence.checks.propose"),
+        digits=4,
     localrule: True
     message:
         "Propose new bands for the check"
     script:
-        "../scripts/expect.py"
+        "../scripts/call.py"

@@ -25,12 +25,15 @@ if processor.exists() and "avx2" in processor.read_text(encoding="utf-8"):
 # longer than all else here. Ours are text.
 PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_builtin
 
+from pydantic_core import to_json
+
 from recalib.errors import RecalibError
-from recalib.study.layout import RESULTS, SEARCHED, Layout
-from recalib.study.plan import Plan
+from recalib.study.nominal import nominal
+from recalib.study.shipped import RESULTS, SEARCHED
 from recalib.study.studies import ask_robots, read_studies
-from recalib.study.trainings import Trainings
-from workflow.dependencies import made_from
+from recalib.study.trainings import Trainings, measuring, searches, seeds
+from recalib.study.trainings import rules as rules_of
+from workflow.dependencies import calls
 
 try:
     # by the folder of their results: the shipped one, those of workflow/studies, and this call's
@@ -41,14 +44,7 @@ try:
 except RecalibError as error:
     raise WorkflowError(str(error)) from None
 
-LAYOUT = Layout("{root}")  # of rules, in which the folder is a wildcard
 TRAININGS = {root: Trainings(each) for root, each in STUDIES.items()}
-PLANS = {root: Plan(each) for root, each in STUDIES.items()}
-
-
-def layout(wildcards):
-    """The paths of the study that a job belongs to."""
-    return Layout(wildcards.root)
 
 
 def study(wildcards):
@@ -56,14 +52,9 @@ def study(wildcards):
     return STUDIES[wildcards.root]
 
 
-def plan(wildcards):
-    """What each job of a study needs."""
-    return PLANS[wildcards.root]
-
-
-def as_text(job):
-    """A job as a parameter that Snakemake tracks: of all types it tracks only the built-in ones."""
-    return job.model_dump_json()
+def as_text(**arguments):
+    """Arguments of a function as Snakemake tracks them: of all types, only the built-in ones."""
+    return to_json(arguments).decode()
 
 
 def room(mem_mb, runtime):

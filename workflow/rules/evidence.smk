@@ -10,85 +10,102 @@ from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
 
 def request(root):
     """How to ask for what a claim, a figure or a page of a study reads."""
-    return partial(Request, STUDIES[root], TRAININGS[root], Layout(root), partial(sample_at, root))
+    return partial(Request, STUDIES[root], TRAININGS[root], root, partial(sample_at, root))
 
 
 def asked(root, needs):
     """What something of a study reads."""
     ask = request(root)()
     needs(ask)
-    return ask.needs
+    return ask.evidence
 
 
 rule summary:
     input:
-        histories=lambda w: [layout(w).history(*run) for run in TRAININGS[w.root].runs],
-        scenarios=lambda w: [layout(w).scenario(name) for name in TRAININGS[w.root].scenarios()],
+        histories=lambda w: [
+            f"{w.root}/runs/{scenario}/{learner}.parquet"
+            for scenario, learner in TRAININGS[w.root].runs
+        ],
+        scenarios=lambda w: [
+            f"{w.root}/scenarios/{name}.json" for name in TRAININGS[w.root].scenarios()
+        ],
     output:
-        LAYOUT.summary,
+        "{root}/summary.csv",
     params:
-        code=made_from("summarise.py"),
-        job=lambda w: as_text(plan(w).summary()),
+        **calls("recalib.study.evidence.summary.summarise"),
+        arguments=lambda w: as_text(trainings=TRAININGS[w.root].runs, seed=study(w).seed),
+        digits=6,
     localrule: True
     message:
         "Put the final errors of every training into one table"
     script:
-        "../scripts/summarise.py"
+        "../scripts/call.py"
+
+
+def judged_by(wildcards):
+    claims = judging(request(wildcards.root)).values()
+    return sorted({path for evidence in claims for path in evidence.inputs})
 
 
 rule claims:
     input:
-        evidence=lambda w: judging(request(w.root)).inputs,
+        files=judged_by,
     output:
-        LAYOUT.claims,
+        "{root}/claims.json",
     params:
-        code=made_from("claims.py"),
-        job=lambda w: as_text(judging(request(w.root))),
+        **calls("recalib.study.evidence.claims.judge", reads=judged_by),
+        arguments=lambda w: as_text(claims=judging(request(w.root))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Judge every claim of the paper"
     script:
-        "../scripts/claims.py"
+        "../scripts/call.py"
 
 
-def outcome_needs(wildcards):
+def outcome_evidence(wildcards):
     return asked(wildcards.root, needs_of_outcome)
 
 
 rule outcome:
     input:
-        evidence=lambda w: outcome_needs(w).inputs,
+        files=lambda w: outcome_evidence(w).inputs,
     output:
-        LAYOUT.outcome,
+        "{root}/outcome.txt",
     params:
-        code=made_from("outcome.py"),
-        job=lambda w: as_text(outcome_needs(w)),
+        **calls(
+            "recalib.study.evidence.outcome.outcome",
+            reads=lambda w: outcome_evidence(w).inputs,
+        ),
+        arguments=lambda w: as_text(evidence=outcome_evidence(w)),
     localrule: True
     message:
         "Say what came out"
     script:
-        "../scripts/outcome.py"
+        "../scripts/call.py"
 
 
-def page_needs(wildcards):
+def page_evidence(wildcards):
     return asked(wildcards.root, PAGES_OF_EVIDENCE[wildcards.page].needs)
 
 
 rule page:
     input:
         template="workflow/templates/{page}.j2",
-        evidence=lambda w: page_needs(w).inputs,
+        files=lambda w: page_evidence(w).inputs,
     output:
-        LAYOUT.page("{page}"),
+        "{root}/pages/{page}",
     params:
-        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
-        job=lambda w: as_text(page_needs(w)),
+        **calls(
+            "recalib.study.evidence.pages.page",
+            reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_evidence(w).inputs],
+        ),
+        arguments=lambda w: as_text(name=w.page, evidence=page_evidence(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),
     localrule: True
     message:
         "Write the numbers into {wildcards.page}"
     script:
-        "../scripts/page.py"
+        "../scripts/call.py"

@@ -3,14 +3,24 @@
 
 rule train:
     input:
-        scenario=LAYOUT.scenario("{scenario}"),
+        scenario="{root}/scenarios/{scenario}.json",
         sample=lambda w: sample(w, w.learner),
     output:
-        history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
-        learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
+        history="{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
+        learned="{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
     params:
-        code=made_from("train.py"),
-        job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
+        **calls(
+            "recalib.study.experiments.campaign.train_seeds",
+            reads=lambda w: [sample(w, w.learner)],
+        ),
+        arguments=lambda w: as_text(
+            rules=rules_of(study(w), w.learner),
+            seeds=study(w).training.seeds,
+            **bounds(w.chunk, seeds(study(w), w.learner), study(w).training.seeds_per_job),
+            measuring=measuring(study(w)),
+            throughout=is_shown(study(w), w.scenario, w.learner),
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
@@ -18,84 +28,117 @@ rule train:
     message:
         "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
     script:
-        "../scripts/train.py"
+        "../scripts/call.py"
 
 
-def training_chunks(suffix):
-    def of(wildcards):
-        numbers = plan(wildcards).training_chunks(wildcards.learner)
-        where = wildcards.scenario, wildcards.learner
-        return [layout(wildcards).chunk(*where, number, suffix) for number in numbers]
+def is_shown(study, scenario, learner):
+    """Whether figures show how a training went on its way."""
+    shown = *study.experiments.learners, *study.experiments.beside
+    return scenario_of(study, scenario)[1] == study.robot and learner in shown
 
-    return of
+
+def training_chunks(wildcards):
+    its = study(wildcards)
+    return chunks(seeds(its, wildcards.learner), its.training.seeds_per_job)
 
 
 rule run:
     input:
-        histories=training_chunks(".parquet"),
-        learned=training_chunks(".npz"),
+        histories=lambda w: expand(
+            "{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
+            chunk=training_chunks(w),
+            **w,
+        ),
+        parts=lambda w: expand(
+            "{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz", chunk=training_chunks(w), **w
+        ),
     output:
-        history=LAYOUT.history("{scenario}", "{learner}"),
-        learned=LAYOUT.learned("{scenario}", "{learner}"),
+        history="{root}/runs/{scenario}/{learner}.parquet",
+        learned="{root}/runs/{scenario}/{learner}.npz",
     params:
-        code=made_from("gather.py"),
+        **calls("recalib.study.experiments.joining.training"),
     localrule: True
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
-        "../scripts/gather.py"
+        "../scripts/call.py"
+
+
+def series_of(wildcards):
+    """A series of other damages."""
+    return study(wildcards).experiments.ensemble[wildcards.learner][wildcards.series]
 
 
 rule ensemble_chunk:
     input:
         sample=lambda w: sample(w, w.learner),
     output:
-        LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
+        "{root}/chunks/ensemble/{series}.{learner}.{chunk}.parquet",
     params:
-        code=made_from("ensemble.py"),
-        job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
+        **calls(
+            "recalib.study.experiments.ensemble.train_draws",
+            reads=lambda w: [sample(w, w.learner)],
+        ),
+        arguments=lambda w: as_text(
+            nominal=nominal(study(w), study(w).robot),
+            shorten=study(w).paper_damage.shorten,
+            shift=study(w).paper_damage.shift,
+            series=w.series,
+            scales=series_of(w).scales,
+            **bounds(w.chunk, series_of(w).draws, study(w).experiments.draws_per_job),
+            rules=rules_of(study(w), w.learner),
+            tests=study(w).training.tests,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
     script:
-        "../scripts/ensemble.py"
+        "../scripts/call.py"
 
 
 rule ensemble:
     input:
-        chunks=lambda w: [
-            layout(w).ensemble_chunk(w.series, w.learner, chunk)
-            for chunk in plan(w).draw_chunks(w.series, w.learner)
-        ],
+        chunks=lambda w: expand(
+            "{root}/chunks/ensemble/{series}.{learner}.{chunk}.parquet",
+            chunk=chunks(series_of(w).draws, study(w).experiments.draws_per_job),
+            **w,
+        ),
     output:
-        LAYOUT.ensemble("{series}", "{learner}"),
+        "{root}/ensemble/{series}.{learner}.parquet",
     params:
-        code=made_from("concat.py"),
+        **calls("recalib.study.experiments.joining.put_together"),
     localrule: True
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
-        "../scripts/concat.py"
+        "../scripts/call.py"
+
+
+MEASURED = ["improved", "ritter"]
+
+
+def samples_of_measured(wildcards):
+    return [sample(wildcards, name) for name in MEASURED]
 
 
 rule bench:
     input:
         scenario=own_scenario,
-        samples=lambda w: [sample(w, learner) for learner in MEASURED],
+        samples=samples_of_measured,
     output:
-        LAYOUT.bench,
+        "{root}/bench.txt",
     params:
-        code=made_from("bench.py"),
-        job=lambda w: as_text(plan(w).speed(MEASURED)),
+        **calls("recalib.study.experiments.speed.measure_speed", reads=samples_of_measured),
+        arguments=lambda w: as_text(
+            learners={name: rules_of(study(w), name) for name in MEASURED},
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Measure the speed of moves and trainings"
     script:
-        "../scripts/bench.py"
-
-
-MEASURED = ["improved", "ritter"]
+        "../scripts/call.py"

@@ -3,19 +3,23 @@
 from recalib.study.plots.registry import FIGURES, drawn, possible
 
 
-def figure_needs(wildcards):
+def figure_evidence(wildcards):
     return asked(wildcards.root, FIGURES[wildcards.figure].needs)
 
 
 rule figure:
     input:
-        evidence=lambda w: figure_needs(w).inputs,
+        files=lambda w: figure_evidence(w).inputs,
     output:
-        LAYOUT.figure("{figure}"),
-        LAYOUT.figure("{figure}", ".png"),
+        svg="{root}/figures/{figure}.svg",
+        png="{root}/figures/{figure}.png",
     params:
-        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
-        job=lambda w: as_text(figure_needs(w)),
+        **calls(
+            "recalib.study.plots.registry.publish",
+            also=lambda w: [FIGURES[w.figure].home],
+            reads=lambda w: figure_evidence(w).inputs,
+        ),
+        arguments=lambda w: as_text(figure=w.figure, evidence=figure_evidence(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),
     threads: 1
@@ -24,13 +28,13 @@ rule figure:
     message:
         "Draw {wildcards.figure}"
     script:
-        "../scripts/figure.py"
+        "../scripts/call.py"
 
 
 def figures_of(root):
     """The figures of a study, for which it has what they need."""
-    its, names = Layout(root), drawn(STUDIES[root], request(root))
-    return [its.figure(name, suffix) for name in names for suffix in (".svg", ".png")]
+    names = drawn(STUDIES[root], request(root))
+    return expand("{root}/figures/{name}.{suffix}", root=root, name=names, suffix=["svg", "png"])
 
 
 def ideas_of(root):

@@ -3,37 +3,48 @@
 
 rule study_mapping:
     input:
-        scenarios=lambda w: [layout(w).scenario(name) for name in study(w).experiments.scenarios],
+        scenarios=lambda w: expand(
+            "{root}/scenarios/{scenario}.json",
+            root=w.root,
+            scenario=study(w).experiments.scenarios,
+        ),
         own=own_scenario,
     output:
-        coupling=LAYOUT.mapping("coupling"),
-        propagation=LAYOUT.mapping("propagation"),
-        quantisation=LAYOUT.mapping("quantisation"),
+        coupling="{root}/mapping/coupling.parquet",
+        propagation="{root}/mapping/propagation.parquet",
+        quantisation="{root}/mapping/quantisation.parquet",
     params:
-        code=made_from("study_mapping.py"),
-        job=lambda w: as_text(plan(w).true_mapping()),
+        **calls("recalib.study.mapping.measured.measure"),
+        arguments=lambda w: as_text(
+            poses=study(w).mapping.poses,
+            balls=study(w).mapping.balls,
+            points=study(w).mapping.points,
+            radius=study(w).mapping.radius,
+            scales=study(w).mapping.scales,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Measure what section 3 says of the cells, and sections 4 and 5 of the true mapping"
     script:
-        "../scripts/study_mapping.py"
+        "../scripts/call.py"
 
 
 rule study_visits:
     output:
-        LAYOUT.mapping("visits"),
+        "{root}/mapping/visits.parquet",
     params:
-        code=made_from("study_visits.py"),
-        job=lambda w: as_text(plan(w).visits()),
+        **calls("recalib.study.mapping.visits.visits"),
+        arguments=lambda w: as_text(seed=study(w).seed),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Measure the expected learning of section 6"
     script:
-        "../scripts/study_visits.py"
+        "../scripts/call.py"
 
 
 rule study_replay:
@@ -41,14 +52,17 @@ rule study_replay:
         scenario=own_scenario,
         sample=lambda w: sample(w, "improved"),
     output:
-        LAYOUT.mapping("replay"),
+        "{root}/mapping/replay.parquet",
     params:
-        code=made_from("study_replay.py"),
-        job=lambda w: as_text(plan(w).replay()),
+        **calls(
+            "recalib.study.experiments.replay.replay",
+            reads=lambda w: [sample(w, "improved")],
+        ),
+        arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     message:
         "Teach the improved learner by a table instead of a robot"
     script:
-        "../scripts/study_replay.py"
+        "../scripts/call.py"

@@ -1,47 +1,53 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
+from recalib.study.recordings import recording as what_is_recorded, recordings
+
 
 @cache
 def recording_of(root, recording):
     """What is recorded: asked once, since it knows what stands in the meshes that are drawn."""
-    return PLANS[root].recording(recording)
+    return what_is_recorded(STUDIES[root], recording)
 
 
 def recorded(wildcards):
     return recording_of(wildcards.root, wildcards.recording)
 
 
+def samples_of_recorded(wildcards):
+    return [sample(wildcards, name) for name in recorded(wildcards).papers()]
+
+
 rule recording:
     input:
-        scenario=lambda w: layout(w).scenario(recorded(w).scenario),
-        samples=lambda w: [sample(w, name) for name in recorded(w).papers()],
+        scenario=lambda w: f"{w.root}/scenarios/{recorded(w).scenario}.json",
+        samples=samples_of_recorded,
         histories=lambda w: [
-            layout(w).history(recorded(w).scenario, name) for name in recorded(w).papers()
+            f"{w.root}/runs/{recorded(w).scenario}/{name}.parquet" for name in recorded(w).papers()
         ],
     output:
-        LAYOUT.recording("{recording}"),
+        rrd="{root}/recordings/{recording}.rrd",
     params:
-        code=made_from("record.py"),
-        job=lambda w: as_text(recorded(w)),
+        **calls("recalib.study.recording.writing.record", reads=samples_of_recorded),
+        arguments=lambda w: as_text(recording=recorded(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Record {wildcards.recording}"
     script:
-        "../scripts/record.py"
+        "../scripts/call.py"
 
 
 def recordings_of(root):
     """The recordings of a study, if it has learners that are recorded."""
-    names = PLANS[root].recordings()
-    return [Layout(root).recording(name) for name in names]
+    return [f"{root}/recordings/{name}.rrd" for name in recordings(STUDIES[root])]
 
 
 def pictured(wildcards):
     """The recording that pictures are taken of; called `arm`, those of the study's own scenario."""
     its = wildcards.recording
-    return layout(wildcards).recording(study(wildcards).scenario if its == "arm" else its)
+    its = study(wildcards).scenario if its == "arm" else its
+    return f"{wildcards.root}/recordings/{its}.rrd"
 
 
 rule before_and_after:
@@ -49,38 +55,38 @@ rule before_and_after:
         recording=pictured,
     output:
         before=report(
-            LAYOUT.figure("{recording}_before", ".png"),
+            "{root}/figures/{recording}_before.png",
             caption="../report/pictures.rst",
             category="Pictures",
             labels={"picture": "1: before recalibration"},
         ),
         after=report(
-            LAYOUT.figure("{recording}_after", ".png"),
+            "{root}/figures/{recording}_after.png",
             caption="../report/pictures.rst",
             category="Pictures",
             labels={"picture": "2: after recalibration"},
         ),
     params:
-        code=made_from("pictures.py"),
+        **calls("recalib.study.recording.pictures.before_and_after"),
     localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
-        "../scripts/pictures.py"
+        "../scripts/call.py"
 
 
 rule film:
     input:
         recording=pictured,
     output:
-        LAYOUT.figure("{recording}", ".webp"),
+        film="{root}/figures/{recording}.webp",
     params:
-        code=made_from("film.py"),
+        **calls("recalib.study.recording.pictures.take_film"),
     localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:
-        "../scripts/film.py"
+        "../scripts/call.py"
 
 
 PICTURES = "arm_before.png", "arm_after.png", "arm.webp"
@@ -88,8 +94,10 @@ PICTURES = "arm_before.png", "arm_after.png", "arm.webp"
 
 rule pictures:
     input:
-        [f"figures/{picture}" for picture in PICTURES]
-        if MAIN == RESULTS
-        else [Layout(MAIN).figure(picture, "") for picture in PICTURES],
+        expand(
+            "{folder}/{picture}",
+            folder="figures" if MAIN == RESULTS else f"{MAIN}/figures",
+            picture=PICTURES,
+        ),
     message:
         "The arm before and after: {input}"

@@ -10,7 +10,7 @@ PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
 PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md"]
 
 
-report: str(Path(Layout(MAIN).report_page(report_.FRONT, ".rst")).resolve())
+report: str(Path(MAIN, "report", f"{report_.FRONT}.rst").resolve())
 
 
 def read_in(root):
@@ -18,7 +18,7 @@ def read_in(root):
     pages = report_.READ if STUDIES[root].experiments.evidence else ()
     pages = [page for page in pages if f"{page}.md" in PAGES_BY_DEFAULT or root == RESULTS]
     explained = {report_.EXPLAINED: f"docs/{report_.EXPLAINED}.md"} if root == RESULTS else {}
-    return explained | {page: Layout(root).page(f"{page}.md") for page in pages}
+    return explained | {page: f"{root}/pages/{page}.md" for page in pages}
 
 
 def kept_in(root):
@@ -42,7 +42,7 @@ def other_pages_of(root):
 def pages_of(root):
     """The pages of a study's report, by category."""
     return {
-        "Claims of the paper": ["claims"] if judging(request(root)).claims else [],
+        "Claims of the paper": ["claims"] if judging(request(root)) else [],
         "Figures": drawn(STUDIES[root], request(root)),
         "Method, findings, guidance": other_pages_of(root),
         "Tables": list(report_.TABLES),
@@ -56,20 +56,25 @@ def title(page):
 
 def page_in_report(root, page, category):
     """A page as an output."""
-    path = Layout(root).report_page(page)
+    path = f"{root}/report/{page}.html"
     return report(path, caption="../report/page.rst", category=category, labels={"page": title(page)})
 
 
 def report_of(root):
     """The pages of a study's report."""
-    return [Layout(root).report_page(page) for pages in pages_of(root).values() for page in pages]
+    return [f"{root}/report/{page}.html" for pages in pages_of(root).values() for page in pages]
+
+
+def read_by_report(root):
+    """Texts, pages and evidence."""
+    return [*sorted(TEXTS.iterdir()), *read_in(root).values(), *asked(root, report_.needs).inputs]
 
 
 # How many pages there are is known of each study by itself, hence a rule for each.
 for root_ in STUDIES:
     own_ = {*sum(pages_of(root_).values(), [])} - {*other_pages_of(root_)}
     texts_ = ["layout", "parts", *sorted(own_)]
-    ideas_ = [Layout(root_).figure(name) for name in ideas_of(root_)]
+    ideas_ = [f"{root_}/figures/{name}.svg" for name in ideas_of(root_)]
 
     rule:
         name:
@@ -81,20 +86,23 @@ for root_ in STUDIES:
             ],
             read=list(read_in(root_).values()),
             figures=[*(path for path in figures_of(root_) if path.endswith(".svg")), *ideas_],
-            evidence=asked(root_, report_.needs).inputs,
+            files=asked(root_, report_.needs).inputs,
         output:
             pages=[
                 page_in_report(root_, page, category)
                 for category, pages in pages_of(root_).items()
                 for page in pages
             ],
-            front=Layout(root_).report_page(report_.FRONT, ".rst"),
+            rst=f"{root_}/report/{report_.FRONT}.rst",
         params:
-            code=made_from("report_pages.py", reads=lambda w: sorted(TEXTS.iterdir())),
+            **calls(
+                "recalib.study.evidence.report.write",
+                reads=lambda w, root=root_: read_by_report(root),
+            ),
             kept=kept_in(root_),
-            job=lambda w, root=root_: as_text(asked(root, report_.needs)),
+            arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.needs)),
         localrule: True
         message:
             "Write the pages of the report"
         script:
-            "../scripts/report_pages.py"
+            "../scripts/call.py"

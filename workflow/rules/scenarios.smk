@@ -1,49 +1,64 @@
 """Which damage, on which robot."""
 
-from recalib.study.configuration.damages import Assigned
+from recalib.study.configuration.damages import Assigned, describe
 from recalib.study.trainings import scenario_of
 
 
 rule assignments:
     output:
-        table=LAYOUT.assignments("{robot}"),
-        assignment=LAYOUT.assignments("{robot}", ".json"),
+        table="{root}/assignments/{robot}.parquet",
+        chosen="{root}/assignments/{robot}.json",
     params:
-        code=made_from("assign.py"),
-        job=lambda w: as_text(plan(w).assignments(w.robot)),
+        **calls("recalib.study.assignments.assign"),
+        arguments=lambda w: as_text(
+            nominal=nominal(study(w), w.robot),
+            damage=study(w).paper_damage,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
     script:
-        "../scripts/assign.py"
+        "../scripts/call.py"
 
 
 def assignment(wildcards):
     """The assignment of the paper's damage, for a scenario that has a part of it."""
     name, robot = scenario_of(study(wildcards), wildcards.scenario)
     assigned = any(isinstance(entry, Assigned) for entry in study(wildcards).scenarios[name])
-    return [layout(wildcards).assignments(robot, ".json")] if assigned else []
+    return f"{wildcards.root}/assignments/{robot}.json" if assigned else []
+
+
+def damage(study, name):
+    """The damages of a scenario, in the words of the configuration."""
+    return [describe(entry) for entry in study.scenarios[name]]
 
 
 rule scenario:
     input:
         assignment=assignment,
     output:
-        LAYOUT.scenario("{scenario}"),
+        "{root}/scenarios/{scenario}.json",
     params:
-        code=made_from("scenario.py"),
-        job=lambda w: as_text(plan(w).scenario(w.scenario)),
+        **calls("recalib.study.plants.resolve"),
+        arguments=lambda w: as_text(
+            name=w.scenario,
+            nominal=nominal(study(w), scenario_of(study(w), w.scenario)[1]),
+            damages=damage(study(w), scenario_of(study(w), w.scenario)[0]),
+            poses=study(w).paper_damage.poses,
+            seed=study(w).seed,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"
     script:
-        "../scripts/scenario.py"
+        "../scripts/call.py"
 
 
 def own_scenario(wildcards):
     """The paper's damage, as resolved in this study."""
-    return layout(wildcards).scenario(study(wildcards).scenario)
+    return f"{wildcards.root}/scenarios/{study(wildcards).scenario}.json"

@@ -2,7 +2,9 @@
 
 from functools import cache
 
-from recalib.study.trainings import rules as rules_of, training
+from recalib.study.chunks import bounds, chunks, searches_per_job
+from recalib.study.experiments.samples import searched_for, sought
+from recalib.study.trainings import budget, training
 
 
 def sample(wildcards, learner):
@@ -14,51 +16,61 @@ def sample(wildcards, learner):
 def sample_at(root, name):
     shipped, wanted = Path(SEARCHED, f"{name}.csv"), rules_of(STUDIES[root], name)
     if STUDIES[root].settings == "shipped" and (ROOT / shipped).exists():
-        from recalib.study.experiments.samples import searched_for
-
         found = searched_for(ROOT / shipped)
-        if found.learner == wanted and found.searches >= PLANS[root].searches(name):
+        if found.learner == wanted and found.searches >= searches(STUDIES[root], name):
             return shipped.as_posix()
-    return Layout(root).searched(name)
+    return f"{root}/search/{name}.csv"
 
 
 rule search:
     input:
         scenario=own_scenario,
     output:
-        LAYOUT.search_chunk("{training}", "{chunk}"),
+        "{root}/chunks/search/{training}.{chunk}.csv",
     params:
-        code=made_from("search.py"),
-        job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
+        **calls("recalib.study.experiments.trials.search_for"),
+        arguments=lambda w: as_text(
+            training=w.training,
+            learner=rules_of(study(w), w.training),
+            budget=budget(study(w)),
+            **bounds(
+                w.chunk, searches(study(w), w.training), searches_per_job(study(w), w.training)
+            ),
+            tests=study(w).training.tests,
+        ),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
     message:
         "Search for {wildcards.training}, chunk {wildcards.chunk} of its searches"
     script:
-        "../scripts/search.py"
+        "../scripts/call.py"
+
+
+def search_chunks(wildcards):
+    its, name = study(wildcards), wildcards.training
+    return chunks(searches(its, name), searches_per_job(its, name))
 
 
 rule search_sample:
     input:
-        trials=lambda w: [
-            layout(w).search_chunk(w.training, chunk)
-            for chunk in plan(w).search_chunks(w.training)
-        ],
+        trials=lambda w: expand(
+            "{root}/chunks/search/{training}.{chunk}.csv", chunk=search_chunks(w), **w
+        ),
     output:
-        LAYOUT.searched("{training}"),
+        "{root}/search/{training}.csv",
     params:
-        code=made_from("search_sample.py"),
-        job=lambda w: as_text(plan(w).sample(w.training)),
+        **calls("recalib.study.experiments.samples.put_together"),
+        arguments=lambda w: as_text(sought=sought(study(w), w.training)),
     localrule: True
     message:
         "Keep all trials of the searches for {wildcards.training}"
     script:
-        "../scripts/search_sample.py"
+        "../scripts/call.py"
 
 
 rule tune:
     input:
-        lambda w: [Layout(MAIN).searched(name) for name in TRAININGS[MAIN].tuned()],
+        lambda w: [f"{MAIN}/search/{name}.csv" for name in TRAININGS[MAIN].tuned()],
     message:
         "All widths and rates are searched for: see {input[0]} and its neighbours"

@@ -45,17 +45,15 @@ onsuccess:
 
 def everything(root):
     """All results of a study, and what is made of them."""
-    its = Layout(root)
-    wanted = [its.summary, its.claims, its.outcome]
-    wanted += [its.learned(*run) for run in TRAININGS[root].runs]
+    wanted = [f"{root}/{name}" for name in ("summary.csv", "claims.json", "outcome.txt")]
+    wanted += [f"{root}/runs/{scenario}/{learner}.npz" for scenario, learner in TRAININGS[root].runs]
     if STUDIES[root].expected:
-        wanted.append(its.check)
+        wanted.append(f"{root}/check.txt")
     if STUDIES[root].experiments.evidence:
         wanted += with_copies(root, pages=PAGES_BY_DEFAULT)
     if root == RESULTS:
         wanted += with_copies(root, pages=PAGES_OF_THE_SHIPPED)
-    drawn_ = [Path(path).stem for path in figures_of(root)]
-    drawn_ += ideas_of(root)
+    drawn_ = dict.fromkeys([*(Path(path).stem for path in figures_of(root)), *ideas_of(root)])
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]
 
 
@@ -64,11 +62,10 @@ COPIES = {page if page == "README.md" else f"docs/{page}": page for page in PAGE
 
 def with_copies(root, figures=(), pages=()):
     """Figures and pages of a study; of the shipped one, their committed copies, too."""
-    its, names = Layout(root), dict.fromkeys(figures)
-    made = [its.figure(name, suffix) for name in names for suffix in (".svg", ".png")]
-    made += [its.page(page) for page in pages]
+    drawings = [f"figures/{name}.{suffix}" for name in figures for suffix in ("svg", "png")]
+    made = [f"{root}/{path}" for path in drawings] + [f"{root}/pages/{page}" for page in pages]
     if root == RESULTS:
-        made += [f"figures/{name}{suffix}" for name in names for suffix in (".svg", ".png")]
+        made += drawings
         made += [copy for copy, page in COPIES.items() if page in pages]
     return made
 
@@ -76,7 +73,7 @@ def with_copies(root, figures=(), pages=()):
 # A copy takes no time: whatever becomes of a drawing, the committed file is there.
 rule publish_figure:
     input:
-        Layout(RESULTS).figure("{figure}", ".{suffix}"),
+        f"{RESULTS}/figures/{{figure}}.{{suffix}}",
     output:
         "figures/{figure}.{suffix}",
     wildcard_constraints:
@@ -90,7 +87,7 @@ rule publish_figure:
 
 rule publish_page:
     input:
-        lambda w: Layout(RESULTS).page(COPIES[w.page]),
+        lambda w: f"{RESULTS}/pages/{COPIES[w.page]}",
     output:
         "{page}",
     wildcard_constraints:
@@ -111,7 +108,7 @@ rule benchmark:
 
 rule real:
     input:
-        Layout(MAIN).real,
+        f"{MAIN}/real.csv",
         lambda w: with_copies(MAIN, figures=["figure13"], pages=["real_arm.md"]),
     message:
         "The real arm: {input}"

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from recalib.study.layout import DESIGN, PIECES
+from recalib.study import shipped
 from recalib.study.multiverse.design import digest, read_design
 from recalib.study.multiverse.universe import universe
 
@@ -12,7 +12,7 @@ REPLICATES = 8  # of the reference study
 @cache
 def designed():
     """The committed design."""
-    return read_design(ROOT / DESIGN)
+    return read_design(ROOT / shipped.DESIGN)
 
 
 def universe_of(wildcards):
@@ -29,14 +29,14 @@ def setups(table):
 
 def pieces(table):
     """All pieces of a table."""
-    return Layout(MAIN).campaign_pieces(table, len(setups(table)))
+    return shipped.pieces(table, len(setups(table)), f"{MAIN}/universes")
 
 
 def piece_of(wildcards):
     """The chunks of a piece."""
-    size, table = PIECES[wildcards.table], wildcards.table
+    size, table = shipped.PIECES[wildcards.table], wildcards.table
     numbers = setups(table)[int(wildcards.piece) * size :][:size]
-    return [Layout(MAIN).campaign_chunk(table, number) for number in numbers]
+    return [f"{MAIN}/chunks/universes/{table}/{number}.csv" for number in numbers]
 
 
 def effort_trainings():
@@ -53,80 +53,97 @@ wildcard_constraints:
     number=r"\d+",
 
 
+def setting(study):
+    """What a design is drawn for: the study's own robot is the first."""
+    robots = dict.fromkeys([study.robot, *study.universes.factors.robot])
+    return dict(
+        plan=study.universes,
+        robots=[nominal(study, name) for name in robots],
+        damage=study.paper_damage,
+        moved=damage(study, "translation_rotation"),
+    )
+
+
 rule design:
     output:
-        LAYOUT.campaign("design"),
+        "{root}/universes/design.csv",
     params:
-        code=made_from("design.py"),
-        job=lambda w: as_text(plan(w).design()),
+        **calls("recalib.study.multiverse.drawing.design"),
+        arguments=lambda w: as_text(setting=setting(study(w))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
     message:
         "Draw the universes of the multiverse"
     script:
-        "../scripts/design.py"
+        "../scripts/call.py"
 
 
 rule power:
     output:
-        LAYOUT.campaign("power"),
+        "{root}/universes/power.csv",
     params:
-        code=made_from("power.py"),
-        setups=lambda w: study(w).universes.count,
-        replicates=lambda w: study(w).universes.replicates,
+        **calls("recalib.study.multiverse.power.power"),
+        arguments=lambda w: as_text(
+            setups=study(w).universes.count,
+            replicates=study(w).universes.replicates,
+        ),
+        digits=4,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
     message:
         "Try the model of the campaign in worlds whose truth is known"
     script:
-        "../scripts/power.py"
+        "../scripts/call.py"
 
 
 rule universe:
     output:
-        LAYOUT.campaign_chunk("outcomes", "{number}"),
+        "{root}/chunks/universes/outcomes/{number}.csv",
     params:
-        code=made_from("universe.py"),
-        job=lambda w: as_text(universe_of(w)),
+        **calls("recalib.study.multiverse.measuring.measure"),
+        arguments=lambda w: as_text(universe=universe_of(w)),
+        digits=6,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
     message:
         "Measure universe {wildcards.number}"
     script:
-        "../scripts/universe.py"
+        "../scripts/call.py"
 
 
 rule horizon:
     output:
-        LAYOUT.campaign_chunk("horizon", "{number}"),
+        "{root}/chunks/universes/horizon/{number}.csv",
     params:
-        code=made_from("horizon.py"),
-        job=lambda w: as_text(universe_of(w)),
+        **calls("recalib.study.multiverse.horizon.horizon"),
+        arguments=lambda w: as_text(universe=universe_of(w)),
+        digits=6,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
     message:
         "Seek how long Ritter's takes in universe {wildcards.number}"
     script:
-        "../scripts/horizon.py"
+        "../scripts/call.py"
 
 
 rule piece:
     input:
         chunks=piece_of,
     output:
-        LAYOUT.campaign("{table}_{piece}"),
+        "{root}/universes/{table}_{piece}.csv",
     params:
-        code=made_from("piece.py"),
-        design=lambda w: digest(ROOT / DESIGN),
+        **calls("recalib.study.multiverse.design.put_together"),
+        arguments=lambda w: as_text(design=digest(ROOT / shipped.DESIGN)),
+        digits=6,
     localrule: True
     message:
         "Put piece {wildcards.piece} of the {wildcards.table} together"
     script:
-        "../scripts/piece.py"
+        "../scripts/call.py"
 
 
 rule universes:
@@ -147,17 +164,18 @@ rule reference_replicate:
     input:
         scenario=own_scenario,
     output:
-        LAYOUT.campaign_chunk("reference", "{number}"),
+        "{root}/chunks/universes/reference/{number}.csv",
     params:
-        code=made_from("reference.py"),
-        study=lambda w: study(w).model_dump_json(),
+        **calls("recalib.study.multiverse.reference.reference"),
+        arguments=lambda w: as_text(study=study(w), number=int(w.number)),
+        digits=6,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
     message:
         "Measure replicate {wildcards.number} of the reference study"
     script:
-        "../scripts/reference.py"
+        "../scripts/call.py"
 
 
 rule efforts_of:
@@ -165,40 +183,51 @@ rule efforts_of:
         scenario=own_scenario,
         sample=lambda w: sample_at(w.root, w.training),
     output:
-        LAYOUT.campaign_chunk("efforts", "{training}"),
+        "{root}/chunks/universes/efforts/{training}.csv",
     params:
-        code=made_from("efforts.py"),
-        job=lambda w: as_text(plan(w).efforts(w.training)),
+        **calls(
+            "recalib.study.multiverse.efforts.efforts",
+            reads=lambda w: [sample_at(w.root, w.training)],
+        ),
+        arguments=lambda w: as_text(
+            training=w.training,
+            learner=rules_of(study(w), w.training),
+            rough_trials=study(w).universes.rough_trials,
+            seeds=study(w).training.seeds,
+            tests=study(w).training.tests,
+            seed=study(w).seed,
+        ),
+        digits=4,
     threads: 1
     resources:
         **room(mem_mb=4000, runtime=30),
     message:
         "Train the winners of full and of rough searches for {wildcards.training}"
     script:
-        "../scripts/efforts.py"
+        "../scripts/call.py"
 
 
 rule reference:
     input:
-        chunks=[Layout(MAIN).campaign_chunk("reference", n) for n in range(REPLICATES)],
+        chunks=[f"{MAIN}/chunks/universes/reference/{n}.csv" for n in range(REPLICATES)],
     output:
-        Layout(MAIN).campaign("reference"),
+        f"{MAIN}/universes/reference.csv",
     params:
-        code=made_from("piece.py"),
-        design="",  # they follow none
+        **calls("recalib.study.multiverse.design.put_together"),
+        digits=6,
     localrule: True
     script:
-        "../scripts/piece.py"
+        "../scripts/call.py"
 
 
 rule efforts:
     input:
-        chunks=[Layout(MAIN).campaign_chunk("efforts", name) for name in effort_trainings()],
+        chunks=[f"{MAIN}/chunks/universes/efforts/{name}.csv" for name in effort_trainings()],
     output:
-        Layout(MAIN).campaign("efforts"),
+        f"{MAIN}/universes/efforts.csv",
     params:
-        code=made_from("piece.py"),
-        design="",  # they follow none
+        **calls("recalib.study.multiverse.design.put_together"),
+        digits=6,
     localrule: True
     script:
-        "../scripts/piece.py"
+        "../scripts/call.py"

@@ -1,1 +1,1 @@
-"""Scripts of the workflow: each unpacks `snakemake`, calls recalib and writes whole files."""
+"""The script of the workflow."""

@@ -20,7 +20,7 @@ from recalib.study.assignments import Ways
 from recalib.study.configuration.damages import Assigned, describe
 from recalib.study.configuration.messages import Mistake, shown, unknown, unlike
 from recalib.study.configuration.study import Study
-from recalib.study.plan import Plan
+from recalib.study.nominal import nominal
 from recalib.study.plants import nominal_robot
 from recalib.study.trainings import scenario_of
 
@@ -37,7 +37,7 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
     found: list[Mistake] = []
     for name, entry in study.robots.items():
         try:
-            robots[name] = nominal_robot(Plan(study).nominal(name))
+            robots[name] = nominal_robot(nominal(study, name))
         except RecalibError as error:
             found.append(_of_robot(name, error))
         else:

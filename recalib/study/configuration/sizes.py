@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from functools import reduce
 from typing import NamedTuple
 
+from recalib.study.chunks import SIDE_BY_SIDE, searches_per_job
 from recalib.study.configuration.messages import KeyPath, Mistake, dotted, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.entrants import PEERS
-from recalib.study.plan import SIDE_BY_SIDE, Plan
-from recalib.study.trainings import Trainings, rules, training
+from recalib.study.trainings import Trainings, rules, searches, seeds, training
 
 MEMORY = 4e9  # bytes of one job
 JOBS = 20_000  # of one study: Snakemake looks at all of them before it starts
@@ -52,18 +52,18 @@ def _less(study: Study, size: Size, otherwise: str) -> Mistake:
 
 def _of_learners(study: Study) -> Iterator[Size]:
     """The runs that a job trains side by side, and all that were trained, put together."""
-    plan, experiments, every = Plan(study), study.experiments, study.training
+    experiments, every = study.experiments, study.training
     tests = {("training", "tests"): every.tests}
     for name in dict.fromkeys(learner for _, learner in Trainings(study).runs):
         per_job = {("training", "seeds_per_job"): every.seeds_per_job}
-        trained, all_ = min(every.seeds_per_job, plan.seeds(name)), plan.seeds(name)
+        trained, all_ = min(every.seeds_per_job, seeds(study, name)), seeds(study, name)
         searched = {("search", "trials"): study.search.trials}
         searched[("search", "seeds")] = study.search.seeds
-        seeds = {("training", "seeds"): every.seeds}
+        said = {("training", "seeds"): every.seeds}
         yield _side_by_side(study, name, trained, per_job | tests)
         yield _side_by_side(study, name, study.search.trials * study.search.seeds, searched | tests)
         cells, state = _cells(study, name)
-        yield Size(seeds | cells, all_ * state)
+        yield Size(said | cells, all_ * state)
     for learner, series in experiments.ensemble.items():
         for name, its in series.items():
             draws = {("experiments", "ensemble", learner, name, "draws"): its.draws}
@@ -71,9 +71,9 @@ def _of_learners(study: Study) -> Iterator[Size]:
             robots = min(its.draws, experiments.draws_per_job) * len(its.scales)
             yield _side_by_side(study, learner, robots, draws | tests)
     for learner in set(study.benchmark.learners) - set(PEERS):
-        seeds = {("benchmark", "seeds"): study.benchmark.seeds}
+        said = {("benchmark", "seeds"): study.benchmark.seeds}
         runs = study.benchmark.seeds * min(SIDE_BY_SIDE, len(study.benchmark.scenarios))
-        yield _side_by_side(study, learner, runs, seeds | tests)
+        yield _side_by_side(study, learner, runs, said | tests)
     for learner in study.real.twin:
         subsets = {("real", "subsets"): study.real.subsets}
         yield _side_by_side(study, learner, study.real.subsets, subsets | tests)
@@ -122,9 +122,11 @@ def _of_assignments(study: Study) -> Size:
 
 def _jobs(study: Study) -> Size:
     """Chunks of trainings and searches."""
-    plan, every, trainings = Plan(study), study.training, Trainings(study)
-    trained = sum(plan.seeds(name) / every.seeds_per_job for _, name in trainings.runs)
-    searched = sum(plan.searches(name) / plan.searches_per_job(name) for name in trainings.tuned())
+    every, trainings = study.training, Trainings(study)
+    trained = sum(seeds(study, name) / every.seeds_per_job for _, name in trainings.runs)
+    searched = sum(
+        searches(study, name) / searches_per_job(study, name) for name in trainings.tuned()
+    )
     drawn = sum(
         its.draws / study.experiments.draws_per_job
         for series in study.experiments.ensemble.values()

@@ -13,12 +13,10 @@ from recalib.study.statistics import first_within
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.summary()
-    ask.claims()
+    ask.files("summary.csv", "claims.json")
     for role in ("improved", "ritter"):
         ask.history(ask.fact(role))
-    for fact in ("published", "iterations"):
-        ask.fact(fact)
+    ask.facts("published", "iterations")
 
 
 def _on_its_way(evidence: Evidence) -> str:
@@ -38,7 +36,7 @@ def _on_its_way(evidence: Evidence) -> str:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    summary, claims = evidence.summary().to_dict("records"), evidence.claims()
+    summary, claims = evidence.table("summary.csv").to_dict("records"), evidence.claims()
     rows = {(row["scenario"], row["learner"]): row for row in summary}
     by_id = {claim["id"]: claim for claim in claims}
     return {

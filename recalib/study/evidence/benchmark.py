@@ -1,41 +1,58 @@
 """The benchmark's tables: errors at each budget of moves, moves to each threshold, seconds."""
 
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.entrants import needs_of
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import bootstrap
 
+Names = tuple[str, ...]
 
-def _entrants(job: jobs.BenchmarkTable, history: pd.DataFrame):
+
+def put_together(
+    histories: list[Path],
+    scenarios: Names,
+    learners: Names,
+    thresholds: tuple[float, ...],
+    seed: int,
+) -> tuple[pd.DataFrame, ...]:
+    """The three tables, from files of histories: see `errors`, `reached` and `seconds`."""
+    history = pd.concat(map(pd.read_parquet, histories))
+    those = history, scenarios, learners
+    return errors(*those, seed), reached(*those, thresholds), seconds(history)
+
+
+def _entrants(history: pd.DataFrame, scenarios: Names, learners: Names):
     groups = history.groupby(["scenario", "learner"])
-    for entrant in product(job.scenarios, job.learners):
+    for entrant in product(scenarios, learners):
         yield *entrant, groups.get_group(entrant)
 
 
-def errors(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
+def errors(history: pd.DataFrame, scenarios: Names, learners: Names, seed: int) -> pd.DataFrame:
     """Both errors with their intervals, a row for each scenario, learner and budget of moves."""
     rows = []
-    for scenario, learner, own in _entrants(job, history):
+    for scenario, learner, own in _entrants(history, scenarios, learners):
         for moves, measured in own.groupby("moves"):
             row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
             for error in ERRORS:
-                luck = generator(job.seed, scenario, learner, moves, error)
+                luck = generator(seed, scenario, learner, moves, error)
                 row |= bootstrap(measured[error], luck).columns(error)
             rows.append(row)
     return pd.DataFrame(rows)
 
 
-def reached(job: jobs.BenchmarkTable, history: pd.DataFrame) -> pd.DataFrame:
+def reached(
+    history: pd.DataFrame, scenarios: Names, learners: Names, thresholds: tuple[float, ...]
+) -> pd.DataFrame:
     """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
     rows = []
-    for scenario, learner, own in _entrants(job, history):
-        for error, threshold in product(ERRORS, job.thresholds):
+    for scenario, learner, own in _entrants(history, scenarios, learners):
+        for error, threshold in product(ERRORS, thresholds):
             moves = moves_to_reach(own, error, threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             rows.append(

@@ -1,5 +1,7 @@
 """The check of final errors: every training against the band in which they are expected."""
 
+from pathlib import Path
+
 import pandas as pd
 
 from recalib.errors import RecalibError
@@ -27,6 +29,21 @@ class CheckFailed(RecalibError):
         super().__init__(
             f"{len(failed)} of the final errors are outside of their bands\n" + "\n".join(rows)
         )
+
+
+def report(summary: Path, expected: Path) -> str:
+    """What the check says of a summary. Raises CheckFailed, after it has printed it."""
+    table = check(pd.read_csv(summary), pd.read_csv(expected))
+    text = table.to_string(index=False, float_format="{:.4g}".format)
+    print(text)
+    if not table["ok"].all():
+        raise CheckFailed(table[~table["ok"]])
+    return text + "\n"
+
+
+def propose(summary: Path) -> pd.DataFrame:
+    """Bands for the final errors of a summary in a file."""
+    return expect(pd.read_csv(summary))
 
 
 def expect(summary: pd.DataFrame) -> pd.DataFrame:

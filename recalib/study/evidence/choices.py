@@ -11,14 +11,13 @@ def needs(ask: Request) -> None:
     for scenario in (None, "translation", "rotation"):
         ask.scenario(scenario)
     ask.sample(ask.fact("improved"))
-    for fact in ("short_searches", "searches_long", "setups"):
-        ask.fact(fact)
+    ask.facts("short_searches", "searches_long", "setups")
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     improved = evidence.fact("improved")
-    searches = evidence.searched_for(improved).searches
+    searches = evidence.sought(improved).searches
     return {
         "setups": evidence.fact("setups")["outcomes"],
         "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),

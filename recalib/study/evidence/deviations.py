@@ -17,7 +17,7 @@ from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import verdicts
-from recalib.study.layout import DESIGN, DEVIATIONS, FIRST
+from recalib.study.shipped import DESIGN, DEVIATIONS, FIRST
 
 # Beside claims and choices: the designs, the rules and what tells how they are applied.
 REGISTERED = (
@@ -125,13 +125,13 @@ def _digest(text: str) -> str:
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.deviations()
-    ask.claims()
+    ask.shipped(DEVIATIONS)
+    ask.files("claims.json")
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    told = Deviations.read(evidence.deviations())
+    told = Deviations.read(evidence.path(DEVIATIONS))
     judged = {claim["id"]: verdicts(claim) for claim in evidence.claims()}
     return {
         "deviations": told.deviations,

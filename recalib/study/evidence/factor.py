@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from recalib.study import shipped
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.needs import DOUBLE
 from recalib.study.evidence.results import Evidence
@@ -30,7 +31,7 @@ ANEW, ON_THE_WAY = "tuned anew for each length", "on the way of one long trainin
 
 def factor_table(evidence: Evidence) -> list[dict]:
     """A row for each of the twelve: cells, effort, definition, the factor and its verdict."""
-    table, own, rows = evidence.efforts(), evidence.fact("iterations"), []
+    table, own, rows = evidence.table(shipped.EFFORTS), evidence.fact("iterations"), []
     for (learner, cells), (effort, pair), definition in product(
         CELLS.items(), EFFORTS.items(), (ANEW, ON_THE_WAY)
     ):

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from recalib.study import shipped
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import CELLS, PUBLISHED, factor_table
@@ -29,6 +30,7 @@ from recalib.study.measured import ERRORS
 if TYPE_CHECKING:
     import pandas as pd
 
+FIRST_OUTCOMES = f"{shipped.FIRST}/outcomes.csv"  # of the first campaign
 SHORT = ("cm", "deg")
 ENOUGH = 0.8  # of the simulated campaigns
 # What the first campaign counted, by column of its outcomes: the limit, and on which side it held.
@@ -60,13 +62,9 @@ ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.summary()
-    ask.claims()
+    ask.files("summary.csv", "claims.json")
     ask.setups("outcomes")
-    ask.reference()
-    ask.efforts()
-    ask.power()
-    ask.first_campaign()
+    ask.shipped(shipped.REFERENCE, shipped.EFFORTS, shipped.POWER, FIRST_OUTCOMES)
     for learner in (IMPROVED, *CELLS):
         ask.ladder(learner)
     ask.fact("seed")
@@ -116,14 +114,14 @@ def _campaign(evidence: Evidence) -> dict:
     outcomes = evidence.setups("outcomes")
     if outcomes is None:
         return {}
-    design, power = evidence.whole_design(), evidence.power()
+    design, power = evidence.table(shipped.DESIGN), evidence.table(shipped.POWER)
     none = power[(power["effect"] == 1) & (power["heterogeneity"] == 0)].iloc[0]
     found = power[power["heterogeneity"] == 0].set_index("effect")["supported"]
     own = power[power["effect"] == 1].set_index("heterogeneity")["found"]
     return {
         "setups": outcomes["universe"].nunique(),
         "replicates": outcomes["replicate"].nunique(),
-        "factors": evidence.design().shape[1],
+        "factors": evidence.levels().shape[1],
         "homes": design["homes_refused"].sum(),
         "power": power.to_dict("records"),
         "none": none,
@@ -134,8 +132,7 @@ def _campaign(evidence: Evidence) -> dict:
 
 def _first_campaign(evidence: Evidence) -> list[dict]:
     """What the first campaign counted, by claim."""
-    _, outcomes = evidence.first_campaign()
-    rows = []
+    outcomes, rows = evidence.table(FIRST_OUTCOMES), []
     for name, (column, limit, below) in FIRST.items():
         values = outcomes[column]
         holds = (values < limit) if below else (values > limit)
@@ -161,12 +158,17 @@ def figures() -> list[str]:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    summary, scaled = evidence.summary(), evidence.ensemble(IMPROVED, "scaled")
-    reference = evidence.reference()
-    ensembles = [evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)]
+    summary, scaled = (
+        evidence.table("summary.csv"),
+        evidence.table(f"ensemble/scaled.{IMPROVED}.parquet"),
+    )
+    reference = evidence.table(shipped.REFERENCE)
+    ensembles = [
+        evidence.table(f"ensemble/assignments.{learner}.parquet") for learner in (IMPROVED, RITTER)
+    ]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
     improved = evidence.fact("improved")
-    sample, searched_for = evidence.sample(improved), evidence.searched_for(improved)
+    sample, searched_for = evidence.sample(improved), evidence.sought(improved)
     return {
         "n": n,
         "short": short,

@@ -20,10 +20,8 @@ FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.benchmark()
-    ask.benchmark_moves()
-    for fact in ("threshold", "budgets"):
-        ask.fact(fact)
+    ask.files("benchmark.csv", "benchmark_moves.csv")
+    ask.facts("threshold", "budgets")
 
 
 def moves_text(reached: "pd.DataFrame") -> str:
@@ -60,8 +58,8 @@ def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    table, budgets = evidence.benchmark(), evidence.fact("budgets")
-    reached, threshold = evidence.benchmark_moves(), evidence.fact("threshold")
+    table, budgets = evidence.table("benchmark.csv"), evidence.fact("budgets")
+    reached, threshold = evidence.table("benchmark_moves.csv"), evidence.fact("threshold")
     its = reached[reached["threshold"] == threshold].set_index(["scenario", "learner"]).sort_index()
     learners = list(table["learner"].unique())
     return {

@@ -1,36 +1,29 @@
-"""What a claim, a figure or a page reads: asked for once, and the rule's input and parameters.
+"""What a claim, a figure or a page reads: asked for once, and the rule's inputs and arguments.
 
-`Request` is asked by the same names by which `Evidence` is read afterwards. Declaring loads no
-tables and draws nothing, since the workflow does it whenever it starts.
+What was asked for is an `Evidence`, and nothing else can be read from it. Asking loads no tables
+and draws nothing, since the workflow does it whenever it starts.
 """
 
 from collections.abc import Callable, Mapping
+from itertools import takewhile
 from pathlib import Path
 
 from pydantic import JsonValue
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned
-from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER
-from recalib.study.layout import (
-    DESIGN,
-    DEVIATIONS,
-    EFFORTS,
-    FIRST,
-    POWER,
-    REFERENCE,
-    SECOND,
-    SHIPPED,
-    Layout,
-    pieces,
-)
-from recalib.study.plan import Plan
+from recalib.study.evidence.results import Evidence
+from recalib.study.recordings import recordings
+from recalib.study.shipped import DESIGN, RESULTS, SHIPPED, pieces
 from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
 
 # Ritter's net with as many cells as both maps: where it is trained, it leads
 DOUBLE = "ritter_double"
+
+# Measured for a study with evidence alone
+OF_EVIDENCE = "ensemble/", "mapping/"
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
 FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
@@ -39,7 +32,7 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
     "scenarios": lambda study, _: list(study.experiments.scenarios),
-    "recordings": lambda study, _: Plan(study).recordings(),
+    "recordings": lambda study, _: recordings(study),
     "elsewhere": lambda study, _: elsewhere(study),
     "published": lambda study, _: study.paper_damage.published.model_dump(),
     "published_mm": lambda study, _: study.real.published.model_dump(),
@@ -85,34 +78,13 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
 }
 
 
-class Needs(Frozen):
-    """What one reader may read.
-
-    Attributes:
-        root: folder of the study's results.
-        files: paths of results.
-        samples: paths of samples of the search, by training.
-        facts: of the study.
-    """
-
-    root: str
-    files: tuple[str, ...]
-    samples: dict[str, str]
-    facts: dict[str, JsonValue]
-
-    @property
-    def inputs(self) -> list[str]:
-        """All files."""
-        return [*self.files, *self.samples.values()]
-
-
 class Request:
     """Collects what one reader needs, and what of it the study lacks.
 
     Args:
         study: the study.
         trainings: all of them.
-        layout: of its results.
+        root: the folder of its results.
         sample_at: the path of the search's sample for a training.
 
     Attributes:
@@ -121,16 +93,11 @@ class Request:
     """
 
     def __init__(
-        self,
-        study: Study,
-        trainings: Trainings,
-        layout: Layout,
-        sample_at: Callable[[str], str],
+        self, study: Study, trainings: Trainings, root: str, sample_at: Callable[[str], str]
     ):
         self.study, self.trainings = study, trainings
-        self._layout, self._sample_at = layout, sample_at
-        self._files: dict[str, None] = {}
-        self._samples: dict[str, str] = {}
+        self._root, self._sample_at = root, sample_at
+        self._files: dict[str, str] = {}
         self._facts: dict[str, JsonValue] = {}
         self.lacking: list[str] = []
         self._beyond = self.foreign = False
@@ -141,14 +108,9 @@ class Request:
         return not (self.lacking or self._beyond)
 
     @property
-    def needs(self) -> Needs:
+    def evidence(self) -> Evidence:
         """All that was asked for."""
-        return Needs(
-            root=self._layout.root,
-            files=tuple(self._files),
-            samples=self._samples,
-            facts=self._facts,
-        )
+        return Evidence(root=self._root, files=self._files, facts=self._facts)
 
     def fact(self, name: str) -> JsonValue:
         """One of `FACTS`; None where the study has no learner that it speaks of."""
@@ -159,13 +121,35 @@ class Request:
             self.lack(f"learners: {missing[0]}")
         return self._facts.get(name)
 
+    def facts(self, *names: str) -> None:
+        """Several of them."""
+        for name in names:
+            self.fact(name)
+
     def lack(self, key: str) -> None:
         """Note what the study would have to say besides."""
         if key not in self.lacking:
             self.lacking.append(key)
 
-    def _result(self, path: str) -> None:
-        self._files[path] = None
+    def files(self, *names: str) -> None:
+        """Results, by their paths below the study's folder."""
+        for name in names:
+            self._files[name] = f"{self._root}/{name}"
+            self._beyond |= name.startswith(OF_EVIDENCE)
+
+    def shipped(self, *names: str) -> None:
+        """Files of the project, about the shipped study alone, by their paths there."""
+        self._beyond, self.foreign = True, not self._is_shipped
+        self._files |= {name: self._in_project(name) for name in names}
+
+    def _in_project(self, name: str) -> str:
+        """Where a file lies of the project whose results these are."""
+        above = takewhile(lambda part: part != RESULTS, Path(self._root).parts)
+        return str(Path(*above, name))
+
+    @property
+    def _is_shipped(self) -> bool:
+        return self.study.name == SHIPPED
 
     def history(self, learner: str | None, scenario: str | None = None, key: str = "") -> None:
         """The history of a training; on the study's own scenario unless another is given.
@@ -181,7 +165,7 @@ class Request:
             there = on in plan.scenarios or on in self.trainings.scenarios()
             lacking = key or f"experiments.learners: {learner}"
             self.lack(lacking if there else f"experiments.scenarios: {on}")
-        self._result(self._layout.history(on, learner))
+        self.files(f"runs/{on}/{learner}.parquet")
 
     def ladder(self, learner: str) -> None:
         """The histories of a learner trained for several numbers of iterations."""
@@ -194,46 +178,25 @@ class Request:
         """A series of other damages."""
         if series not in self.study.experiments.ensemble.get(learner, ()):
             self.lack(f"experiments.ensemble.{learner}.{series}")
-        self._beyond = True
-        self._result(self._layout.ensemble(series, learner))
-
-    def mapping(self, name: str) -> None:
-        """A measurement without a learner: coupling, propagation, quantisation, visits, replay."""
-        self._beyond = True
-        self._result(self._layout.mapping(name))
+        self.files(f"ensemble/{series}.{learner}.parquet")
 
     def assignments(self) -> None:
         """The initial errors of every assignment of the paper's damage."""
         own = self.study.scenario
         if not any(isinstance(entry, Assigned) for entry in self.study.scenarios[own]):
             self.lack(f"scenarios.{own}: assigned links or encoders")
-        self._result(self._layout.assignments(self.fact("robot")))
+        self.files(f"assignments/{self.fact('robot')}.parquet")
 
     def sample(self, learner: str | None) -> None:
         """The sample of the search for a training."""
         self._beyond = True
         if learner is not None:
-            self._samples[learner] = self._sample_at(str(training(self.study, learner)))
+            path = self._sample_at(str(training(self.study, learner)))
+            self._files[f"search/{learner}.csv"] = path
 
     def scenario(self, scenario: str | None = None) -> None:
         """A damage as resolved; the study's own unless another is given."""
-        self._result(self._layout.scenario(scenario or self.fact("scenario")))
-
-    def summary(self) -> None:
-        """The first and the last errors of every training."""
-        self._result(self._layout.summary)
-
-    def claims(self) -> None:
-        """The judged claims."""
-        self._result(self._layout.claims)
-
-    def deviations(self) -> None:
-        """What changed after a result had been seen."""
-        self._result(DEVIATIONS)
-
-    def reference(self) -> None:
-        """The reference study measured as the alternative setups are."""
-        self._shipped(self._layout.shipped(REFERENCE))
+        self.files(f"scenarios/{scenario or self.fact('scenario')}.json")
 
     def setups(self, table: str) -> bool:
         """What was measured in each alternative setup; whether all of it is there.
@@ -241,42 +204,9 @@ class Request:
         Args:
             table: outcomes; or horizon, how long Ritter's takes.
         """
-        measured = pieces(table, self.fact("setups")[table], self._layout.shipped(SECOND))
-        there = self._is_shipped and all(Path(path).exists() for path in measured)
-        for path in (DESIGN, *measured) if there else ():
-            self._result(path)
+        names = DESIGN, *pieces(table, self.fact("setups")[table])
+        paths = {name: self._in_project(name) for name in names}
+        there = self._is_shipped and all(Path(path).exists() for path in paths.values())
+        if there:
+            self._files |= paths
         return there
-
-    def efforts(self) -> None:
-        """The trainings for the factor of 70, by the effort of their searches."""
-        self._shipped(self._layout.shipped(EFFORTS))
-
-    def power(self) -> None:
-        """What the campaign can find."""
-        self._shipped(POWER)
-
-    def first_campaign(self) -> None:
-        """The design and the outcomes of the first campaign."""
-        self._shipped(f"{FIRST}/design.csv", f"{FIRST}/outcomes.csv")
-
-    @property
-    def _is_shipped(self) -> bool:
-        return self.study.name == SHIPPED
-
-    def _shipped(self, *paths: str) -> None:
-        """Tables that were measured of the shipped study alone, and lie in the project."""
-        self._beyond, self.foreign = True, not self._is_shipped
-        for path in paths:
-            self._result(path)
-
-    def benchmark(self) -> None:
-        """Errors of every learner against moves."""
-        self._result(self._layout.benchmark)
-
-    def benchmark_moves(self) -> None:
-        """Moves to each threshold."""
-        self._result(self._layout.benchmark_moves)
-
-    def real(self) -> None:
-        """Errors on the real arm."""
-        self._result(self._layout.real)

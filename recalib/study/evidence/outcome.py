@@ -13,8 +13,7 @@ WIDE = 60  # characters of a column
 
 def needs(ask: Request) -> None:
     """What it reads."""
-    ask.summary()
-    ask.claims()
+    ask.files("summary.csv", "claims.json")
     ask.scenario()
 
 
@@ -24,7 +23,7 @@ def outcome(evidence: Evidence) -> str:
     damage = "; ".join(map(amounts, resolved["damages"])) or "no damage"
     parts = [
         f"{evidence.study}: {resolved['robot'].upper()}, {damage}",
-        _table(_errors(row) for row in evidence.summary().to_dict("records")),
+        _table(_errors(row) for row in evidence.table("summary.csv").to_dict("records")),
         _table(map(_verdict, claims)) if claims else "No claim of the paper is about this.",
         f"Figures and recordings are in {evidence.root}; to watch the arm: make view"
         f" STUDY={evidence.study}, or make web STUDY={evidence.study} for a browser.",

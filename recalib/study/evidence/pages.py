@@ -35,6 +35,11 @@ PAGES: Mapping[str, Page] = {
 }
 
 
+def page(name: str, evidence: Evidence, template: Path) -> str:
+    """The text of one of `PAGES`."""
+    return render(template, PAGES[name].context(evidence))
+
+
 def render(template: str | Path, context: Mapping) -> str:
     """The text of a page."""
     import jinja2

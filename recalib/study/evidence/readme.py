@@ -19,10 +19,8 @@ ORDINARY = {
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.summary()
-    ask.claims()
-    for fact in ("improved", "scenario"):
-        ask.fact(fact)
+    ask.files("summary.csv", "claims.json")
+    ask.facts("improved", "scenario")
 
 
 def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
@@ -48,7 +46,7 @@ def _readings(claim: Mapping) -> dict[str, dict[str, str]]:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    summary = evidence.summary().set_index(["scenario", "learner"])
+    summary = evidence.table("summary.csv").set_index(["scenario", "learner"])
     claims = {claim["id"]: claim for claim in evidence.claims()}
     measured = [claim["universes"] for claim in claims.values()]
     return {

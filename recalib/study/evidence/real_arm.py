@@ -10,14 +10,13 @@ TWIN = "twin"  # is part of the name of a learner that was run on it
 
 def needs(ask: Request) -> None:
     """What the page reads."""
-    ask.real()
-    for fact in ("real_robot", "published_mm", "real_poses"):
-        ask.fact(fact)
+    ask.files("real.csv")
+    ask.facts("real_robot", "published_mm", "real_poses")
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    table, published = evidence.real(), evidence.fact("published_mm")
+    table, published = evidence.table("real.csv"), evidence.fact("published_mm")
     errors: dict[str, dict[int, str]] = {}
     for row in table.to_dict("records"):
         name, _, twin = row["learner"].partition(" ")

@@ -7,6 +7,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from recalib.storage import whole
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
@@ -45,13 +46,13 @@ def heading(page: str, project: Path) -> str:
 
 def needs(ask: Request) -> None:
     """What all pages read together."""
-    ask.summary()
+    ask.files("summary.csv")
     for scenario in ask.trainings.scenarios():
         ask.scenario(scenario)
     for learner in dict.fromkeys(learner for _, learner in ask.trainings.runs):
         ask.sample(learner)
-    ask.claims()
-    for fact in (
+    ask.files("claims.json")
+    ask.facts(
         "improved",
         "learners",
         "scenario",
@@ -66,15 +67,14 @@ def needs(ask: Request) -> None:
         "coupling_poses",
         "balls",
         "points",
-    ):
-        ask.fact(fact)
+    )
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the pages may say."""
     from recalib.study.experiments.settings import best
 
-    summary = evidence.summary().to_dict("records")
+    summary = evidence.table("summary.csv").to_dict("records")
     runs = {(run["scenario"], run["learner"]): run for run in summary}
     samples = {learner: evidence.sample(learner) for _, learner in runs}
     one = next(iter(samples.values()))
@@ -159,6 +159,36 @@ def from_markdown(text: str, figures: dict[str, str]) -> str:
     )
     html = re.sub(r'<a href="(?!https?:)[^"]*">(.*?)</a>', r"\1", html, flags=re.DOTALL)
     return layout().get_template("layout.html").render(body=Markup(html))
+
+
+def write(
+    evidence: Evidence,
+    pages: list[Path],
+    rst: Path,
+    read: list[Path] = (),
+    figures: list[Path] = (),
+) -> None:
+    """Write the pages of a study's report.
+
+    Args:
+        pages: their files.
+        rst: that of the text before all pages.
+        read: pages of docs/ that are some of them.
+        figures: drawings.
+    """
+    known = context(evidence)
+    drawings = {path.stem: str(path) for path in figures}
+    drawings |= {name: f"figures/{name}.svg" for name in KEPT.values()}
+    texts = {path.stem: path for path in read} | {name: Path(f"docs/{name}.md") for name in KEPT}
+    for output in pages:
+        if output.stem in texts:
+            text = from_markdown(texts[output.stem].read_text(encoding="utf-8"), drawings)
+        else:
+            text = page(output.stem, known, drawings)
+        with whole(output) as path:
+            path.write_text(text, encoding="utf-8")
+    with whole(rst) as path:
+        path.write_text(front(known, drawings), encoding="utf-8")
 
 
 def front(known: dict, figures: dict[str, str]) -> str:

@@ -1,7 +1,7 @@
 """What figures are drawn from and claims are judged by: what was declared, and no more."""
 
 import json
-from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,25 +9,15 @@ from pydantic import JsonValue
 
 from recalib.errors import RecalibError
 from recalib.randomness import generator
-from recalib.study import jobs
+from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.universes import Factors
-from recalib.study.evidence.needs import Needs
-from recalib.study.layout import (
-    DESIGN,
-    DEVIATIONS,
-    EFFORTS,
-    FIRST,
-    POWER,
-    REFERENCE,
-    SECOND,
-    SHIPPED,
-    Layout,
-    pieces,
-)
 from recalib.study.measured import errors_of
+from recalib.study.shipped import DESIGN, RESULTS, SHIPPED, pieces
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from recalib.study.experiments.samples import Sought
 
 
 class Undeclared(RecalibError):
@@ -38,35 +28,33 @@ class Undeclared(RecalibError):
         super().__init__(f"{what} is read, but not among the declared needs")
 
 
-class Evidence:
-    """Results by name.
+class Evidence(Frozen):
+    """Results by name: what a claim, a figure or a page declared, and may read.
 
-    Args:
-        needs: what may be read.
+    Attributes:
+        root: folder of the study's results.
+        files: paths by name: below that folder, or for what is shipped in the project.
+        facts: what is known of the study beside its results.
     """
 
-    def __init__(self, needs: Needs):
-        self._needs, self._layout = needs, Layout(needs.root)
+    root: str
+    files: dict[str, str]
+    facts: dict[str, JsonValue]
 
     @property
-    def root(self) -> str:
-        """The folder of its results."""
-        return self._layout.root
+    def inputs(self) -> list[str]:
+        """The paths of all files."""
+        return list(self.files.values())
 
     @property
     def study(self) -> str:
         """The study's name."""
-        return self._layout.name
+        return Path(self.root).name if self.root != RESULTS else SHIPPED
 
     @property
     def shipped(self) -> bool:
         """Whether the study is the one of the README."""
         return self.study == SHIPPED
-
-    @property
-    def facts(self) -> Mapping[str, JsonValue]:
-        """All that is known of the study beside its results."""
-        return self._needs.facts
 
     def fact(self, name: str) -> JsonValue:
         """One of the facts. Raises Undeclared."""
@@ -74,16 +62,17 @@ class Evidence:
             raise Undeclared(name)
         return self.facts[name]
 
-    def _declared(self, path: str) -> str:
-        if path not in self._needs.files:
-            raise Undeclared(path)
-        return path
+    def path(self, name: str) -> str:
+        """Where a file lies. Raises Undeclared."""
+        if name not in self.files:
+            raise Undeclared(name)
+        return self.files[name]
 
-    def _table(self, path: str) -> "pd.DataFrame":
+    def table(self, name: str) -> "pd.DataFrame":
+        """What a table holds. Raises Undeclared."""
         import pandas as pd
 
-        read = pd.read_parquet if path.endswith(".parquet") else pd.read_csv
-        return read(self._declared(path))
+        return (pd.read_parquet if name.endswith(".parquet") else pd.read_csv)(self.path(name))
 
     def history(self, learner: str, scenario: str | None = None) -> "pd.DataFrame":
         """A row for each seed and measurement of a training.
@@ -92,7 +81,7 @@ class Evidence:
             learner: name of the training.
             scenario: the study's own unless given.
         """
-        return self._table(self._layout.history(scenario or self.fact("scenario"), learner))
+        return self.table(f"runs/{scenario or self.fact('scenario')}/{learner}.parquet")
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
         """Position [cm] and orientation errors [degrees], last or first measurement.
@@ -105,19 +94,11 @@ class Evidence:
         """Final errors (search, seed, 2) for each number of iterations that it was trained for."""
         return {rung: self.errors(name) for rung, name in self.fact("ladder")[learner]}
 
-    def ensemble(self, learner: str, series: str) -> "pd.DataFrame":
-        """A row for each robot and scale of a series of other damages."""
-        return self._table(self._layout.ensemble(series, learner))
-
-    def mapping(self, name: str) -> "pd.DataFrame":
-        """A measurement of the true mapping."""
-        return self._table(self._layout.mapping(name))
-
     def assignments(self) -> "pd.DataFrame":
         """The initial errors of every assignment of the paper's damage."""
         from recalib.study.assignments import TIE
 
-        table = self._table(self._layout.assignments(self.fact("robot")))
+        table = self.table(f"assignments/{self.fact('robot')}.parquet")
         return table.assign(distance=table["distance"].round(TIE))
 
     def nearest_assignment(self) -> "pd.Series":
@@ -129,42 +110,24 @@ class Evidence:
         """All trials of the searches for a training, a row each."""
         from recalib.study.experiments.samples import read_sample
 
-        return read_sample(self._sample_path(learner))
+        return read_sample(self.path(f"search/{learner}.csv"))
 
-    def searched_for(self, learner: str) -> jobs.Sample:
+    def sought(self, learner: str) -> "Sought":
         """What the searches for a training could spend, and on what."""
         from recalib.study.experiments.samples import searched_for
 
-        return searched_for(self._sample_path(learner))
-
-    def _sample_path(self, learner: str) -> str:
-        if learner not in self._needs.samples:
-            raise Undeclared(f"the search for {learner}")
-        return self._needs.samples[learner]
+        return searched_for(self.path(f"search/{learner}.csv"))
 
     def scenario(self, scenario: str | None = None) -> dict:
         """A damage as resolved."""
-        return self._read(self._layout.scenario(scenario or self.fact("scenario")))
+        return self._read(f"scenarios/{scenario or self.fact('scenario')}.json")
 
     def claims(self) -> list[dict]:
         """The judged claims."""
-        return self._read(self._layout.claims)
+        return self._read("claims.json")
 
-    def _read(self, path: str):
-        with open(self._declared(path), encoding="utf-8") as text:
-            return json.load(text)
-
-    def deviations(self) -> str:
-        """The path of what changed after a result had been seen."""
-        return self._declared(DEVIATIONS)
-
-    def summary(self) -> "pd.DataFrame":
-        """The first and the last errors of every training."""
-        return self._table(self._layout.summary)
-
-    def reference(self) -> "pd.DataFrame":
-        """A row for each replicate of the reference study, measured as the setups are."""
-        return self._table(self._layout.shipped(REFERENCE))
+    def _read(self, name: str):
+        return json.loads(Path(self.path(name)).read_text(encoding="utf-8"))
 
     def setups(self, table: str) -> "pd.DataFrame | None":
         """A row for each replicate of each alternative setup; None unless all are measured.
@@ -174,42 +137,14 @@ class Evidence:
         """
         import pandas as pd
 
-        paths = pieces(table, self.fact("setups")[table], self._layout.shipped(SECOND))
-        if not set(paths) & set(self._needs.files):
+        names = pieces(table, self.fact("setups")[table])
+        if not set(names) & set(self.files):
             return None
-        return pd.concat(map(self._table, paths), ignore_index=True)
+        return pd.concat(map(self.table, names), ignore_index=True)
 
-    def efforts(self) -> "pd.DataFrame":
-        """A row for each training, effort, search, seed and measurement."""
-        return self._table(self._layout.shipped(EFFORTS))
-
-    def power(self) -> "pd.DataFrame":
-        """What the campaign can find, in worlds whose truth is known."""
-        return self._table(POWER)
-
-    def first_campaign(self) -> "tuple[pd.DataFrame, pd.DataFrame]":
-        """Design and outcomes of the first campaign, a row for each setup."""
-        return self._table(f"{FIRST}/design.csv"), self._table(f"{FIRST}/outcomes.csv")
-
-    def design(self) -> "pd.DataFrame":
+    def levels(self) -> "pd.DataFrame":
         """The levels of each setup's factors."""
-        return self.whole_design()[list(Factors.model_fields)]
-
-    def whole_design(self) -> "pd.DataFrame":
-        """A row for each setup, as `recalib.study.multiverse.design.Designed` has it."""
-        return self._table(DESIGN)
-
-    def benchmark(self) -> "pd.DataFrame":
-        """Errors of every learner against moves."""
-        return self._table(self._layout.benchmark)
-
-    def benchmark_moves(self) -> "pd.DataFrame":
-        """Moves to each threshold."""
-        return self._table(self._layout.benchmark_moves)
-
-    def real(self) -> "pd.DataFrame":
-        """Errors on the real arm."""
-        return self._table(self._layout.real)
+        return self.table(DESIGN)[list(Factors.model_fields)]
 
     def rng(self, *keys: str) -> np.random.Generator:
         """Randomness of an interval."""

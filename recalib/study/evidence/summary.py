@@ -1,35 +1,34 @@
 """The first and the last errors of every training, with intervals."""
 
 import json
-from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.statistics import Draws
 
 
 def summarise(
-    job: jobs.Summary, histories: Sequence[str | Path], scenarios: Iterable[str | Path]
+    histories: list[Path], scenarios: list[Path], trainings: tuple[tuple[str, str], ...], seed: int
 ) -> pd.DataFrame:
     """A row for each training.
 
     Args:
-        job: the trainings.
-        histories: their files, in the same order.
+        histories: files of the trainings.
         scenarios: files of all their scenarios as resolved.
+        trainings: scenario and learner of each, in the order of the histories.
+        seed: of the study.
     """
-    resolved = [json.loads(Path(path).read_text(encoding="utf-8")) for path in scenarios]
+    resolved = [json.loads(path.read_text(encoding="utf-8")) for path in scenarios]
     robots = {each["scenario"]: each["robot"] for each in resolved}
     return pd.DataFrame(
         [
             {"robot": robots[scenario], "scenario": scenario, "learner": learner}
-            | _measured(pd.read_parquet(path), job.seed, scenario, learner)
-            for (scenario, learner), path in zip(job.trainings, histories, strict=True)
+            | _measured(pd.read_parquet(path), seed, scenario, learner)
+            for (scenario, learner), path in zip(trainings, histories, strict=True)
         ]
     )
 

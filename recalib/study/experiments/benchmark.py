@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Learner
-from recalib.study import jobs
+from recalib import interfaces
+from recalib.study.configuration.study import Learner
 from recalib.study.entrants import MOVES, make_peer
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,7 +26,7 @@ class Timed:
         seconds: spent in learning so far.
     """
 
-    def __init__(self, learner: Learner):
+    def __init__(self, learner: interfaces.Learner):
         self._learner, self.seconds = learner, 0.0
         self.command = learner.command
 
@@ -54,12 +53,27 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
 
 
 def compete(
-    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None
+    scenarios: list[Path],
+    name: str,
+    rules: Learner | None,
+    seeds: int,
+    moves: tuple[int, ...],
+    longer: tuple[int, ...],
+    tests: int,
+    seed: int,
+    sample: Path | None = None,
 ) -> "pd.DataFrame":
     """Let a learner work through scenarios of one robot side by side.
 
     Args:
         scenarios: files of the scenarios as resolved.
+        name: of the learner.
+        rules: its settings, if it is one of the paper.
+        seeds: of each scenario.
+        moves: budgets at which it is measured.
+        longer: more of them, for a learner of the paper.
+        tests: poses to measure on.
+        seed: of the study.
         sample: for a learner of the paper, file of the searches for it, whose winners the seeds
             get in turn.
 
@@ -67,26 +81,27 @@ def compete(
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    runs, total = range(job.seeds), len(scenarios) * job.seeds
-    controller, plants = fleet([Resolved.read(path) for path in scenarios], job.seed, runs)
-    if job.learner is None:
-        iterations, moves = max(job.moves), 1
-        learner = Timed(make_peer(job.name, total, controller))
+    runs, total = range(seeds), len(scenarios) * seeds
+    resolved = [Resolved.read(path) for path in scenarios]
+    names = [each.scenario for each in resolved]
+    controller, plants = fleet(resolved, seed, runs)
+    if rules is None:
+        iterations, each = max(moves), 1
+        learner = Timed(make_peer(name, total, controller))
     else:
-        iterations, moves = job.learner.iterations, MOVES
+        iterations, each = rules.iterations, MOVES
         searches = [run + 1 for run in runs] * len(scenarios)
-        learner = Timed(build_tuned(job.learner, sample, searches))
-    desired, tests = (
-        np.concatenate([poses(job.seed, scenario, runs, count) for scenario in job.scenarios])
-        for poses, count in ((desired_poses, iterations), (test_poses, job.tests))
+        learner = Timed(build_tuned(rules, sample, searches))
+    poses = ResultPoses.side_by_side(
+        Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scope) for scope in names
     )
-    budgets = measured_at([*job.moves, *job.longer], iterations, moves)
-    with progress_bar(f"{job.name} on {', '.join(job.scenarios)}", iterations) as progress:
-        history = train(plants, learner, desired, tests, budgets, progress)
+    budgets = measured_at([*moves, *longer], iterations, each)
+    with progress_bar(f"{name} on {', '.join(names)}", iterations) as progress:
+        history = train_for_results(plants, learner, poses, budgets, progress=progress)
     frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     return frame.assign(
-        scenario=np.array(job.scenarios)[frame["seed"] // len(runs)],
+        scenario=np.array(names)[frame["seed"] // len(runs)],
         seed=frame["seed"] % len(runs),
-        learner=job.name,
-        seconds_per_move=learner.seconds / (total * iterations * moves),
+        learner=name,
+        seconds_per_move=learner.seconds / (total * iterations * each),
     )

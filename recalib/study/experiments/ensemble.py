@@ -12,12 +12,12 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.assignments import Ways
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.configuration.study import Learner
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
+from recalib.study.nominal import Nominal
 from recalib.study.plants import nominal_controller
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,29 +38,48 @@ def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> It
         yield ways[index]
 
 
-def train_draws(job: jobs.Draws, sample: str | Path) -> "pd.DataFrame":
+def train_draws(
+    sample: Path,
+    nominal: Nominal,
+    shorten: tuple[float, ...],
+    shift: tuple[float, ...],
+    series: str,
+    scales: tuple[float, ...],
+    first: int,
+    last: int,
+    rules: Learner,
+    tests: int,
+    seed: int,
+) -> "pd.DataFrame":
     """Train a learner on some robots of a series, each with all scales of its damage.
 
     Args:
         sample: file of the searches for this training, whose winners the robots get in turn.
+        nominal: the robot that is damaged.
+        shorten, shift: the paper's damage [m, rad]; see `Ways`.
+        series: its name.
+        scales: factors of all amounts.
+        first, last: the first robot of the series that is one of them, and one past the last.
+        rules: of the learner.
+        tests: poses to measure on.
+        seed: of the study.
 
     Returns a row for each robot and scale.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    controller = nominal_controller(job.nominal)
-    robot, iterations, scales = controller.robot, job.learner.iterations, job.plan.scales
-    ways = Ways(job.nominal.robot.links, job.damage.shorten, robot.joints, job.damage.shift)
-    order = generator(job.seed, "ensemble", job.series).permutation(len(ways))
-    drawn = list(islice(feasible(robot, ways, order, max(scales)), job.first, job.last))
+    controller = nominal_controller(nominal)
+    robot, iterations = controller.robot, rules.iterations
+    ways = Ways(nominal.robot.links, shorten, robot.joints, shift)
+    order = generator(seed, "ensemble", series).permutation(len(ways))
+    drawn = list(islice(feasible(robot, ways, order, max(scales)), first, last))
     cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
     arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]
-    runs = [job.first + index for index, _ in cases]
-    history = train(
+    runs = [first + index for index, _ in cases]
+    history = train_for_results(
         Plant(controller, arms),
-        build_tuned(job.learner, sample, [run + 1 for run in runs]),
-        desired_poses(job.seed, "ensemble", runs, iterations),
-        test_poses(job.seed, "ensemble", runs, job.tests),
+        build_tuned(rules, sample, [run + 1 for run in runs]),
+        Stream.ENSEMBLE.draw(seed, runs, iterations, tests),
         [0, iterations],
     )
     table = {

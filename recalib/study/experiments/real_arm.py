@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
-from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,13 +22,13 @@ from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.randomness import generator
-from recalib.study import jobs
+from recalib.study.configuration.study import Learner
 from recalib.study.entrants import MOVES
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
+from recalib.study.nominal import Nominal
 from recalib.study.plants import nominal_robot
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -137,60 +137,86 @@ def remaining_errors(
 
 
 def learn_from_tables(
-    job: jobs.RealRun, fit: str | PathLike, test: str | PathLike, description: str | PathLike
+    fit: Path,
+    test: Path,
+    description: Path,
+    nominal: Nominal,
+    learner: str,
+    poses: tuple[int, ...],
+    subsets: int,
+    seed: int,
 ) -> "pd.DataFrame":
     """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
 
     Args:
         description: what these tables do not say themselves.
+        nominal: the robot.
+        learner: one of `LEARNERS`.
+        poses: how many to learn from.
+        subsets: for each number of poses.
+        seed: of the study.
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
+    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
-    for poses in job.poses:
+    for count in poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
-        once = poses >= len(known) or job.learner == "uncorrected"
-        for subset in range(1 if once else job.subsets):
-            order = generator(job.seed, "real", poses, subset).permutation(len(known))
-            errors = remaining_errors(job.learner, robot.arm, known[order[:poses]], tests)
-            cells = {"learner": job.learner, "poses": poses, "subset": subset}
+        once = count >= len(known) or learner == "uncorrected"
+        for subset in range(1 if once else subsets):
+            order = generator(seed, "real", count, subset).permutation(len(known))
+            errors = remaining_errors(learner, robot.arm, known[order[:count]], tests)
+            cells = {"learner": learner, "poses": count, "subset": subset}
             rows.append(cells | {"position_error_mm": 1e3 * errors.mean()})
     return pd.DataFrame(rows)
 
 
 def learn_on_twin(
-    job: jobs.RealTwin, fit: str | PathLike, description: str | PathLike, sample: str | PathLike
+    fit: Path,
+    description: Path,
+    sample: Path,
+    nominal: Nominal,
+    name: str,
+    rules: Learner,
+    poses: tuple[int, ...],
+    subsets: int,
+    tests: int,
+    seed: int,
 ) -> "pd.DataFrame":
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
         description: what that table does not say itself.
         sample: file of the searches for this training, whose winners the subsets get in turn.
+        nominal: the robot.
+        name, rules: of the learner.
+        poses: numbers of moves after which it is measured.
+        subsets: trainings.
+        tests: poses to measure on.
+        seed: of the study.
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(job.nominal), said.target[:3, 3])
+    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
-    iterations, runs = job.learner.iterations, range(job.subsets)
-    met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
-    history = train(
-        Plant(Controller(robot, job.nominal.controller.greatest_condition), [twin]),
-        build_tuned(job.learner, sample, [run + 1 for run in runs]),
-        desired_poses(job.seed, "twin", runs, iterations),
-        test_poses(job.seed, "twin", runs, job.tests),
+    iterations, runs = rules.iterations, range(subsets)
+    met = {count // MOVES for count in poses if count // MOVES <= iterations}
+    history = train_for_results(
+        Plant(Controller(robot, nominal.controller.greatest_condition), [twin]),
+        build_tuned(rules, sample, [run + 1 for run in runs]),
+        Stream.TWIN.draw(seed, runs, iterations, tests),
         sorted(met | {iterations}),
     )
     return pd.DataFrame(
         {
-            "learner": f"{job.name} on a twin",
+            "learner": f"{name} on a twin",
             "poses": np.tile(history.moves, len(runs)),
             "subset": np.repeat(runs, len(history.moves)),
             "position_error_mm": 1e3 * history.position[..., 0].ravel(),

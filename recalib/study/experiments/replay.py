@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.archives import flat
-from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses
+from recalib.study.configuration.study import Learner
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
 
@@ -15,18 +15,20 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> "pd.DataFrame":
+def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> "pd.DataFrame":
     """For each array that the learner holds, the largest difference between both teachers.
 
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the searches for this training.
+        rules: of the learner.
+        seed: of the study.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    resolved, iterations = Resolved.read(scenario), job.learner.iterations
-    plant = resolved.plant(resolved.controller(), job.seed, [0])
-    desired = desired_poses(job.seed, "replay", [0], iterations)
+    resolved, iterations = Resolved.read(scenario), rules.iterations
+    plant = resolved.plant(resolved.controller(), seed, [0])
+    desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
     table = {}
 
     def by_robot(commands):
@@ -40,7 +42,7 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> "pd.Da
 
     learned = []
     for execute in (by_robot, by_table):
-        learner = build_tuned(job.learner, sample, [1])
+        learner = build_tuned(rules, sample, [1])
         for iteration in range(iterations):
             learner.learn(desired[:, iteration], execute, iteration / iterations)
         learned.append(flat(learner.state()[0]))

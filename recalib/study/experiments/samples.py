@@ -8,12 +8,35 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from recalib.errors import RecalibError
-from recalib.study import jobs
+from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.trainings import budget, rules, searches
 
 if TYPE_CHECKING:
     import pandas as pd
 
 COMMENT = "# "
+
+
+class Sought(Frozen):
+    """What was searched for, how often, with how much, and on what: the head of a sample."""
+
+    learner: Learner
+    searches: int
+    budget: Budget
+    robot: str
+    scenario: str
+
+
+def sought(study: Study, training: str) -> Sought:
+    """What the searches for a training of a study are for."""
+    return Sought(
+        learner=rules(study, training),
+        searches=searches(study, training),
+        budget=budget(study),
+        robot=study.robot,
+        scenario=study.scenario,
+    )
 
 
 class BrokenSample(RecalibError):
@@ -24,17 +47,23 @@ class BrokenSample(RecalibError):
         super().__init__(f"{path} holds no sample of the search; delete it, and it is made anew")
 
 
-def write_sample(path: str | Path, job: jobs.Sample, trials: "pd.DataFrame") -> None:
-    """Keep the trials (a row each) of the searches for a training."""
-    head = COMMENT + job.model_dump_json() + "\n"
-    Path(path).write_text(head + trials.to_csv(index=False), encoding="utf-8")
+def put_together(trials: list[Path], sought: Sought) -> str:
+    """The sample of the searches in these files."""
+    import pandas as pd
+
+    return sample_of(sought, pd.concat(map(pd.read_csv, trials), ignore_index=True))
 
 
-def searched_for(path: str | Path) -> jobs.Sample:
+def sample_of(sought: Sought, trials: "pd.DataFrame") -> str:
+    """A file with the trials (a row each) of the searches for a training."""
+    return COMMENT + sought.model_dump_json() + "\n" + trials.to_csv(index=False)
+
+
+def searched_for(path: str | Path) -> Sought:
     """What the sample in a file was searched for. Raises BrokenSample."""
     try:
         with Path(path).open(encoding="utf-8") as lines:
-            return jobs.Sample.model_validate_json(next(lines).removeprefix(COMMENT))
+            return Sought.model_validate_json(next(lines).removeprefix(COMMENT))
     except (ValueError, StopIteration):
         raise BrokenSample(path) from None
 

@@ -1,7 +1,6 @@
 """How fast are moves and trainings, in one process and beside a bare loop over Pinocchio?"""
 
 import time
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +10,10 @@ from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
 from recalib.nominal.kinematics import tool_frame
 from recalib.nominal.robots import Robot
-from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses
+from recalib.study.configuration.study import Learner
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
 
@@ -38,12 +36,13 @@ def seconds(function, *arguments) -> float:
     return time.perf_counter() - start
 
 
-def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, str]) -> str:
+def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learner]) -> str:
     """A line for moves, one for the bare loop, one for their ratio, and one for each learner.
 
     Args:
         scenario: file of the scenario as resolved.
-        samples: by learner, file of the searches for it.
+        samples: for each learner, file of the searches for it.
+        learners: their rules by name.
     """
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
@@ -65,13 +64,14 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
         f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second",
         f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}",
     ]
-    desired = desired_poses(0, "bench", range(RUNS), ITERATIONS)
-    for name, rules in job.learners.items():
-        learner = build_tuned(rules, samples[name], range(1, RUNS + 1))
-        arguments = Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
-        spent = seconds(train, *arguments) / (RUNS * ITERATIONS)
+    poses = Stream.SPEED.draw(0, range(RUNS), ITERATIONS, tests=1)
+    for (name, rules), sample in zip(learners.items(), samples, strict=True):
+        learner = build_tuned(rules, sample, range(1, RUNS + 1))
+        arguments = Plant(controller, [arm]), learner, poses, [ITERATIONS]
+        spent = seconds(train_for_results, *arguments) / (RUNS * ITERATIONS)
         lines.append(
             f"{name}: {1e6 * spent:.0f} us an iteration and seed,"
             f" {10_000 * spent:.2f} s for 10,000 iterations"
         )
+    print(*lines, sep="\n")
     return "\n".join(lines) + "\n"

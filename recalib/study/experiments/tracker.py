@@ -4,7 +4,6 @@ What is special to them stands in a description beside them (`recalib.laboratory
 """
 
 import hashlib
-import shutil
 import urllib.request
 from dataclasses import dataclass
 from os import PathLike
@@ -17,7 +16,8 @@ from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.measurements import NOMINAL, read_measurements
 from recalib.laboratory.sanity import check_nominal
 from recalib.nominal.kinematics import Arm
-from recalib.study import jobs
+from recalib.storage import whole
+from recalib.study.configuration.study import Source
 
 PATIENCE = 60  # seconds for the public address to answer
 
@@ -79,24 +79,25 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
     )
 
 
-def fetch(job: jobs.RealData, path: Path) -> None:
-    """Bring a table to `path`, from a file or from its public address.
+def fetch(source: Source, table: Path) -> None:
+    """Bring a `table`, from a file or from its public address.
 
     Raises WrongData where it is out of reach or not the one that is meant.
     """
-    source = job.source
+    where = source.file or source.url
     try:
         if source.file:
-            shutil.copy(source.file, path)
+            content = Path(source.file).read_bytes()
         else:
             with urllib.request.urlopen(source.url, timeout=PATIENCE) as reply:
-                path.write_bytes(reply.read())
+                content = reply.read()
     except OSError as error:
         raise WrongData(
-            f"{source.file or source.url} is out of reach ({error}); a copy on this machine can be"
+            f"{where} is out of reach ({error}); a copy on this machine can be"
             " named in real.data, as `file`"
         ) from None
-    found = hashlib.sha256(path.read_bytes()).hexdigest()
+    found = hashlib.sha256(content).hexdigest()
     if found != source.sha256:
-        where = source.file or source.url
         raise WrongData(f"{where} has SHA-256 {found}; expected {source.sha256}")
+    with whole(table) as path:
+        path.write_bytes(content)

@@ -10,7 +10,6 @@ from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import ORIENTATION, POSITION
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.mapping.true_mapping import mapping_jacobians
 from recalib.study.plants import Resolved
 
@@ -41,20 +40,21 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "p
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})
 
 
-def couplings(job: jobs.TrueMapping, scenarios: Sequence[str | Path]) -> "pd.DataFrame":
+def couplings(scenarios: Sequence[Path], poses: int, seed: int) -> "pd.DataFrame":
     """The coupling at random poses of each scenario.
 
     Args:
-        job: how many poses.
         scenarios: files of the scenarios as resolved.
+        poses: of each.
+        seed: of the study.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
     tables = []
     for scenario in map(Resolved.read, scenarios):
         controller = scenario.controller()
-        random = generator(job.seed, "study", "coupling")
-        desired = controller.robot.workspace.sample(random, job.plan.poses)
+        random = generator(seed, "study", "coupling")
+        desired = controller.robot.workspace.sample(random, poses)
         table = coupling(controller, scenario.arm(controller.robot), desired)
         tables.append(table.assign(scenario=scenario.scenario))
     return pd.concat(tables)

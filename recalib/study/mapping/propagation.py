@@ -13,7 +13,6 @@ import numpy as np
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from recalib.study.plants import Resolved
@@ -75,27 +74,31 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
     return [*links, *encoders]
 
 
-def propagation(job: jobs.TrueMapping, scenario: str | Path) -> "pd.DataFrame":
+def propagation(
+    scenario: Path, balls: int, points: int, radius: float, scales: Sequence[float], seed: int
+) -> "pd.DataFrame":
     """The integrals in balls about random centres, from slight to large damage.
 
     Args:
-        job: how many balls, how large, and the scales of the damage.
         scenario: file of the paper's damage as resolved.
+        balls, points, radius: how many balls, of how many points, how large.
+        scales: of the damage.
+        seed: of the study.
 
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    resolved, plan = Resolved.read(scenario), job.plan
+    resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)
-    random = partial(generator, job.seed, "study")
-    offsets = ball(random("ball"), plan.points, 6, plan.radius)
-    centres = robot.workspace.sample(random("centres"), plan.balls) * (1 - plan.radius)
+    random = partial(generator, seed, "study")
+    offsets = ball(random("ball"), points, 6, radius)
+    centres = robot.workspace.sample(random("centres"), balls) * (1 - radius)
     starts = {"intact": [], "damaged": damages}
     rows = []
-    for scale in plan.scales:
+    for scale in scales:
         for start, before in starts.items():
             arms = [apply(robot, each) for each in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.learners.schedules import DIMENSIONS, expected_learning
+from recalib.randomness import generator
 
 WIDTHS = (0.1, 0.15, 0.2, 0.3, 0.5, 1.0)  # of the neighbourhood, in workspace coordinates
 DISTANCES = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0)  # to a face; 1 is the centre
@@ -13,7 +14,7 @@ SAMPLES = 1_000_000
 
 
 def visits(
-    random: np.random.Generator,
+    seed: int,
     widths: Sequence[float] = WIDTHS,
     distances: Sequence[float] = DISTANCES,
     samples: int = SAMPLES,
@@ -21,12 +22,12 @@ def visits(
     """Simulated L over the one of (10), for cells at these distances from a face of the workspace.
 
     Args:
-        random: where winners come from.
+        seed: of the study.
         widths: of the neighbourhood, in workspace coordinates.
         distances: of the cell to the nearest face, 1 being the centre of the workspace [-1, 1]^3.
         samples: winners drawn.
     """
-    winners = random.uniform(-1, 1, (samples, DIMENSIONS))
+    winners = generator(seed, "visits").uniform(-1, 1, (samples, DIMENSIONS))
     rows = []
     for distance in distances:
         cell = np.zeros(DIMENSIONS)

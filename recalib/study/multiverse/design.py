@@ -5,14 +5,18 @@ It is made before the first universe is run, and kept in a file that people can 
 
 import csv
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import yaml
 
 from recalib.study.configuration.damages import Entry, describe
 from recalib.study.configuration.part import Frozen
+from recalib.study.measured import NONE
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 LISTS = "moved", "damage"  # columns of entries
 LINE = 1000  # characters: no list is longer
@@ -68,15 +72,6 @@ def _in_words(entries: Sequence[Entry]) -> str:
     return yaml.safe_dump(said, default_flow_style=True, sort_keys=False, width=LINE).strip()
 
 
-def write_design(path: str | Path, universes: Iterable[Designed]) -> None:
-    """Write the file."""
-    rows = [each.as_row() for each in universes]
-    with Path(path).open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def digest(path: str | Path) -> str:
     """Of a file, so that what is measured can say which design it follows."""
     return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
@@ -86,3 +81,19 @@ def read_design(path: str | Path) -> list[Designed]:
     """The universes of a file."""
     with Path(path).open(encoding="utf-8", newline="") as file:
         return [Designed.from_row(row) for row in csv.DictReader(file)]
+
+
+def put_together(chunks: list[Path], design: str = "") -> "pd.DataFrame":
+    """The tables of the campaign in these files as one.
+
+    Args:
+        design: digest of the one that they follow, if any.
+    """
+    import pandas as pd
+
+    table = pd.concat(map(pd.read_csv, chunks), ignore_index=True)
+    if "intact" in table:  # below, every machine finds another error
+        table["intact"] = table["intact"].clip(lower=NONE)
+    if design:
+        table.insert(0, "design", design)
+    return table

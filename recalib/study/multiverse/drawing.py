@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -11,59 +12,83 @@ from recalib.errors import RecalibError
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from recalib.randomness import generator
-from recalib.study import jobs
 from recalib.study.assignments import TIE, Ways, distance_to, initial_errors
-from recalib.study.configuration.study import Published
+from recalib.study.configuration.damages import Entry
+from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.configuration.universes import Universes
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.universe import DIGITS, robot_in
+from recalib.study.nominal import Nominal
 from recalib.study.plants import nominal_robot
 
 
-def draw_design(job: jobs.Design) -> Iterator[Designed]:
+class Setting(Frozen):
+    """What a design is drawn for.
+
+    Attributes:
+        plan: how many universes, and their factors.
+        robots: the study's own first.
+        damage: the paper's.
+        moved: by what the whole robot is.
+    """
+
+    plan: Universes
+    robots: tuple[Nominal, ...]
+    damage: PaperDamage
+    moved: tuple[Entry, ...]
+
+
+def design(setting: Setting) -> list[dict[str, Any]]:
+    """The rows of the file."""
+    return [each.as_row() for each in draw_design(setting)]
+
+
+def draw_design(setting: Setting) -> Iterator[Designed]:
     """The universes, one after the other.
 
     Of the rows of the sequence, those that a robot refuses are left out, and said so.
     """
     universe = 0
-    for row in rows(job.plan):
+    for row in rows(setting.plan):
         try:
-            drawn = draw(job, universe, row)
+            drawn = draw(setting, universe, row)
         except RecalibError as error:
             print(f"row {row.number} is refused: {error}", file=sys.stderr)
             continue
         yield drawn
         universe += 1
-        if universe == job.plan.count:
+        if universe == setting.plan.count:
             return
-    raise RecalibError(f"only {universe} of {job.plan.count} universes are possible")
+    raise RecalibError(f"only {universe} of {setting.plan.count} universes are possible")
 
 
-def draw(job: jobs.Design, universe: int, row: Row) -> Designed:
+def draw(setting: Setting, universe: int, row: Row) -> Designed:
     """A universe of a row. Raises RecalibError: its robot cannot do it."""
-    plan, levels = job.plan, row.levels
+    plan, levels = setting.plan, row.levels
     random = generator(plan.seed, "universe", row.number)
     seed = int(random.integers(2**32))
-    nominal = next(each for each in job.robots if each.name == levels["robot"])
-    own = job.robots[0].robot.workspace
+    nominal = next(each for each in setting.robots if each.name == levels["robot"])
+    own = setting.robots[0].robot.workspace
     nominal = robot_in(nominal, levels, own, plan.longer)
     scale = nominal.robot.workspace.scale_to(own)
     controller, refused = _controller(nominal, row, plan.home_spread, random)
     robot, joints = controller.robot, list(nominal.robot.home)
-    tests = robot.workspace.sample(random, job.damage.poses)
+    tests = robot.workspace.sample(random, setting.damage.poses)
     ways = Ways(
         nominal.robot.links,
-        [scale * length for length in job.damage.shorten],
+        [scale * length for length in setting.damage.shorten],
         joints,
-        job.damage.shift,
+        setting.damage.shift,
         levels["shortening"],
     )
     if levels["assignment"] == "any":
         damage = ways[int(row.share * len(ways))]
     else:
         few, error = tests[: plan.assignment_poses], levels["error"]
-        damage = _nearest(controller, ways, job.damage.published, scale, few, error)
+        damage = _nearest(controller, ways, setting.damage.published, scale, few, error)
     position, orientation = _initial_errors(controller, damage, tests, levels["error"])
     return Designed(
         universe=universe,
@@ -74,7 +99,7 @@ def draw(job: jobs.Design, universe: int, row: Row) -> Designed:
             float(f"{np.degrees(robot.home[robot.joints.index(each)]):.6g}") for each in joints
         ],
         homes_refused=refused,
-        moved=moved(job.moved, scale, random if levels["displacement"] == "random" else None),
+        moved=moved(setting.moved, scale, random if levels["displacement"] == "random" else None),
         damage=damage,
         position_error_cm=float(f"{100 * position:.4g}"),
         orientation_error_deg=float(f"{np.degrees(orientation):.4g}"),
@@ -104,7 +129,7 @@ def moved(
 
 
 def _controller(
-    nominal: jobs.Nominal, row: Row, spread: float, random: np.random.Generator
+    nominal: Nominal, row: Row, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
     """The controller at its home, and how many homes it refused before."""
     robot = nominal_robot(nominal)

@@ -4,19 +4,17 @@ A full search is one of workflow/search. Its first round holds several rough one
 quasi-random trials each as a rough search has.
 """
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.configuration.study import Learner
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
 from recalib.study.lengths import LONG
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,26 +22,40 @@ if TYPE_CHECKING:
 FIRST, WATCHED = 1000, 60  # iterations and measurements: nobody gets there earlier
 
 
-def efforts(job: jobs.Efforts, scenario: str | Path, sample: str | Path) -> "pd.DataFrame":
+def efforts(
+    scenario: Path,
+    sample: Path,
+    training: str,
+    learner: Learner,
+    rough_trials: int,
+    seeds: int,
+    tests: int,
+    seed: int,
+) -> "pd.DataFrame":
     """Errors of the winners of all searches for a training, full and rough, each with its seeds.
 
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the searches for this training.
+        training: its name.
+        learner: its rules.
+        rough_trials: of a rough search.
+        seeds: of each winner.
+        tests: poses to measure on.
+        seed: of the study.
 
     Returns a row for each effort, search, seed and measurement: the last one, and in a long
     training those on its way.
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    trials = read_sample(sample)
-    return pd.concat(
-        [
-            _trained(job, scenario, winners).assign(effort=effort)
-            for effort, winners in (("full", best(trials)), ("rough", rough(trials, job.rough)))
-        ],
-        ignore_index=True,
-    )
+    trials, found = read_sample(sample), []
+    for effort, winners in (("full", best(trials)), ("rough", rough(trials, rough_trials))):
+        table = _trained(Resolved.read(scenario), learner, winners, seeds, tests, seed)
+        found.append(table.assign(effort=effort))
+    table = pd.concat(found, ignore_index=True)
+    table.insert(0, "training", training)
+    return table
 
 
 def rough(trials: "pd.DataFrame", size: int) -> "pd.DataFrame":
@@ -53,27 +65,27 @@ def rough(trials: "pd.DataFrame", size: int) -> "pd.DataFrame":
     return first.loc[first.groupby(groups)["score"].idxmin()]
 
 
-def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -> "pd.DataFrame":
-    """Winners (a row each) trained with `job.seeds` seeds each; all see the same poses by seed."""
+def _trained(
+    resolved: Resolved, learner: Learner, winners: "pd.DataFrame", each: int, tests: int, seed: int
+) -> "pd.DataFrame":
+    """Winners (a row each) trained with `each` seeds each; all see the same poses by seed."""
     import pandas as pd
 
-    resolved, iterations = Resolved.read(scenario), job.learner.iterations
-    seeds = list(range(job.seeds)) * len(winners)
+    iterations, seeds = learner.iterations, list(range(each)) * len(winners)
     grid = [iterations]
     if iterations >= LONG:
         grid = np.geomspace(FIRST, iterations, WATCHED).round().astype(int).tolist()
-    settings = np.repeat(winners.to_dict("records"), job.seeds)
-    history = train(
-        resolved.plant(resolved.controller(), job.seed, seeds),
-        build(job.learner, settings),
-        _of(desired_poses, job.seed, seeds, iterations),
-        _of(test_poses, job.seed, seeds, job.tests),
+    settings = np.repeat(winners.to_dict("records"), each)
+    history = train_for_results(
+        resolved.plant(resolved.controller(), seed, seeds),
+        build(learner, settings),
+        Stream.EFFORTS.draw(seed, seeds, iterations, tests),
         grid,
     )
     runs = np.arange(len(seeds))
     return pd.DataFrame(
         {
-            "search": np.repeat(runs // job.seeds, len(grid)),
+            "search": np.repeat(runs // each, len(grid)),
             "seed": np.repeat(seeds, len(grid)),
             "iterations": iterations,
             "iteration": np.tile(grid, len(runs)),
@@ -81,7 +93,3 @@ def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -
             "orientation_error_deg": np.degrees(history.orientation[..., 0]).ravel(),
         }
     )
-
-
-def _of(poses, seed: int, seeds: Sequence[int], count: int) -> np.ndarray:
-    return poses(seed, "efforts", seeds, count)

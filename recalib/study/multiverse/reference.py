@@ -4,6 +4,7 @@ Its replicates say what luck does to its numbers.
 """
 
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 
@@ -45,7 +46,17 @@ def reference_universe(study: Study, resolved: Resolved) -> Universe:
     return universe(study, designed)
 
 
-def reference(setup: Universe, replicate: int) -> dict[str, float]:
+def reference(scenario: Path, study: Study, number: int) -> list[dict[str, float]]:
+    """The row of one replicate of the reference study.
+
+    Args:
+        scenario: file of the study's own scenario as resolved.
+        number: of the replicate.
+    """
+    return [replicated(reference_universe(study, Resolved.read(scenario)), number)]
+
+
+def replicated(setup: Universe, replicate: int) -> dict[str, float]:
     """One replicate: what is measured in a setup, schedules and maps of several kinds besides."""
     world = World(setup, replicate)
     row = {"universe": NUMBER, "replicate": replicate} | measured(world)

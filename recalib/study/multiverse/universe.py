@@ -4,14 +4,13 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from recalib.study import jobs
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Budget, Learner, Ranges, Study, Workspace
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.multiverse.design import Designed
-from recalib.study.plan import Plan
-from recalib.study.trainings import switched
+from recalib.study.nominal import Nominal, nominal
+from recalib.study.trainings import budget, switched
 
 DIGITS = 4  # of a length in m
 SMALL = (2, 2, 2)  # cells of a net that is spared some
@@ -50,7 +49,7 @@ class Universe(Frozen):
     """
 
     number: int
-    nominal: jobs.Nominal
+    nominal: Nominal
     scenarios: Mapping[str, tuple[Entry, ...]]
     learners: Mapping[str, Learner]
     conventions: Conventions
@@ -70,19 +69,18 @@ class Universe(Frozen):
 
 def universe(study: Study, designed: Designed) -> Universe:
     """The universe that the design describes."""
-    levels, plan = designed.levels, Plan(study)
-    own = study.robots[study.robot]
-    nominal = robot_in(plan.nominal(levels["robot"]), levels, own.workspace, study.universes.longer)
-    workspace = nominal.robot.workspace
-    home = dict(zip(nominal.robot.home, map(math.radians, designed.home_deg), strict=True))
-    robot = nominal.robot.model_copy(update={"home": home})
+    levels, own = designed.levels, study.robots[study.robot]
+    its = robot_in(nominal(study, levels["robot"]), levels, own.workspace, study.universes.longer)
+    workspace = its.robot.workspace
+    home = dict(zip(its.robot.home, map(math.radians, designed.home_deg), strict=True))
+    robot = its.robot.model_copy(update={"home": home})
     translation, rotation = designed.moved
     scale = workspace.scale_to(own.workspace)
-    budget = _budget(plan.budget(), levels, designed.seed, scale)
-    rough = budget.model_copy(update={"rounds": 1, "trials": study.universes.rough_trials})
+    full = _budget(budget(study), levels, designed.seed, scale)
+    rough = full.model_copy(update={"rounds": 1, "trials": study.universes.rough_trials})
     return Universe(
         number=designed.universe,
-        nominal=nominal.model_copy(update={"robot": robot}),
+        nominal=its.model_copy(update={"robot": robot}),
         scenarios={
             "intact": (),
             "translation": (translation,),
@@ -108,7 +106,7 @@ def universe(study: Study, designed: Designed) -> Universe:
         ),
         rate_of_visits="linear",
         ritters_rate=levels["rate"],
-        budget=budget if levels["effort"] == "full" else rough,
+        budget=full if levels["effort"] == "full" else rough,
         rough_trials=study.universes.rough_trials,
         error=levels["error"],
         order=levels["order"],
@@ -121,9 +119,7 @@ def universe(study: Study, designed: Designed) -> Universe:
     )
 
 
-def robot_in(
-    nominal: jobs.Nominal, levels: Mapping[str, Any], own: Workspace, longer: float
-) -> jobs.Nominal:
+def robot_in(nominal: Nominal, levels: Mapping[str, Any], own: Workspace, longer: float) -> Nominal:
     """The robot with the pose coordinates and the tool of its levels.
 
     Args:

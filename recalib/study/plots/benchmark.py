@@ -30,7 +30,7 @@ def _shown(table: pd.DataFrame) -> dict[str, str]:
 
 def figure12(evidence: Evidence) -> Figure:
     """Errors against moves for every learner on some of the benchmark's scenarios."""
-    table = evidence.benchmark()
+    table = evidence.table("benchmark.csv")
     shown, learners = _shown(table), styles_of(table["learner"].unique())
     size = {"figsize": (4 + 2.25 * len(shown), 6.4), "squeeze": False}
     figure, panels = plt.subplots(2, len(shown), sharex=True, sharey="row", **size)
@@ -72,7 +72,7 @@ def figure12(evidence: Evidence) -> Figure:
 
 def figure13(evidence: Evidence) -> Figure:
     """The real arm: errors on the test poses against the number of recorded poses."""
-    table, published = evidence.real(), evidence.fact("published_mm")["after_mm"]
+    table, published = evidence.table("real.csv"), evidence.fact("published_mm")["after_mm"]
     figure, axes = plt.subplots(figsize=(9, 4.6))
     shown = styles_of(learner.split()[0] for learner in table["learner"].unique())
     for learner, own in table.groupby("learner", sort=False):

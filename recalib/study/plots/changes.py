@@ -19,6 +19,7 @@ from recalib.study.plots.style import (
     note,
     with_intervals,
 )
+from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
 
 MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
@@ -31,7 +32,7 @@ def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     rows, own = {}, evidence.fact("switches")
     if own and evidence.fact("shipped"):
         measured = {across.column: across for across in SEPARATE.across.values()}
-        reference = evidence.reference()
+        reference = evidence.table(REFERENCE)
         rows[MAPS.label] = [measured[column].in_reference(reference) for column in NESTED]
     for switch in OTHERS if own else ():
         pairs = with_and_without(evidence, switch).values()
@@ -100,7 +101,7 @@ def figure4(evidence: Evidence) -> Figure:
     if MAPS.label in rows:
         how = (
             f"\n{MAPS.label}: both searches go on from one winner;"
-            f" {len(evidence.reference())} replicates, 95 % interval of their mean"
+            f" {len(evidence.table(REFERENCE))} replicates, 95 % interval of their mean"
         )
     finish(
         figure,

@@ -66,7 +66,7 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     explained = (
         "Where the paper is silent, something has to be chosen. For each claim: the choice with"
         " which its number is largest, instead of the one with which it is\nsmallest, averaged over"
-        f" all {evidence.design().shape[1] - 1} others. Shown is what exceeds chance, which alone"
+        f" all {evidence.levels().shape[1] - 1} others. Shown is what exceeds chance, which alone"
         " would show some choice for 1 claim in 20. Lines: 95 % intervals."
     )
     return text, explained

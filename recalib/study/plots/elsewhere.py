@@ -14,7 +14,10 @@ from recalib.study.plots.style import legend_under, logarithmic, title
 def figure11(evidence: Evidence) -> Figure:
     """Other assignments, other amounts and other robots."""
     figure, panels = plt.subplots(1, 3, figsize=(12, 5.2))
-    tables = {learner: evidence.ensemble(learner, "assignments") for learner in (IMPROVED, RITTER)}
+    tables = {
+        learner: evidence.table(f"ensemble/assignments.{learner}.parquet")
+        for learner in (IMPROVED, RITTER)
+    }
     _draw_assignments(panels[0], tables)
     _draw_amounts(panels[1], evidence)
     _draw_robots(panels[2], evidence)
@@ -47,7 +50,7 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
 
 
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
-    scaled = evidence.ensemble(IMPROVED, "scaled").groupby("scale")
+    scaled = evidence.table(f"ensemble/scaled.{IMPROVED}.parquet").groupby("scale")
     color = styles_of([IMPROVED])[IMPROVED].color
     for error in BOTH:
         for moment, shade in (("initial", "0.5"), ("final", color)):

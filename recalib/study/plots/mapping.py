@@ -22,7 +22,7 @@ from recalib.study.plots.style import (
 def figure5(evidence: Evidence) -> Figure:
     """The off-diagonal blocks of the true mapping's Jacobian."""
     figure, axes = plt.subplots(figsize=(8, 4))
-    table, scenarios = evidence.mapping("coupling"), evidence.fact("scenarios")
+    table, scenarios = evidence.table("mapping/coupling.parquet"), evidence.fact("scenarios")
     limit = coupling.CLAIM.limits["ratio"]
     rows = np.arange(len(scenarios))[::-1]
     for offset, error in zip((0.15, -0.15), BOTH, strict=True):
@@ -44,7 +44,7 @@ def figure5(evidence: Evidence) -> Figure:
 def figure7(evidence: Evidence) -> Figure:
     """E_upd over E_clas on the true mappings, from slight to large damage."""
     figure, axes = plt.subplots(figsize=(8, 4.2))
-    ratio = integral_ratios(evidence.mapping("propagation"))
+    ratio = integral_ratios(evidence.table("mapping/propagation.parquet"))
     for (kind, start), values in ratio.groupby(level=["kind", "start"]):
         commands, intact = kind == "theta", start == "intact"
         axes.plot(
@@ -81,7 +81,7 @@ def figure7(evidence: Evidence) -> Figure:
 def figure8(evidence: Evidence) -> Figure:
     """Monte Carlo of the expected learning beside (10)."""
     figure, axes = plt.subplots(figsize=(8, 4.2))
-    table = evidence.mapping("visits")
+    table = evidence.table("mapping/visits.parquet")
     shades = plt.get_cmap("viridis")(np.linspace(0, 0.85, table["width"].nunique()))
     for shade, (width, rows), marker in zip(shades, table.groupby("width"), "os^Dv*", strict=False):
         axes.errorbar(

@@ -4,14 +4,16 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import product
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.changes import ask_for
 from recalib.study.evidence.factor import CELLS
-from recalib.study.evidence.needs import Needs, Request
+from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
+from recalib.study.shipped import REFERENCE
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -60,7 +62,7 @@ def _figure4(ask: Request) -> None:
     if not any(own):
         ask.lack("experiments.switches: true")
     if own[0] and ask.fact("shipped"):
-        ask.reference()
+        ask.shipped(REFERENCE)
     ask_for(ask, SWITCHES[1:] if own[0] else ())
     for learner in own[1] or ():
         ask.history(learner)
@@ -68,25 +70,23 @@ def _figure4(ask: Request) -> None:
 
 
 def _figure5(ask: Request) -> None:
-    ask.mapping("coupling")
+    ask.files("mapping/coupling.parquet")
     ask.fact("scenarios")
 
 
 def _figure6(ask: Request) -> None:
     for role in ("improved", "ritter"):
         ask.sample(ask.fact(role))
-    for fact in ("iterations", "rough_trials"):
-        ask.fact(fact)
+    ask.facts("iterations", "rough_trials")
 
 
 def _figure7(ask: Request) -> None:
-    ask.mapping("propagation")
-    for fact in ("balls", "radius"):
-        ask.fact(fact)
+    ask.files("mapping/propagation.parquet")
+    ask.facts("balls", "radius")
 
 
 def _figure8(ask: Request) -> None:
-    ask.mapping("visits")
+    ask.files("mapping/visits.parquet")
 
 
 def _figure9(ask: Request) -> None:
@@ -101,8 +101,7 @@ def _figure9(ask: Request) -> None:
 
 def _figure10(ask: Request) -> None:
     ask.assignments()
-    for fact in ("published", "assignment_poses"):
-        ask.fact(fact)
+    ask.facts("published", "assignment_poses")
 
 
 def _figure11(ask: Request) -> None:
@@ -114,13 +113,12 @@ def _figure11(ask: Request) -> None:
 
 
 def _figure12(ask: Request) -> None:
-    ask.benchmark()
+    ask.files("benchmark.csv")
 
 
 def _figure13(ask: Request) -> None:
-    ask.real()
-    for fact in ("real_robot", "published_mm"):
-        ask.fact(fact)
+    ask.files("real.csv")
+    ask.facts("real_robot", "published_mm")
 
 
 def _universes(ask: Request) -> None:
@@ -130,7 +128,7 @@ def _universes(ask: Request) -> None:
 
 def _figure14(ask: Request) -> None:
     _universes(ask)
-    ask.claims()
+    ask.files("claims.json")
 
 
 def _figure15(ask: Request) -> None:
@@ -176,11 +174,12 @@ def draw(figure: str, evidence: Evidence) -> "matplotlib.figure.Figure":
     return getattr(import_module(FIGURES[figure].home), figure)(evidence)
 
 
-def needs_of(figure: str, request: Callable[[], Request]) -> Needs:
-    """What a figure reads."""
-    ask = request()
-    FIGURES[figure].needs(ask)
-    return ask.needs
+def publish(figure: str, evidence: Evidence, svg: Path, png: Path) -> None:
+    """Draw a figure into files."""
+    from recalib.study.plots.style import STYLE, plt, save
+
+    with plt.rc_context(STYLE):
+        save(draw(figure, evidence), svg, png)
 
 
 def drawn(study: Study, request: Callable[[], Request]) -> list[str]:

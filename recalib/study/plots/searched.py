@@ -42,14 +42,14 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
         trials = np.arange(1, best.shape[1] + 1)
         low, median[role], high = np.percentile(best, (BAND[0], 50, BAND[1]), axis=0)
         band(axes, trials, (low, high), style.color)
-        length = evidence.searched_for(evidence.fact(role)).learner.iterations
+        length = evidence.sought(evidence.fact(role)).learner.iterations
         name = f"{style.label}, {length:,} iterations"
         axes.plot(trials, median[role], label=name, **style.line())
     limit = rough_search.CLAIM.limits["left"]
     line_across(axes, f"a {limit:word}", y=limit)
     line_across(axes, f"{rough} trials", x=rough)
     axes.set_xlabel("random trials, of which the best counts", fontsize=SIZE)
-    axes.set_ylabel(REMAINS[evidence.searched_for(evidence.fact(IMPROVED)).budget.score])
+    axes.set_ylabel(REMAINS[evidence.sought(evidence.fact(IMPROVED)).budget.score])
     axes.yaxis.label.set_size(SIZE)
     logarithmic(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
     logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
@@ -92,7 +92,7 @@ def figure6(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 3, figsize=(10, 4.8))
     remaining = _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
-    trials, budget = _first_rounds(evidence, improved), evidence.searched_for(improved)
+    trials, budget = _first_rounds(evidence, improved), evidence.sought(improved)
     for axes, error in zip(panels[1:], BOTH, strict=True):
         _draw_order(axes, trials, error)
     title(

@@ -109,7 +109,7 @@ def _heading(shown: Sequence[Row]) -> str:
 
 
 def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
-    choices, replicates = evidence.design().shape[1], evidence.setups("outcomes")["replicate"]
+    choices, replicates = evidence.levels().shape[1], evidence.setups("outcomes")["replicate"]
     return (
         f"The paper leaves at least {choices} choices open, such as the robot or the search. Each"
         " dot is the whole replication made again with other choices: a setup,\nthe mean of its"

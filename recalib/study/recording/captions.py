@@ -5,13 +5,13 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from recalib.study import jobs
 from recalib.study.configuration.damages import Entry, damages_among, describe
 from recalib.study.entrants import label_of
 from recalib.study.measured import ERRORS
 from recalib.study.plants import Resolved
 from recalib.study.recording.landings import enlarged
 from recalib.study.recording.watched import Watched
+from recalib.study.recordings import Recording
 
 NOTHING = 1e-3  # cm and degrees: an error below it is none
 
@@ -122,7 +122,7 @@ def _joined(words: Any) -> str:
     return str(words)
 
 
-def properties(job: jobs.Recording, resolved: Resolved) -> dict[str, str]:
+def properties(job: Recording, resolved: Resolved) -> dict[str, str]:
     """The job that was done, what it was done on, and with which packages."""
     versions = {package: importlib.metadata.version(package) for package in PACKAGES}
     return {

@@ -12,7 +12,7 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.storage import whole
-from recalib.study.recording.phases import ARM, LEARNING, VISITS
+from recalib.study.recording.phases import AFTER, ARM, BEFORE, LEARNING, VISITS
 from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
 WINDOW = 1400, 800  # pixels
@@ -26,6 +26,11 @@ FRAME, LAST = 100, 2000  # milliseconds
 
 class ViewerUnavailable(RecalibError):
     """The viewer does not run here, most often for want of a Vulkan driver."""
+
+
+def before_and_after(recording: Path, before: Path, after: Path) -> None:
+    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
+    take_pictures(recording, {before: BEFORE, after: AFTER})
 
 
 def take_pictures(

@@ -10,8 +10,9 @@ from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, Workspace, orientation_error, position_error
+from recalib.study.experiments.poses import ResultPoses, train_for_results
 from recalib.study.recording.phases import POSES
-from recalib.training import History, train
+from recalib.training import History
 
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
@@ -70,18 +71,17 @@ def watch(
     controller: Controller,
     plant: Plant,
     learner: Learner,
-    desired: np.ndarray,
-    tests: np.ndarray,
+    poses: ResultPoses,
     measure_at: Sequence[int],
 ) -> Watched:
-    """Train a fresh learner of one run on the desired poses (iteration, 6) and watch it.
+    """Train a fresh learner of one run and watch it.
 
     Args:
         plant: one run of the controller's robot.
-        tests: (test, 6) poses to measure the errors at; the first few are shown.
+        poses: of one run; the first few of those to measure on are shown.
         measure_at: numbers of iterations after which to measure, from 0 on.
     """
-    workspace, shown = controller.robot.workspace, visiting_order(tests[:POSES])
+    workspace, shown = controller.robot.workspace, visiting_order(poses.tests[0, :POSES])
     commands, thetas, weights = [], [], []
     has_cells = isinstance(learner, HierarchicalLearner)
 
@@ -90,22 +90,22 @@ def watch(
         if has_cells:
             theta = next(iter(learner.maps.values())).theta
             thetas.append(theta.all[0, ..., POSITION].copy())
-            weights.append(_neighbourhood(learner, desired, iteration))
+            weights.append(_neighbourhood(learner, poses.desired[0], iteration))
 
-    history = train(plant, learner, desired[None], tests[None], measure_at, on_progress)
-    poses, home = workspace.to_poses(shown), controller.robot.home
+    history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
+    goals, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
     angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
-    achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *poses.shape)
+    achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape)
     repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
     measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
     return Watched(
         history=history,
-        desired=poses,
+        desired=goals,
         achieved=achieved,
         angles=angles.reshape(len(commands), len(shown), -1),
-        misses=position_error(achieved, poses),
-        tilts=orientation_error(achieved, np.broadcast_to(poses, achieved.shape)),
+        misses=position_error(achieved, goals),
+        tilts=orientation_error(achieved, np.broadcast_to(goals, achieved.shape)),
         scatter=(measured - achieved[-1][:, None])[..., :3, 3],
         cells=_cells(learner, workspace, thetas, weights) if has_cells else None,
     )

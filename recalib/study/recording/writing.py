@@ -14,10 +14,10 @@ from rerun.error_utils import RerunWarning
 from recalib.errors import RecalibError
 from recalib.interfaces import Learner
 from recalib.storage import whole
-from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among, disturbances_among
 from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import Resolved
@@ -30,6 +30,7 @@ from recalib.study.recording.maps import send_map
 from recalib.study.recording.phases import move
 from recalib.study.recording.scene import Scene, log_surroundings, send_target
 from recalib.study.recording.watched import Watched, watch
+from recalib.study.recordings import Recording
 from recalib.study.statistics import typical
 
 
@@ -42,23 +43,21 @@ class BrokenRecording(RecalibError):
 
 
 def record(
-    path: str | Path,
-    job: jobs.Recording,
-    scenario: str | Path,
-    samples: Sequence[str | Path],
-    histories: Sequence[str | Path],
+    rrd: Path, recording: Recording, scenario: Path, samples: list[Path], histories: list[Path]
 ) -> None:
     """Write the recording of a scenario from files: a run of a typical search.
 
     It is that of the first of the paper's learners. See `write_recording`.
 
     Args:
+        rrd: its file.
+        recording: what is recorded.
         scenario: file of the scenario as resolved.
-        samples: for each of the job's learners of the paper, the file of the search for it.
+        samples: for each of its learners of the paper, the file of the search for it.
         histories: for each of them, the file of its training.
     """
     resolved = Resolved.read(scenario)
-    papers = job.papers()
+    papers = recording.papers()
     tables = dict(zip(papers, map(pd.read_parquet, histories), strict=True))
     errors = errors_of(next(iter(tables.values())))
     seed = typical(errors) * errors.shape[1]  # the first one of that search
@@ -68,14 +67,14 @@ def record(
         name: build_tuned(learner, searched[name], measured[name]["search"].unique())
         if learner
         else make_peer(name, 1, resolved.controller())
-        for name, learner in job.learners.items()
+        for name, learner in recording.learners.items()
     }
-    write_recording(Path(path), job, resolved, learners, measured, seed)
+    write_recording(rrd, recording, resolved, learners, measured, seed)
 
 
 def write_recording(
     path: Path,
-    job: jobs.Recording,
+    job: Recording,
     resolved: Resolved,
     learners: Mapping[str, Learner],
     measured: Mapping[str, Mapping[str, Sequence]],
@@ -98,10 +97,11 @@ def write_recording(
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
         measure_at = _measured_at(job, name)
-        desired = campaign.desired_poses(job.seed, job.scenario, [seed], measure_at[-1])[0]
-        tests = campaign.test_poses(job.seed, job.scenario, [seed], job.measuring.tests)[0]
+        poses = Stream.SCENARIO.draw(
+            job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
+        )
         plant = resolved.plant(controller, job.seed, [seed])
-        watched[name] = watch(controller, plant, learner, desired, tests, measure_at)
+        watched[name] = watch(controller, plant, learner, poses, measure_at)
         if name in measured:
             _compare(path, name, watched[name].history.columns(), measured[name])
     workspace = controller.robot.workspace
@@ -118,7 +118,7 @@ def write_recording(
     return watched
 
 
-def _measured_at(job: jobs.Recording, name: str) -> Sequence[int]:
+def _measured_at(job: Recording, name: str) -> Sequence[int]:
     """The iterations of a learner after which it is measured: today's after each of its moves."""
     learner = job.learners[name]
     if learner:
@@ -145,7 +145,7 @@ def _compare(path: Path, learner: str, shown: Mapping, measured: Mapping) -> Non
 def _fill(
     rec: rr.RecordingStream,
     title: str,
-    job: jobs.Recording,
+    job: Recording,
     resolved: Resolved,
     watched: Mapping[str, Watched],
 ) -> None:

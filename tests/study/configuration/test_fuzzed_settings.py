@@ -7,11 +7,13 @@ is accepted must give a study all of whose jobs can be made.
 import json
 import math
 import re
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 import pytest
 
+from recalib.study.chunks import bounds, chunks, searches_per_job
 from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
@@ -23,13 +25,14 @@ from recalib.study.evidence.claims import judging
 from recalib.study.evidence.needs import Request
 from recalib.study.experiments.search import draw
 from recalib.study.experiments.settings import rules_of
-from recalib.study.layout import Layout, root_of
-from recalib.study.plan import Plan
 from recalib.study.plots.registry import drawn
+from recalib.study.shipped import root_of
 from recalib.study.studies import named_files
-from recalib.study.trainings import Trainings, rules
+from recalib.study.trainings import Trainings, searches, seeds
+from recalib.study.trainings import rules as rules_named
 from recalib.training import measuring_grid
 from tests.conftest import ROOT
+from tests.rules import Rules
 
 pytestmark = pytest.mark.slow  # thousands of settings take a minute
 
@@ -127,48 +130,57 @@ class Robots:
         return self._said[same]
 
 
-def jobs_of(study: Study):
+def jobs_of(study: Study) -> Iterator[tuple[str, dict]]:
     """A job of each kind for all that the study consists of: of many chunks, the ends."""
-    plan, trainings = Plan(study), Trainings(study)
-    yield from (plan.design(), plan.true_mapping(), plan.visits(), plan.summary())
-    yield from (plan.benchmark_table(), plan.real_table())
-    yield from (plan.assignments(robot) for robot in study.robots)
+    trainings, plan = Trainings(study), study.experiments
+    once = "design study_mapping study_visits summary benchmark_table real_table"
+    yield from ((rule, {}) for rule in once.split())
+    yield from (("assignments", {"robot": robot}) for robot in study.robots)
     for scenario in trainings.scenarios():
-        yield from (plan.scenario(scenario), plan.recording(scenario))
+        yield "scenario", {"scenario": scenario}
+        yield "recording", {"recording": scenario}
     for learner, scenario in {learner: scenario for scenario, learner in trainings.runs}.items():
-        chunks = plan.training_chunks(learner)
-        first, last = (plan.training(scenario, learner, chunks[end]) for end in (0, -1))
-        assert first.first == 0 and last.last == plan.seeds(learner)
-        yield from (first, last)
+        for chunk in ends(seeds(study, learner), study.training.seeds_per_job):
+            yield "train", {"scenario": scenario, "learner": learner, "chunk": chunk}
     for name in trainings.tuned():
-        yield from (plan.search(name, plan.search_chunks(name)[-1]), plan.sample(name))
-    for learner, series in study.experiments.ensemble.items():
-        for name in series:
-            yield plan.draws(name, learner, plan.draw_chunks(name, learner)[-1])
-    for learner in study.benchmark.learners:
-        yield plan.benchmark(learner, "0")
-    yield from map(plan.real_data, ("fit", "test"))
-    yield from map(plan.real_run, study.real.learners)
-    yield from map(plan.real_twin, study.real.twin)
+        last = ends(searches(study, name), searches_per_job(study, name))[1]
+        yield "search", {"training": name, "chunk": last}
+        yield "search_sample", {"training": name}
+    for learner, series in plan.ensemble.items():
+        for name, its in series.items():
+            last = ends(its.draws, plan.draws_per_job)[1]
+            yield "ensemble_chunk", {"series": name, "learner": learner, "chunk": last}
+    yield from (("benchmark_run", {"learner": learner}) for learner in study.benchmark.learners)
+    yield from (("real_data", {"part": part}) for part in ("fit", "test"))
+    yield from (("real_run", {"learner": learner}) for learner in study.real.learners)
+    yield from (("real_twin", {"learner": learner}) for learner in study.real.twin)
 
 
-def assert_sense(study: Study) -> None:
+def ends(total: int, size: int) -> tuple[int, int]:
+    """The first chunk and the last one, which hold all."""
+    numbers = chunks(total, size)
+    assert bounds(numbers[0], total, size)["first"] == 0
+    assert bounds(numbers[-1], total, size)["last"] == total
+    return numbers[0], numbers[-1]
+
+
+def assert_sense(study: Study, rules: Rules) -> None:
     """All jobs can be made and travel, and what they would draw and measure is something."""
-    for job in jobs_of(study):
-        text = job.model_dump_json()
+    for rule, wildcards in jobs_of(study):
+        text = rules.text(study, rule, **wildcards)
         assert "NaN" not in text and "Infinity" not in text
         json.loads(text)
-    trainings, layout = Trainings(study), Layout(root_of(study.name))
+    trainings = Trainings(study)
 
     def request():
-        return Request(study, trainings, layout, layout.searched)
+        return Request(study, trainings, root_of(study.name), "search/{}.csv".format)
 
     assert "figure2" in drawn(study, request)
     if study.experiments.evidence:
-        assert judging(request).inputs
+        assert judging(request)
     its = study.training
     for learner in {learner for _, learner in trainings.runs}:
-        iterations = rules(study, learner).iterations
+        iterations = rules_named(study, learner).iterations
         grid = measuring_grid(
             iterations, its.measure_every, its.measure_evenly, min(its.measurements, 100)
         )
@@ -177,7 +189,7 @@ def assert_sense(study: Study) -> None:
         budgets = [*study.benchmark.moves, *study.benchmark.longer]
         assert len(budgets) == len({*budgets})
         if learner not in PEERS:
-            most = MOVES * rules(study, learner).iterations
+            most = MOVES * rules_named(study, learner).iterations
             assert [each for each in budgets if each % MOVES == 0 and each <= most]
     learner = rules_of(next(iter(study.learners.values())))
     trials = draw(learner, study.search.ranges.model_dump(), 2, np.random.default_rng(1))
@@ -194,7 +206,7 @@ def test_thousands_of_settings_are_tried():
 
 
 @pytest.mark.parametrize("key", TREE)
-def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypatch):
+def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, rules, monkeypatch):
     monkeypatch.chdir(ROOT)
     accepted, wrong = 0, []
     for path, value in settings(key):
@@ -202,7 +214,7 @@ def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypa
             study = read_study(
                 SHIPPED, overlay(path, value), checks=(check, partial(named_files, ROOT), robots)
             )
-            assert_sense(study)
+            assert_sense(study, rules)
             accepted += 1
         except InvalidConfiguration as error:
             unclear = [line for line in error.mistakes if not REFUSAL.fullmatch(line)]

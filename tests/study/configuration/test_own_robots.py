@@ -11,7 +11,6 @@ import yaml
 from recalib.meshes import mesh_files
 from recalib.nominal.arms import find_urdf, load_arm
 from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.plan import Plan
 from recalib.study.studies import read_studies
 from tests.conftest import ROOT
 
@@ -107,13 +106,22 @@ def edit(path: Path, old: bytes, new: bytes) -> None:
     os.utime(path, ns=(date.st_atime_ns, date.st_mtime_ns))
 
 
-def test_an_edited_urdf_is_planned_again_whatever_its_date(copied, tmp_path):
+def asked(rules, study) -> tuple[str, str, str]:
+    """The arguments of its jobs."""
+    return (
+        rules.text(study, "scenario", scenario="intact"),
+        rules.text(study, "assignments", robot="mine"),
+        rules.text(study, "recording", recording="intact"),
+    )
+
+
+def test_an_edited_urdf_is_asked_for_again_whatever_its_date(copied, rules, tmp_path):
     entry, package = copied
-    plan = Plan(study_of(tmp_path, entry))
-    before = plan.scenario("intact"), plan.assignments("mine"), plan.recording("intact")
+    study = study_of(tmp_path, entry)
+    before = asked(rules, study)
     edit(package / "arm.urdf", b'xyz="0', b'xyz=" 0')
-    after = plan.scenario("intact"), plan.assignments("mine"), plan.recording("intact")
-    assert before[:2] != after[:2] and before[2] == after[2]
+    after = asked(rules, study)
+    assert before[0] != after[0] and before[1] != after[1] and before[2] == after[2]
 
 
 def test_a_packaged_urdf_counts_by_its_content_too(plan):
@@ -121,13 +129,14 @@ def test_a_packaged_urdf_counts_by_its_content_too(plan):
     assert len(digests) == 5
 
 
-def test_an_edited_mesh_is_recorded_again_and_nothing_else(copied, tmp_path):
+def test_an_edited_mesh_is_recorded_again_and_nothing_else(copied, rules, tmp_path):
     entry, package = copied
-    plan, meshes = Plan(study_of(tmp_path, entry)), mesh_files(package / "arm.urdf")
+    study, meshes = study_of(tmp_path, entry), mesh_files(package / "arm.urdf")
     assert len(meshes) == 7 and all(path.is_relative_to(package) for path in meshes)
-    before = plan.scenario("intact"), plan.recording("intact")
+    before = asked(rules, study)
     edit(meshes[0], b"0", b"1")
-    assert plan.scenario("intact") == before[0] and plan.recording("intact") != before[1]
+    after = asked(rules, study)
+    assert before[:2] == after[:2] and before[2] != after[2]
 
 
 def test_an_edited_urdf_that_no_longer_serves_its_workspace_is_refused_at_once(copied, tmp_path):

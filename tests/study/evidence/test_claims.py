@@ -2,21 +2,23 @@
 
 import json
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study.evidence.claims import CLAIMS, judging, missing
+from recalib.errors import UnknownName
+from recalib.study.evidence.claims import CLAIMS, figure_1, judging, maps, missing
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.factor import CELLS
-from recalib.study.evidence.needs import Needs
 from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.layout import REFERENCE
 from recalib.study.measured import ERRORS
+from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
-from tests.made_up import INITIAL, LUCK, REPLICATES, MadeUp, few_resamples
+from tests.made_up import INITIAL, LUCK, REPLICATES, MadeUp, few_resamples, without_one
 
 IDS = [claim.id for claim in CLAIMS]
 
@@ -161,31 +163,21 @@ def test_limits_are_said_in_words():
 
 @few_resamples()
 def test_a_claim_sees_what_it_declared_and_nothing_else(supporting):
-    job = judging(supporting.request)
+    claims = judging(supporting.request)
     for claim in CLAIMS:
-        needs = supporting.made(job.claims[claim.id])
-        for path in needs.files:
-            without = tuple(each for each in needs.files if each != path)
-            with pytest.raises(Undeclared, match=path):
-                claim.judge(Evidence(needs.model_copy(update={"files": without})))
-        for learner in needs.samples:
-            left = {name: path for name, path in needs.samples.items() if name != learner}
-            with pytest.raises(Undeclared, match=learner):
-                claim.judge(Evidence(needs.model_copy(update={"samples": left})))
-        for fact in needs.facts:
-            left = {name: value for name, value in needs.facts.items() if name != fact}
-            with pytest.raises((Undeclared, KeyError), match=fact):
-                claim.judge(Evidence(needs.model_copy(update={"facts": left})))
+        for name, less in without_one(supporting.made(claims[claim.id])):
+            with pytest.raises((Undeclared, KeyError), match=name):
+                claim.judge(less)
 
 
-def test_needs_travel_as_text(supporting):
-    needs = judging(supporting.request).claims["speed-up"]
-    assert Needs.model_validate_json(needs.model_dump_json()) == needs
+def test_evidence_travels_as_text(supporting):
+    evidence = judging(supporting.request)["speed-up"]
+    assert Evidence.model_validate_json(evidence.model_dump_json()) == evidence
 
 
 def test_a_text_may_use_every_limit_in_every_way_that_it_does(supporting):
     for claim in CLAIMS:
-        facts = supporting.needs(claim.ask).facts
+        facts = supporting.evidence(claim.ask).facts
         for text in (claim.statement, claim.criterion, claim.reason, claim.published):
             assert "{" not in text.format(**claim.limits, **facts)
 
@@ -235,7 +227,7 @@ def test_the_mean_over_the_setups_decides_but_never_against_the_reference_study(
         luck = LUCK * np.resize([-1.0, 1.0], REPLICATES)  # none on average: 0 or 1 is inside
         values = reference * np.exp(luck) if across.logarithmic else reference + luck
         table = made_up.reference().assign(**{across.column: values})
-        made_up.write(made_up.layout.shipped(REFERENCE), table)
+        made_up.write(REFERENCE, table)
         made_up.campaign(outcomes=made_up.outcomes({across.column: setups}))
         return made_up.verdict(claim.id)
 
@@ -258,7 +250,7 @@ def test_contradicting_measurements_change_the_verdict(few, tmp_path):
         ("expected-learning", "visits", made_up.visits().assign(ratio=1.2, error=0.1)),
         ("controller-kept", "replay", made_up.replay().assign(difference=1e-9)),
     ):
-        made_up.write(made_up.layout.mapping(name), table)
+        made_up.write(f"mapping/{name}.parquet", table)
         assert made_up.verdict(claim) == "contradicted", claim
 
 
@@ -266,14 +258,14 @@ def test_a_grid_has_to_be_near_to_the_least_that_is_known(few, tmp_path):
     made_up = MadeUp(tmp_path, few)
     table = made_up.quantisation()
     table.loc[table["placement"] == "kmeans", "distance"] *= 0.8
-    made_up.write(made_up.layout.mapping("quantisation"), table)
+    made_up.write("mapping/quantisation.parquet", table)
     assert made_up.verdict("grid") == "contradicted"
 
 
 def test_a_condition_that_is_met_nowhere_decides_nothing(few, tmp_path):
     made_up = MadeUp(tmp_path, few)
     table = made_up.propagation(1.0).assign(to_original=0.9)
-    made_up.write(made_up.layout.mapping("propagation"), table)
+    made_up.write("mapping/propagation.parquet", table)
     judged = made_up.judged("theta-reason")
     assert judged["verdict"] == "undecided"
     json.dumps(judged, allow_nan=False)
@@ -290,7 +282,7 @@ def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, b
         rows.append(("theta", "damaged", 1.0, 1.0, updated, *ends))
     columns = ["kind", "start", "scale", "classic", "updated", "to_original", "to_constant"]
     table = pd.DataFrame(rows, columns=columns)
-    made_up.write(made_up.layout.mapping("propagation"), table)
+    made_up.write("mapping/propagation.parquet", table)
     judged = made_up.judged("theta-reason")
     assert judged["verdict"] == verdict
     assert [*judged["measured"].values()] == pytest.approx([better / 100, 2 / 3, 0], abs=1e-4)
@@ -307,7 +299,7 @@ def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, b
 def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, ratio, error, verdict):
     made_up = MadeUp(tmp_path, few)
     visits = made_up.visits().assign(ratio=ratio, error=error)
-    made_up.write(made_up.layout.mapping("visits"), visits)
+    made_up.write("mapping/visits.parquet", visits)
     assert made_up.verdict("expected-learning") == verdict
 
 
@@ -407,7 +399,20 @@ def test_adding_a_claim_touches_its_file_and_the_list_alone(supporting):
             verdict=Verdict.SUPPORTED, numbers={"n": evidence.fact("iterations")}
         ),
     )
-    judged = claim.judge(Evidence(supporting.needs(claim.ask)))
+    judged = claim.judge(supporting.evidence(claim.ask))
     assert judged["statement"] == "There are 200." and judged["criterion"] == "At most 1000."
     assert (judged["verdict"], judged["published"]) == ("supported", "no number")
     assert judged["universes"] == {"status": "cannot vary"} and judged["measured"] == {"n": 200}
+
+
+@pytest.mark.parametrize("claim", [figure_1.CLAIM, maps.SEPARATE], ids=lambda claim: claim.id)
+def test_a_system_that_nobody_measures_is_named(claim):
+    """A mistyped label had no reference, and the setups were judged without one."""
+    finding = Finding({name: Estimate(0.5, 0.4, 0.6) for name in claim.across})
+    first, *others = claim.across
+    across = {f"{first}s": claim.across[first]} | {name: claim.across[name] for name in others}
+    mistyped = replace(claim, across=across, measure=lambda *_: finding)
+    evidence = SimpleNamespace(setups=lambda table: None, facts={"iterations": 200})
+    with pytest.raises(UnknownName, match=f"{claim.id} .*{first}s.*did you mean {first}"):
+        mistyped.judge(evidence)
+    assert replace(mistyped, across=claim.across).judge(evidence)["verdict"]

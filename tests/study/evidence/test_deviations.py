@@ -20,8 +20,7 @@ from recalib.study.evidence.deviations import (
     needs,
 )
 from recalib.study.evidence.pages import render
-from recalib.study.evidence.results import Evidence
-from recalib.study.layout import DESIGN, DEVIATIONS
+from recalib.study.shipped import DESIGN, DEVIATIONS
 from tests.conftest import ROOT
 
 FILE = ROOT / "workflow" / "deviations.yaml"
@@ -132,7 +131,7 @@ def test_every_claim_of_today_stands_for_a_claim_before_or_is_new(told):
 
 
 def test_the_page_has_each_change_and_each_verdict_before_and_now(made_up, told):
-    said = context(Evidence(made_up.needs(needs)))
+    said = context(made_up.evidence(needs))
     page = render(ROOT / "workflow" / "templates" / "deviations.md.j2", said)
     assert re.findall(r"^## (.+)$", page, re.MULTILINE)[:-1] == [
         each.what for each in told.deviations

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.study import shipped
 from recalib.study.evidence.factor import (
     ANEW,
     CELLS,
@@ -15,7 +16,6 @@ from recalib.study.evidence.factor import (
     on_the_way,
     watched,
 )
-from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.measured import ERRORS
 from recalib.study.multiverse.efforts import rough
@@ -26,7 +26,7 @@ from tests.made_up import MadeUp
 def needs(ask):
     for learner in ("improved", *CELLS):
         ask.ladder(learner)
-    ask.efforts()
+    ask.shipped(shipped.EFFORTS)
     for fact in ("iterations", "seed"):
         ask.fact(fact)
 
@@ -34,7 +34,7 @@ def needs(ask):
 @pytest.fixture(scope="module")
 def table(few, tmp_path_factory):
     made_up = MadeUp(tmp_path_factory.mktemp("factor"), few)
-    rows = factor_table(Evidence(made_up.needs(needs)))
+    rows = factor_table(made_up.evidence(needs))
     return {(row["cells"], row["effort"], row["definition"]): row for row in rows}
 
 

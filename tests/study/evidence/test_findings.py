@@ -18,7 +18,6 @@ from recalib.study.evidence.findings import (
     context,
     needs,
 )
-from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS
 
 
@@ -120,7 +119,7 @@ def test_what_is_said_of_a_claim_besides_is_its_own():
 
 def test_the_rest_is_counted_in_the_results(made_up):
     """A hundred trials of each search were made up."""
-    said = context(Evidence(made_up.needs(needs)))
+    said = context(made_up.evidence(needs))
     assert (said["trials"], said["searches"]) == (100, 4)
     assert (said["iterations"], said["ritter_iterations"]) == (200, 10_000)
     assert said["scaled_robots"] == said["ensemble"]["robots"] == 12

@@ -3,13 +3,12 @@
 import yaml
 
 from recalib.study.evidence.needs import FACTS, Request
-from recalib.study.layout import Layout
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
 
 
 def facts(study) -> dict:
-    ask = Request(study, Trainings(study), Layout("results"), str)
+    ask = Request(study, Trainings(study), "results", str)
     return {name: ask.fact(name) for name in FACTS}
 
 

@@ -6,8 +6,6 @@ from recalib.study.configuration.reading import read_study
 from recalib.study.evidence.claims import CLAIMS, judging
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.outcome import needs, outcome
-from recalib.study.evidence.results import Evidence
-from recalib.study.layout import Layout
 from recalib.study.studies import CONFIGURATION, OTHERS, layers_of
 from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
@@ -20,8 +18,8 @@ def judged(name: str) -> set[str]:
     known = sorted((ROOT / OTHERS).glob("*.yaml"))
     path = next((path for path in known if path.stem == name), None)
     layers = layers_of(path, known) if path else []
-    study, layout = read_study(ROOT / CONFIGURATION, *layers), Layout("results")
-    return {*judging(lambda: Request(study, Trainings(study), layout, layout.searched)).claims}
+    study = read_study(ROOT / CONFIGURATION, *layers)
+    return {*judging(lambda: Request(study, Trainings(study), "results", str))}
 
 
 @pytest.mark.parametrize(
@@ -42,10 +40,10 @@ def test_the_shipped_study_judges_all():
 
 
 def test_errors_and_verdicts_are_said_and_where_to_look(made_up):
-    evidence = Evidence(made_up.needs(needs))
+    evidence = made_up.evidence(needs)
     text = outcome(evidence)
     assert text.startswith("results: UR10, forearm_link 4 cm\n")
-    for row in evidence.summary().itertuples():
+    for row in evidence.table("summary.csv").itertuples():
         assert row.scenario in text and f"{row.final_position_error_cm:.2f} cm" in text
     words = " ".join(text.split())
     verdicts = [claim["verdict"] for claim in evidence.claims()]

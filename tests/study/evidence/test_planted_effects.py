@@ -7,8 +7,8 @@ from scipy.stats import binom
 
 from recalib.study import statistics
 from recalib.study.evidence import effects
-from recalib.study.layout import DESIGN, REFERENCE
 from recalib.study.multiverse.power import LUCK
+from recalib.study.shipped import DESIGN, REFERENCE
 from recalib.study.statistics import LEVEL
 from tests.conftest import ROOT
 from tests.made_up import REPLICATES, MadeUp
@@ -42,7 +42,7 @@ def verdicts(study, tmp_path, monkeypatch):
             reference = planted(plain[0], ratio, LUCK["full"], (REPLICATES, 1), random)
             size = study.universes.count, study.universes.replicates
             outcomes = planted(plain[1], ratio, luck, size, random)
-            made_up.write(made_up.layout.shipped(REFERENCE), reference)
+            made_up.write(REFERENCE, reference)
             made_up.campaign(outcomes=outcomes, horizon=plain[2])
             systems = made_up.judged(CLAIM)["systems"]
             found += [its["verdict"] for its in systems.values()]

@@ -1,19 +1,18 @@
 """The texts of the report's pages, without a browser: test_report.py looks at them in one."""
 
-import json
-
 import pytest
 
 from recalib.study.evidence import report
-from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.results import Undeclared
 from recalib.study.plots.registry import FIGURES, drawn
 from tests.conftest import ROOT
+from tests.made_up import without_one
 
 
 @pytest.fixture
 def known(made_up, monkeypatch) -> dict:
     monkeypatch.chdir(ROOT)
-    return report.context(Evidence(made_up.needs(report.needs)))
+    return report.context(made_up.evidence(report.needs))
 
 
 @pytest.fixture
@@ -66,16 +65,16 @@ def test_a_page_of_docs_is_drawn_into_the_report_and_its_links_lead_nowhere_else
 
 
 def test_a_report_reads_what_it_declares_and_nothing_else(made_up):
-    needs = made_up.needs(report.needs)
-    for path in needs.files:
-        less = needs.model_copy(update={"files": tuple(p for p in needs.files if p != path)})
-        with pytest.raises(Undeclared):
-            report.context(Evidence(less))
+    evidence = made_up.evidence(report.needs)
+    for name, less in without_one(evidence):
+        if name in evidence.files:
+            with pytest.raises(Undeclared):
+                report.context(less)
 
 
 def test_every_fact_of_the_report_is_said_by_a_page(made_up):
     texts = "".join(path.read_text() for path in (ROOT / report.TEXTS).glob("*.*"))
-    facts = json.loads(made_up.needs(report.needs).model_dump_json())["facts"]
+    facts = made_up.evidence(report.needs).facts
     assert [fact for fact in facts if fact not in texts] == []
 
 

@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study import jobs
 from recalib.study.evidence.benchmark import errors, reached, seconds
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.guidance import moves_text
@@ -12,9 +11,7 @@ from recalib.study.evidence.real import ERROR, real_errors
 from recalib.study.measured import ERRORS, errors_of
 
 SEEDS = 21
-JOB = jobs.BenchmarkTable(
-    scenarios=("sag", "noise"), learners=("hybrid", "improved"), thresholds=(1.0, 0.1), seed=7
-)
+SCENARIOS, LEARNERS = ("sag", "noise"), ("hybrid", "improved")
 
 
 @pytest.fixture(scope="module")
@@ -36,10 +33,10 @@ def history() -> pd.DataFrame:
 
 
 def test_errors_are_means_over_seeds_at_each_budget(history):
-    table = errors(JOB, history)
+    table = errors(history, SCENARIOS, LEARNERS, seed=7)
     assert len(table) == 2 * 2 * 30
     keys = table[["scenario", "learner"]].drop_duplicates().to_numpy().tolist()
-    assert keys == [[one, other] for one in JOB.scenarios for other in JOB.learners]
+    assert keys == [[one, other] for one in SCENARIOS for other in LEARNERS]
     row = table[(table["learner"] == "improved") & (table["moves"] == 10)].iloc[0]
     assert row["seeds"] == SEEDS and row[ERRORS[0]] == 12 and row[ERRORS[1]] == 5
     assert 12 - 3.2 < row[f"{ERRORS[0]}_low"] < 12 - 1.5
@@ -48,7 +45,7 @@ def test_errors_are_means_over_seeds_at_each_budget(history):
 
 
 def test_moves_to_a_threshold_are_a_median_between_the_5th_and_the_95th_percentile(history):
-    table = reached(JOB, history)
+    table = reached(history, SCENARIOS, LEARNERS, (1.0, 0.1))
     assert len(table) == 2 * 2 * 2 * 2
     by = table.set_index(["scenario", "learner", "error", "threshold"])
     row = by.loc[("sag", "hybrid", ERRORS[0], 1.0)]
@@ -81,7 +78,7 @@ def test_moves_are_said_of_the_slower_error(moves, low, high, text):
 def test_errors_on_the_real_arm_are_means_over_subsets():
     runs = pd.DataFrame({"learner": ["b"] * 4 + ["a"] * 3, "poses": [5, 5, 5, 10, 5, 5, 5]})
     runs[ERROR] = [1.0, 2, 6, 4, 7, 8, 9]
-    table = real_errors(jobs.RealTable(seed=1), runs)
+    table = real_errors(runs, seed=1)
     assert table[["learner", "poses", "subsets"]].to_numpy().tolist() == [
         ["b", 5, 3],
         ["b", 10, 1],

@@ -12,7 +12,7 @@ from recalib.study.mapping.propagation import (
     propagation_errors,
 )
 from recalib.study.mapping.visits import visits
-from recalib.study.plants import resolve
+from workflow.scripts.call import write
 
 
 def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):
@@ -104,7 +104,7 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
 
 
 def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
-    table = visits(np.random.default_rng(2), [0.2], [0.0, 1.0], samples=400_000)
+    table = visits(2, [0.2], [0.0, 1.0], samples=400_000)
     assert table["ratio"].tolist() == pytest.approx([0.5, 1.0], abs=4 * table["error"].max())
 
 
@@ -129,13 +129,12 @@ def test_a_scale_with_a_ball_that_cannot_be_commanded_is_left_out():
 def test_both_measurements_see_the_scenarios_as_resolved(study, plan, tmp_path):
     """The whole of the job: files in, tables out, for a damage as slight and as large as it is."""
     path = tmp_path / "links.json"
-    resolve(plan.scenario("translation"), []).write(path)
+    write(path, plan.resolved("translation"))
     few = study.mapping.model_copy(update={"poses": 3, "balls": 2, "points": 4, "scales": (1.0,)})
-    job = plan.true_mapping().model_copy(update={"plan": few})
-    table = couplings(job, [path])
+    table = couplings([path], few.poses, study.seed)
     assert table["scenario"].tolist() == ["translation"] * 3
     assert table["position"].max() < 1e-6, "a rigid shift does not couple"
-    both = propagation(job, path)
+    both = propagation(path, few.balls, few.points, few.radius, few.scales, study.seed)
     assert len(both) == 2 * 2 * 2 and set(both["start"]) == {"intact", "damaged"}
     names = ["classic", "updated", "to_original", "to_constant"]
     assert list(both) == ["scale", "start", "kind", *names]

@@ -14,15 +14,16 @@ from recalib.nominal.poses import pose_errors
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.universes import Factors
 from recalib.study.experiments.settings import rules_of
-from recalib.study.layout import DESIGN
 from recalib.study.multiverse import homes
-from recalib.study.multiverse.design import read_design, write_design
+from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.drawing import draw, draw_design, moved
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import metric, universe, wider, width_units
 from recalib.study.plants import nominal_controller, nominal_robot
+from recalib.study.shipped import DESIGN
+from recalib.study.trainings import budget
 from tests.conftest import ROOT, changed
 
 FACTORS = list(Factors.model_fields)
@@ -70,8 +71,8 @@ def test_no_factor_passes_for_another_in_the_setups_of_the_horizon(study, design
         assert abs(np.mean(signs[pair[0]] * signs[pair[1]])) < 0.5, pair
 
 
-def test_the_shipped_design_is_drawn_again_byte_by_byte(plan, design, tmp_path):
-    job = plan.design()
+def test_the_shipped_design_is_drawn_again_byte_by_byte(plan, rules, design):
+    job = rules.arguments(plan.study, "design")["setting"]
     sequence = {row.number: row for row in rows(job.plan)}
     for each in design:
         levels = {name: str(level) for name, level in sequence[each.row].levels.items()}
@@ -79,12 +80,12 @@ def test_the_shipped_design_is_drawn_again_byte_by_byte(plan, design, tmp_path):
     again = list(design)
     for each in design[3::29]:  # all of them take a minute
         again[each.universe] = draw(job, each.universe, sequence[each.row])
-    write_design(tmp_path / "again.csv", again)
-    assert (tmp_path / "again.csv").read_bytes() == (ROOT / DESIGN).read_bytes()
+    text = pd.DataFrame([each.as_row() for each in again]).to_csv(index=False)
+    assert text.encode() == (ROOT / DESIGN).read_bytes()
 
 
-def test_what_a_robot_refuses_is_replaced_by_the_next_row(plan):
-    job = plan.design()
+def test_what_a_robot_refuses_is_replaced_by_the_next_row(plan, rules):
+    job = rules.arguments(plan.study, "design")["setting"]
     factors = job.plan.factors.model_copy(update={"home": ("configured",), "assignment": ("any",)})
     few = job.plan.model_copy(update={"count": 2, "factors": factors})
     first = list(islice(rows(few), 4))
@@ -97,8 +98,8 @@ def test_what_a_robot_refuses_is_replaced_by_the_next_row(plan):
     assert [(each.universe, each.row) for each in draw_design(job)] == list(enumerate(expected))
 
 
-def test_a_design_that_no_robot_serves_says_so(plan):
-    job = plan.design()
+def test_a_design_that_no_robot_serves_says_so(plan, rules):
+    job = rules.arguments(plan.study, "design")["setting"]
     strict = job.robots[0].controller.model_copy(update={"greatest_condition": 1.1})
     robots = tuple(each.model_copy(update={"controller": strict}) for each in job.robots)
     factors = job.plan.factors.model_copy(update={"home": ("configured",)})
@@ -217,19 +218,19 @@ def test_the_first_levels_are_what_the_reference_study_does(study, plan, design)
     nominal = plan.nominal(study.robot)
     assert its.nominal.robot.model_copy(update={"home": nominal.robot.home}) == nominal.robot
     assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
-    assert its.budget.model_copy(update={"seed": study.search.seed}) == plan.budget()
+    assert its.budget.model_copy(update={"seed": study.search.seed}) == budget(study)
     for name in ("improved", "ritter"):
         rules = rules_of(study.learners[name])
         assert rules_in(its, name) == replace(rules, rate=rules.law_of_rate)
 
 
-def test_the_first_campaign_is_still_read_and_drawn_the_same(plan):
+def test_the_first_campaign_is_still_read_and_drawn_the_same(plan, rules):
     """Its factors are fewer: the others had their first levels."""
     path = ROOT / "workflow" / "universes" / "first" / "design.csv"
     first = read_design(path)
     assert len(first) == len(pd.read_csv(path.with_name("outcomes.csv"))) == 128
     assert set(first[0].levels) - {"budget"} < set(FACTORS)
-    job = plan.design()
+    job = rules.arguments(plan.study, "design")["setting"]
     job = job.model_copy(update={"plan": job.plan.model_copy(update={"seed": 1})})
     new = {name: str(levels[0]) for name, levels in job.plan.factors}
     for each in [its for its in first if its.levels["assignment"] == "nearest"][::29]:

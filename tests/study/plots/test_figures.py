@@ -8,19 +8,26 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from recalib.study.evidence.findings import figures as figures_of_findings
-from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.results import Undeclared
 from recalib.study.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
-from recalib.study.plots.registry import FIGURES, draw, drawn, needs_of
+from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
 from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
-from tests.made_up import NOISE, OF_SEARCHES, MadeUp, few_resamples
+from tests.made_up import (
+    NOISE,
+    OF_SEARCHES,
+    MadeUp,
+    evidence_of,
+    few_resamples,
+    without_one,
+)
 
 
-def bytes_of(figure: str, needs, folder, suffixes=(".svg", ".png")) -> list[bytes]:
+def bytes_of(figure: str, evidence, folder, suffixes=(".svg", ".png")) -> list[bytes]:
     paths = [folder / f"{figure}{suffix}" for suffix in suffixes]
     with plt.rc_context(STYLE):
-        save(draw(figure, Evidence(needs)), *paths)
+        save(draw(figure, evidence), *paths)
     return [path.read_bytes() for path in paths]
 
 
@@ -28,25 +35,23 @@ def bytes_of(figure: str, needs, folder, suffixes=(".svg", ".png")) -> list[byte
 @few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
 def test_noise_in_the_last_digits_changes_no_byte(figure, made_up, disturbed, tmp_path):
-    needs = (needs_of(figure, results.request) for results in (made_up, disturbed))
-    first, again = (bytes_of(figure, its, tmp_path) for its in needs)
+    evidence = (evidence_of(figure, results) for results in (made_up, disturbed))
+    first, again = (bytes_of(figure, its, tmp_path) for its in evidence)
     assert first == again and min(map(len, first)) > 5000
 
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_figure_reads_what_it_declares_and_nothing_else(figure, made_up, tmp_path):
-    needs = needs_of(figure, made_up.request)
+    evidence = evidence_of(figure, made_up)
     # of a table in pieces, those are read that are declared
-    whole = [path for path in needs.files if "/horizon_" not in path and "/outcomes_" not in path]
-    cases = [{"files": tuple(p for p in needs.files if p != path)} for path in whole[:3]]
-    for kind in ("facts", "samples"):
-        its = getattr(needs, kind)
-        cases += [{kind: {k: v for k, v in its.items() if k != key}} for key in its]
-    for case in cases:
-        less = needs.model_copy(update=case)
-        with pytest.raises(Undeclared), plt.rc_context(STYLE):
-            draw(figure, Evidence(less))
-        plt.close("all")
+    whole = [
+        name for name in evidence.files if "/horizon_" not in name and "/outcomes_" not in name
+    ]
+    for name, less in without_one(evidence):
+        if name in whole[:3] or name in evidence.facts:
+            with pytest.raises(Undeclared), plt.rc_context(STYLE):
+                draw(figure, less)
+            plt.close("all")
 
 
 def smaller(study, learners, **update):
@@ -84,14 +89,14 @@ def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, upda
     made_up = MadeUp(tmp_path, its)
     assert drawn(its, made_up.request) == figures
     for figure in figures:
-        bytes_of(figure, made_up.needs(FIGURES[figure].needs), tmp_path)
+        bytes_of(figure, made_up.evidence(FIGURES[figure].needs), tmp_path)
 
 
 def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
     its = smaller(few, ("improved", "ritter_200"), beside=("ritter_double_200", "ritter_double"))
     made_up = MadeUp(tmp_path, its, {"ritter_double_200": 0.2})
     with plt.rc_context(STYLE):
-        figure = draw("figure4", Evidence(made_up.needs(FIGURES["figure4"].needs)))
+        figure = draw("figure4", made_up.evidence(FIGURES["figure4"].needs))
     axes = figure.axes[0]
     labels = [label.get_text() for label in axes.get_yticklabels()]
     assert labels == ["ritter double 200,\nanother learner"], "10,000 iterations are not compared"
@@ -105,7 +110,7 @@ def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
 def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
     made_up = MadeUp(tmp_path, smaller(few, ("improved",)))
     with plt.rc_context(STYLE):
-        figure = draw("figure1", Evidence(made_up.needs(FIGURES["figure1"].needs)))
+        figure = draw("figure1", made_up.evidence(FIGURES["figure1"].needs))
     assert "UR10, forearm_link 4 cm" in figure.get_suptitle()
     plt.close(figure)
 
@@ -116,7 +121,7 @@ def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
 def drawing(request, made_up):
     """A figure of results, drawn."""
     with plt.rc_context(STYLE):
-        its = draw(request.param, Evidence(needs_of(request.param, made_up.request)))
+        its = draw(request.param, evidence_of(request.param, made_up))
         its.draw_without_rendering()
     yield its
     plt.close(its)
@@ -150,7 +155,7 @@ def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
 @pytest.mark.parametrize("figure", [name for name in FIGURES if name != "figure8"])
 def test_every_colour_of_a_figure_has_its_meaning(figure, made_up, tmp_path):
     """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
-    (svg,) = bytes_of(figure, needs_of(figure, made_up.request), tmp_path, [".svg"])
+    (svg,) = bytes_of(figure, evidence_of(figure, made_up), tmp_path, [".svg"])
     known = [style.color for style in STYLES.values()] + [color for color, _ in OTHER.values()]
     known += [color for color, _ in UNKNOWN] + [error.color for error in BOTH]
     known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]

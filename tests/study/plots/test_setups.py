@@ -11,12 +11,11 @@ from matplotlib.text import Text
 from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.configuration.universes import Factors
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.results import Evidence
-from recalib.study.layout import DESIGN
-from recalib.study.plots.registry import draw, drawn, needs_of, possible
+from recalib.study.plots.registry import draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt
+from recalib.study.shipped import DESIGN, REFERENCE
 from tests.conftest import ROOT
-from tests.made_up import MadeUp, few_resamples
+from tests.made_up import MadeUp, evidence_of, few_resamples
 
 PAGE = 830  # pixels: as wide as pages show figures
 LEAST = 9  # pixels
@@ -46,7 +45,7 @@ def figures(planted):
     found = {}
     with plt.rc_context(STYLE), few_resamples():
         for name in LEGIBLE:
-            found[name] = draw(name, Evidence(needs_of(name, planted.request)))
+            found[name] = draw(name, evidence_of(name, planted))
     yield found
     plt.close("all")
 
@@ -88,9 +87,7 @@ def said(figure) -> str:
 
 
 def test_figure_14_judges_as_the_claims_do(figures, planted):
-    judged = {
-        claim["id"]: claim for claim in Evidence(needs_of("figure14", planted.request)).claims()
-    }
+    judged = {claim["id"]: claim for claim in evidence_of("figure14", planted).claims()}
     assert judged["schedule"]["systems"]["improved system"]["verdict"] == "no effect"
     verdicts = [
         judged[claim.id]["systems"][system]["verdict"]
@@ -107,7 +104,7 @@ def test_figure_14_judges_as_the_claims_do(figures, planted):
 
 
 def test_figure_14_counts_setups_only_where_luck_is_small(figures, planted):
-    evidence = Evidence(needs_of("figure14", planted.request))
+    evidence = evidence_of("figure14", planted)
     models = [its for claim in CLAIMS for its in claim.setups(evidence).values()]
     counted = sum(its.holds is not None for its in models)
     assert 0 < counted < len(models)
@@ -121,7 +118,7 @@ def test_figure_14_says_of_how_many_setups_a_number_is_known(figures, planted):
 
 
 def test_figure_15_names_the_planted_choice_in_words(figures, planted):
-    evidence = Evidence(needs_of("figure15", planted.request))
+    evidence = evidence_of("figure15", planted)
     theta = next(claim for claim in CLAIMS if claim.id == "theta-increments")
     with few_resamples():
         effects = theta.setups(evidence)["improved system"].effects(
@@ -156,7 +153,7 @@ def test_figures_of_setups_are_drawn_once_all_are_measured(few, tmp_path):
 
 
 def test_the_bar_of_separate_maps_is_the_nested_comparison(figures, planted):
-    reference = Evidence(needs_of("figure4", planted.request)).reference()
+    reference = evidence_of("figure4", planted).table(REFERENCE)
     axes = figures["figure4"].axes[0]
     assert axes.get_yticklabels()[0].get_text() == "separate maps"
     expected = {f"{np.exp(np.log(reference[column]).mean()):.2f}" for column in COLUMNS}

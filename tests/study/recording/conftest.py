@@ -11,11 +11,11 @@ from recalib.damaged.nongeometric import Sag
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
-from recalib.study import jobs
-from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plants import resolve
 from recalib.study.recording.writing import write_recording
-from recalib.training import train
+from recalib.study.recordings import Recording
+from recalib.study.trainings import Measuring
 from tests.conftest import changed
 
 SEED, ITERATIONS, TESTS = 7, 40, 30
@@ -44,14 +44,14 @@ def learners(job):
 @pytest.fixture(scope="session")
 def job(study):
     """A recording of two learners."""
-    return jobs.Recording(
+    return Recording(
         scenario="links_encoders",
         learners={
             name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
             for name in ("improved", "ritter")
         },
         moves=5,
-        measuring=jobs.Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
+        measuring=Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
         seed=SEED,
         published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
         meshes_sha256="",
@@ -64,16 +64,14 @@ def resolved(plan):
 
     def resolved(damages, **robot):
         nominal = changed(plan.nominal("ur10"), **robot)
-        fields = {"name": "links_encoders", "nominal": nominal, "poses": 2, "seed": SEED}
-        return resolve(jobs.Scenario(damages=damages, **fields))
+        return resolve("links_encoders", nominal, damages, poses=2, seed=SEED)
 
     return resolved
 
 
 def poses(runs=1):
     """What is learned from, and what is tested on."""
-    scope = SEED, "links_encoders", range(runs)
-    return campaign.desired_poses(*scope, ITERATIONS), campaign.test_poses(*scope, TESTS)
+    return Stream.SCENARIO.draw(SEED, range(runs), ITERATIONS, TESTS, scenario="links_encoders")
 
 
 @pytest.fixture(scope="session")
@@ -83,7 +81,8 @@ def results(job, resolved):
     controller = its.controller()
     for name in job.learners:
         plant = its.plant(controller, SEED, range(2))
-        frame = pd.DataFrame(train(plant, learner(name, 2), *poses(2), MEASURE_AT).columns())
+        history = train_for_results(plant, learner(name, 2), poses(2), MEASURE_AT)
+        frame = pd.DataFrame(history.columns())
         measured[name] = frame[frame["run"] == 0]
     return measured
 

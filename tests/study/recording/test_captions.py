@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from recalib.damaged.disturbances import Noise
-from recalib.study import jobs
 from recalib.study.recording import captions
 from recalib.study.recording.phases import POSES
 from recalib.study.recording.watched import REPEATED
+from recalib.study.recordings import Recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS
 
 
@@ -18,7 +18,7 @@ def test_it_keeps_its_job_its_damage_and_what_made_it(job, columns):
     def said(key):
         return columns("/__properties/run", key)[1][0][0]
 
-    assert jobs.Recording.model_validate_json(said("job")) == job
+    assert Recording.model_validate_json(said("job")) == job
     assert said("robot") == "ur10" and said("numpy") == np.__version__
     assert json.loads(said("damage"))[1] == "link forearm_link, shorten 4 cm"
 

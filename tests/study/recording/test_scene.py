@@ -8,6 +8,7 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
+from recalib.study.experiments.poses import Stream
 from recalib.study.measured import ERRORS
 from recalib.study.recording import colours, landings, markers, scene
 from recalib.study.recording.blueprint import seen_from
@@ -34,7 +35,7 @@ def test_errors_are_those_of_the_experiment_beside_the_published_ones(job, colum
 
 def test_landings_are_where_the_damaged_arm_lands(resolved, controller, recording, columns):
     """Before learning: it is sent to the desired poses themselves."""
-    shown = visiting_order(poses()[1][0, :POSES])
+    shown = visiting_order(poses().tests[0, :POSES])
     goals = controller.robot.workspace.to_poses(shown)
     (landed,), _ = resolved(DAMAGES).plant(controller, SEED, [0]).achieve(shown[None])
     training = recording[1]["improved"]
@@ -164,7 +165,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
     misses = (training.achieved[0] - training.desired)[:, :3, 3].mean(axis=0)
     made_up_for = -np.mean(arrows[-1], axis=0) @ misses
     assert made_up_for > 0.5 * misses @ misses
-    last = controller.robot.workspace.to_poses(poses()[0][0, -1])[:3, 3]
+    last = controller.robot.workspace.to_poses(poses().desired[0, -1])[:3, 3]
     winner = np.linalg.norm(training.cells.centres - last, axis=-1).argmin()
     weights = training.cells.weights
     assert weights[-1].argmax() == winner and weights[-1, winner] == 1
@@ -190,9 +191,9 @@ def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
 def test_an_arm_of_seven_joints_is_watched_and_moved():
     robot = panda()
     damaged, controller = apply(robot, [EncoderShift("panda_joint3", 0.05)]), Controller(robot)
-    desired, tests = np.split(robot.workspace.sample(np.random.default_rng(1), 20), [5])
+    its = Stream.REPLAY.draw(1, [0], 5, 15)
     plant = Plant(controller, [damaged], None, [np.random.default_rng(2)])
-    watched = watch(controller, plant, PolynomialLearner(1, 1), desired, tests, [0, 5])
+    watched = watch(controller, plant, PolynomialLearner(1, 1), its, [0, 5])
     reached = damaged.forward(watched.angles[-1])
     np.testing.assert_allclose(reached, watched.achieved[-1], rtol=0, atol=1e-12)
     motion = motion_of(watched, robot)

@@ -11,10 +11,9 @@ from recalib import meshes
 from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
-from recalib.study import jobs
 from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign, search
-from recalib.study.experiments.samples import write_sample
+from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.phases import LEARNING, VISITS, move
@@ -22,6 +21,7 @@ from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
 from recalib.study.statistics import typical
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
+from workflow.scripts import call
 
 
 def rrd(*command):
@@ -77,13 +77,14 @@ def test_missing_meshes_leave_no_recording(job, resolved, tmp_path, monkeypatch)
 
 
 @pytest.fixture
-def sample(plan, tmp_path):
+def sample(study, tmp_path):
     """Three searches, of which the first one found the best settings, and the second the worst."""
     trials = pd.DataFrame({"search": [1, 2, 3], "initial_width": [3.8, 0.3, 1.0]})
     finals = {f"{name}/{net}": 0.3 for name in ("position", "orientation") for net in search.NETS}
     trials = trials.assign(**finals, initial_rate=0.8, final_rate=0.4, **dict.fromkeys(ERRORS, 1))
     path = tmp_path / "improved_40.csv"
-    write_sample(path, plan.sample("improved_40").model_copy(update={"searches": 3}), trials)
+    head = sought(study, "improved_40").model_copy(update={"searches": 3})
+    path.write_text(sample_of(head, trials))
     return path
 
 
@@ -92,12 +93,15 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
 ):
     disturbed = *DAMAGES, Outliers(0.3, 0.05), Repeatability(0.0003)
     scenario, other = tmp_path / "disturbed.json", tmp_path / "undisturbed.json"
-    resolved(disturbed).write(scenario)
-    resolved(DAMAGES[:-1]).write(other)
+    call.write(scenario, resolved(disturbed))
+    call.write(other, resolved(DAMAGES[:-1]))
     job = job.model_copy(update={"learners": {"improved": job.learners["improved"]}})
-    training = jobs.Training(
-        scenario=job.scenario,
-        learner=job.learners["improved"],
+    history = tmp_path / "improved.parquet"
+    columns = campaign.train_seeds(
+        scenario,
+        sample,
+        tmp_path / "improved.npz",
+        job.learners["improved"],
         seeds=5,
         first=0,
         last=15,
@@ -105,8 +109,6 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
         throughout=True,
         seed=SEED,
     )
-    history = tmp_path / "improved.parquet"
-    columns, _, _ = campaign.train_seeds(training, scenario, sample)
     frame = pd.DataFrame(columns)
     frame.to_parquet(history)
     assert frame.groupby("search")["seed"].unique().map(list).tolist() == [

@@ -5,7 +5,6 @@ What changed in them after a result had been seen stands in `workflow/deviations
 
 from collections.abc import Callable
 
-from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Study
 from recalib.study.evidence.claims import (
     changes,
@@ -24,9 +23,9 @@ from recalib.study.evidence.claims import (
     rough_search,
     speed_up,
 )
-from recalib.study.evidence.needs import Needs, Request
+from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.layout import Layout, root_of
+from recalib.study.shipped import root_of
 from recalib.study.trainings import Trainings
 
 CLAIMS = (
@@ -54,41 +53,30 @@ CLAIMS = (
 )
 
 
-class Judging(Frozen):
-    """What the claims may read, by their ids."""
+def judging(request: Callable[[], Request]) -> dict[str, Evidence]:
+    """What the claims may read, each by itself, by their ids.
 
-    claims: dict[str, Needs]
-
-    @property
-    def inputs(self) -> list[str]:
-        """All files."""
-        return list(dict.fromkeys(path for needs in self.claims.values() for path in needs.inputs))
-
-
-def judging(request: Callable[[], Request]) -> Judging:
-    """What the claims need, each by itself: those of which the study's trainings tell, or all.
-
-    What was measured of the shipped study alone judges no claim of another one.
+    These are the claims of which the study's trainings tell, or all. What was measured of the
+    shipped study alone judges no claim of another one.
     """
-    needs = {}
+    found = {}
     for claim in CLAIMS:
         ask = request()
         claim.ask(ask)
         if (ask.study.experiments.evidence or ask.trained) and not ask.foreign:
-            needs[claim.id] = ask.needs
-    return Judging(claims=needs)
+            found[claim.id] = ask.evidence
+    return found
 
 
-def judge(job: Judging) -> list[dict]:
+def judge(claims: dict[str, Evidence]) -> list[dict]:
     """Each claim with what was measured and its verdict, as the contract of claims.json asks."""
-    judged = (claim for claim in CLAIMS if claim.id in job.claims)
-    return [claim.judge(Evidence(job.claims[claim.id])) for claim in judged]
+    return [claim.judge(claims[claim.id]) for claim in CLAIMS if claim.id in claims]
 
 
 def missing(study: Study) -> list[str]:
     """The keys that would have to say more for all claims to be judged, such as `learners: x`."""
-    layout, trainings = Layout(root_of(study.name)), Trainings(study)
-    ask = Request(study, trainings, layout, layout.searched)
+    root = root_of(study.name)
+    ask = Request(study, Trainings(study), root, lambda name: f"{root}/search/{name}.csv")
     for claim in CLAIMS:
         claim.ask(ask)
     return ask.lacking

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from recalib.errors import UnknownName
 from recalib.study.evidence.claims.across import (
     CANNOT_VARY,
     NOT_MEASURED,
@@ -15,6 +16,7 @@ from recalib.study.evidence.claims.across import (
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
+from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
 
 WORDS = {0.1: "tenth", 0.25: "quarter", 3.0: "three"}
@@ -127,12 +129,15 @@ class Claim:
             return
         request.fact("seed")
         if self.measure is None:
-            request.reference()
+            request.shipped(REFERENCE)
         for table in {across.table for across in self.across.values()}:
             request.setups(table)
 
     def judge(self, evidence: Evidence) -> dict:
-        """What was measured and the verdict, as the contract of claims.json has them."""
+        """What was measured and the verdict, as the contract of claims.json has them.
+
+        Raises UnknownName: a system of `across` that the study does not measure.
+        """
         finding = self.measure(evidence, self.limits) if self.measure else self._from(evidence)
         setups = self.setups(evidence)
         systems = {
@@ -167,15 +172,17 @@ class Claim:
         for system, across in self.across.items():
             outcomes = evidence.setups(across.table)
             if outcomes is not None:
-                found[system] = across.over(outcomes, evidence.design())
+                found[system] = across.over(outcomes, evidence.levels())
         return found
 
     def _from(self, evidence: Evidence) -> Finding:
-        reference = evidence.reference()
+        reference = evidence.table(REFERENCE)
         return Finding({name: its.in_reference(reference) for name, its in self.across.items()})
 
     def _verdict(self, system: str, finding: Finding, setups: Mapping[str, Setups]) -> Verdict:
         """Of a system: by the setups, or by the study itself where they are not measured."""
+        if finding.verdict is None and system not in finding.estimates:
+            raise UnknownName(f"system of the claim {self.id}", system, finding.estimates)
         estimate = finding.estimates.get(system, Estimate(np.nan, np.nan, np.nan))
         if system in setups:
             return setups[system].verdict(estimate)

@@ -5,11 +5,11 @@ from recalib.study.evidence.verdicts import Verdict
 
 
 def needs(ask):
-    ask.mapping("replay")
+    ask.files("mapping/replay.parquet")
 
 
 def measure(evidence, limits):
-    table = evidence.mapping("replay")
+    table = evidence.table("mapping/replay.parquet")
     difference = float(table["difference"].max())
     return Finding(
         verdict=Verdict.SUPPORTED if difference <= limits["difference"] else Verdict.CONTRADICTED,

@@ -7,11 +7,11 @@ SMALL = 0.3  # widths up to this one see one face of the workspace only
 
 
 def needs(ask):
-    ask.mapping("visits")
+    ask.files("mapping/visits.parquet")
 
 
 def measure(evidence, limits):
-    table = evidence.mapping("visits")
+    table = evidence.table("mapping/visits.parquet")
     away = table[table["distance"] >= limits["away"] * table["width"]]
     deviation = (away["ratio"] - 1).abs()
     agrees = (deviation <= limits["deviation"]) & (deviation <= limits["errors"] * away["error"])

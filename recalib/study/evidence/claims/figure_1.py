@@ -11,8 +11,7 @@ LEFT = Limit(0.1)
 
 def needs(ask):
     ask.history(ask.fact("improved"))
-    for fact in ("seed", "iterations"):
-        ask.fact(fact)
+    ask.facts("seed", "iterations")
 
 
 def measure(evidence, limits):

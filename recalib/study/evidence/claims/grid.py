@@ -9,11 +9,11 @@ from recalib.study.statistics import Estimate
 
 
 def needs(ask):
-    ask.mapping("quantisation")
+    ask.files("mapping/quantisation.parquet")
 
 
 def measure(evidence, limits):
-    table = evidence.mapping("quantisation")
+    table = evidence.table("mapping/quantisation.parquet")
     distances = np.log(table.pivot(index="seed", columns="placement", values="distance"))
 
     def over(placement: str) -> Estimate:

@@ -15,7 +15,7 @@ EQUAL = 1 - 1e-6  # nearer to 1, two means differ by rounding
 
 
 def needs(ask: Request) -> None:
-    ask.mapping("propagation")
+    ask.files("mapping/propagation.parquet")
 
 
 def integral_ratios(table: "pd.DataFrame") -> "pd.Series":
@@ -35,7 +35,7 @@ def integral_ratios(table: "pd.DataFrame") -> "pd.Series":
 
 def found(evidence: Evidence, limits: Mapping[str, Limit], kind: str) -> Finding:
     """In how many balls that meet the condition the new update is better."""
-    table = evidence.mapping("propagation").dropna().query("kind == @kind")
+    table = evidence.table("mapping/propagation.parquet").dropna().query("kind == @kind")
     meets = table["to_original"] < EQUAL * table["to_constant"]
     better = table["updated"] < EQUAL * table["classic"]
     numbers, verdict = {}, Verdict.UNDECIDED

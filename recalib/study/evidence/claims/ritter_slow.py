@@ -10,8 +10,7 @@ LEFT = Limit(0.25)
 
 def needs(ask):
     ask.history(ask.fact("short"))
-    for fact in ("iterations", "seed"):
-        ask.fact(fact)
+    ask.facts("iterations", "seed")
 
 
 def measure(evidence, limits):

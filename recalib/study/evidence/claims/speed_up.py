@@ -14,8 +14,7 @@ LONG = Limit(50.0)  # more than 10,000 iterations over 200
 def needs(ask):
     for learner in (IMPROVED, *CELLS):
         ask.ladder(learner)
-    for fact in ("ladder", "seed"):
-        ask.fact(fact)
+    ask.facts("ladder", "seed")
     own = ask.fact("iterations")
     if own not in ask.study.experiments.ladder.get(IMPROVED, ()):
         ask.lack(f"experiments.ladder.{IMPROVED}: {own}")

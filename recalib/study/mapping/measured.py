@@ -1,0 +1,34 @@
+"""What sections 3 to 5 say of the cells and of the true mapping, in one job."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from recalib.study.mapping.coupling import couplings
+from recalib.study.mapping.propagation import propagation
+from recalib.study.mapping.quantisation import quantisation
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def measure(
+    scenarios: list[Path],
+    own: Path,
+    poses: int,
+    balls: int,
+    points: int,
+    radius: float,
+    scales: tuple[float, ...],
+    seed: int,
+) -> "tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]":
+    """Coupling, propagation and quantisation: see `couplings`, `propagation` and `quantisation`.
+
+    Args:
+        scenarios: files of the scenarios as resolved.
+        own: that of the paper's damage.
+    """
+    return (
+        couplings(scenarios, poses, seed),
+        propagation(own, balls, points, radius, scales, seed),
+        quantisation(seed),
+    )

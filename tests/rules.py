@@ -1,0 +1,56 @@
+"""The rules of the workflow, read once: what they hand to functions, for any study."""
+
+import inspect
+import json
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+
+from snakemake.api import SnakemakeApi
+from snakemake.io import Wildcards
+from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
+
+from recalib.study.trainings import Trainings
+from tests.conftest import ROOT
+from workflow.scripts.call import checked
+
+
+class Rules:
+    """The rules, as the Snakefile in a folder has them."""
+
+    def __init__(self, folder: Path = ROOT):
+        with self.reading(folder) as api:
+            self.workflow = api._workflow
+        self.names = self.workflow.globals
+
+    @staticmethod
+    @contextmanager
+    def reading(folder: Path):
+        with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+            resources = ResourceSettings(cores=1)
+            yield api.workflow(resources, snakefile=folder / "Snakefile", workdir=folder)
+
+    def become(self, studies):
+        """From now on, these are the studies, by folder of results."""
+        self.names["STUDIES"].update(studies)
+        self.names["TRAININGS"].update({root: Trainings(its) for root, its in studies.items()})
+        self.names["sample_at"].cache_clear()
+        self.names["recording_of"].cache_clear()
+
+    def text(self, study, rule: str, **wildcards: object) -> str:
+        """The arguments of a job, as Snakemake tracks them."""
+        self.become({"results": study})
+        wildcards = Wildcards(fromdict={"root": "results"} | wildcards)
+        return self.workflow.get_rule(rule).params.arguments(wildcards)
+
+    def arguments(self, study, rule: str, **wildcards: object) -> dict:
+        """The arguments of a job, as its function gets them: without the paths of files."""
+        given = json.loads(self.text(study, rule, **wildcards))
+        module, _, name = self.workflow.get_rule(rule).params.function.rpartition(".")
+        function = getattr(import_module(module), name)
+        parameters = inspect.signature(function).parameters
+        missing = {name for name, its in parameters.items() if name not in given}
+        lists = {name for name in missing if "list" in str(parameters[name].annotation)}
+        paths = {name: [] if name in lists else "" for name in missing}
+        typed = checked(function, paths | given)
+        return {name: value for name, value in typed.items() if name in given}

@@ -1,0 +1,194 @@
+"""What settings are chosen by, no result is measured on: neither by a slip nor in any job."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.study.chunks import batches, chunks, searches_per_job
+from recalib.study.configuration.damages import Assigned
+from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, trials
+from recalib.study.experiments import poses as its
+from recalib.study.experiments.poses import (
+    ResultPoses,
+    SearchPoses,
+    Stream,
+    Use,
+    train_for_results,
+)
+from recalib.study.experiments.trials import Search, search_for
+from recalib.study.multiverse import efforts, horizon, measuring
+from recalib.study.multiverse.design import read_design
+from recalib.study.multiverse.universe import universe
+from recalib.study.plants import resolve
+from recalib.study.shipped import DESIGN, SEARCHED
+from recalib.study.trainings import Trainings, searches, seeds, training
+from recalib.training import History
+from tests.conftest import ROOT
+from tests.test_architecture import imported
+from workflow.scripts.call import write
+
+SEARCHED_ON = {"number": 1, "training": "improved_4", "scenario": "links"}
+
+
+def for_a_search():
+    return Stream.SEARCH.draw(1, [0, 1], 4, 3, **SEARCHED_ON)
+
+
+def for_results():
+    return Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario="links")
+
+
+def test_a_search_takes_no_poses_of_results():
+    with pytest.raises(TypeError, match="SearchPoses expected, ResultPoses found: links"):
+        Search(None, None, None, for_results())
+
+
+def test_results_take_no_poses_of_a_search():
+    with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 for"):
+        train_for_results(None, None, for_a_search(), [4])
+    with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 for"):
+        ResultPoses.side_by_side([for_results(), for_a_search()])
+
+
+@pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])
+def test_nobody_is_measured_where_it_learned(kind):
+    desired = for_results().desired
+    with pytest.raises(ValueError, match="links: test poses are among those to learn from"):
+        kind("links", desired, desired[:, ::-1])
+
+
+@pytest.mark.parametrize("names", [Use, Stream])
+def test_no_two_purposes_share_a_name(names):
+    """Python makes the second of two equal names another word for the first."""
+    assert len(names.__members__) == len([*names])
+
+
+@pytest.mark.parametrize("stream", Stream)
+def test_a_stream_is_of_a_search_or_of_results_by_its_name(stream):
+    drawn = stream.draw(1, [0], 4, 3, **SEARCHED_ON, replicate=0)
+    assert isinstance(drawn, SearchPoses) == drawn.name.startswith("search ")
+    assert isinstance(drawn, ResultPoses) != isinstance(drawn, SearchPoses)
+
+
+def test_results_cannot_take_the_name_of_a_search():
+    with pytest.raises(ValueError, match="SCENARIO: 'search 1 for improved_4 on links' is the"):
+        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
+
+
+def test_nobody_trains_past_the_types():
+    modules = (ROOT / "recalib" / "study").rglob("*.py")
+    train = {path.stem for path in modules if "recalib.training.train" in imported(path)}
+    assert train == {"poses"}
+
+
+class Drawn:
+    """All poses that jobs draw; nothing is trained, and nothing searched."""
+
+    def __init__(self, monkeypatch):
+        self.learned, self.tests = [], {SearchPoses: [], ResultPoses: []}
+        draw = Stream.draw
+
+        def noted(stream, *arguments, **words):
+            drawn = draw(stream, *arguments, **words)
+            self.learned.append(self._keys(drawn.desired))
+            self.tests[type(drawn)].append(self._keys(drawn.tests))
+            return drawn
+
+        def train(plant, learner, desired, tests, measure_at, **how):
+            errors = np.ones((len(desired), len(measure_at), 3))
+            each = np.zeros(len(measure_at), int)
+            refused = np.zeros(errors.shape[:2], int)
+            return History(np.array(measure_at), each, refused, errors, errors)
+
+        monkeypatch.setattr(Stream, "draw", noted)
+        monkeypatch.setattr(its, "train", train)
+        monkeypatch.setattr(Search, "all_rounds", lambda search: self._trials(search.rules))
+        monkeypatch.setattr(Search, "further", lambda search, _: self._trials(search.rules))
+
+    @staticmethod
+    def _keys(poses):
+        """A number for each pose: two poses with the same number would be a great coincidence."""
+        first, second = poses[..., :2].reshape(-1, 2).view(np.uint64).T
+        return first * np.uint64(0x9E3779B97F4A7C15) + second
+
+    @staticmethod
+    def _trials(rules):
+        trials_ = pd.DataFrame(1.0, index=range(4), columns=trials.search.columns(rules))
+        errors = {"position_error_cm": 1.0, "orientation_error_deg": 1.0, "score": 1.0}
+        return trials_.assign(round=1, **errors)
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    return Drawn(monkeypatch)
+
+
+def run_all_jobs(study, rules, folder, monkeypatch):
+    """All jobs of a study that learn."""
+
+    def sample(name):
+        return ROOT / SEARCHED / f"{training(study, name)}.csv"
+
+    def resolved(name):
+        path = folder / f"{name}.json"
+        if not path.exists():
+            job = rules.arguments(study, "scenario", scenario=name)
+            there = any(isinstance(entry, Assigned) for entry in job["damages"])
+            write(path, resolve(**job | ({"damages": ()} if there else {})))
+        return path
+
+    own, trainings = study.scenario, Trainings(study)
+    for scenario, learner in trainings.runs:
+        for chunk in chunks(seeds(study, learner), study.training.seeds_per_job):
+            which = {"scenario": scenario, "learner": learner, "chunk": chunk}
+            job, learned = rules.arguments(study, "train", **which), folder / "learned.npz"
+            campaign.train_seeds(resolved(scenario), sample(learner), learned, **job)
+    for name in trainings.tuned():
+        job = rules.arguments(study, "efforts_of", training=name)
+        efforts.efforts(resolved(own), sample(name), **job)
+        for chunk in chunks(searches(study, name), searches_per_job(study, name)):
+            job = rules.arguments(study, "search", training=name, chunk=chunk)
+            search_for(resolved(own), **job)
+    for learner, series in study.experiments.ensemble.items():
+        for name, robots in series.items():
+            for chunk in chunks(robots.draws, study.experiments.draws_per_job):
+                which = {"series": name, "learner": learner, "chunk": chunk}
+                job = rules.arguments(study, "ensemble_chunk", **which)
+                ensemble.train_draws(sample(learner), **job)
+    for learner in study.benchmark.learners:
+        job = rules.arguments(study, "benchmark_run", learner=learner)
+        for scenarios in batches(study).values():
+            file = job["rules"] and sample(learner)
+            benchmark.compete([*map(resolved, scenarios)], **job, sample=file)
+    said = type("Said", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    for name in ("read_of", "calibrate_hybrid", "Plant"):
+        monkeypatch.setattr(real_arm, name, lambda *_: None)
+    for name in study.real.twin:
+        job = rules.arguments(study, "real_twin", learner=name)
+        real_arm.learn_on_twin("", "", sample(name), **job)
+
+
+def run_universes(study, monkeypatch):
+    """All universes of the multiverse, every replicate of them."""
+    monkeypatch.setattr(measuring, "_coupling", lambda world: 1.0)
+    monkeypatch.setattr(measuring, "width_order", lambda trials: {})  # of numbers that differ
+    for designed in read_design(ROOT / DESIGN):
+        setup = universe(study, designed)
+        measuring.measure(setup)
+        if setup.number in study.universes.horizons:
+            horizon.horizon(setup)
+
+
+@pytest.mark.slow
+def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
+    study, rules, drawn, tmp_path, monkeypatch
+):
+    run_all_jobs(study, rules, tmp_path, monkeypatch)
+    run_universes(study, monkeypatch)
+    tests = np.unique(np.concatenate(drawn.tests[ResultPoses]))
+    searched = np.unique(np.concatenate(drawn.tests[SearchPoses]))
+    learned = np.unique(np.concatenate(drawn.learned))
+    assert min(map(len, (tests, searched, learned))) > 10_000
+    for some, others in ((tests, learned), (tests, searched), (searched, learned)):
+        assert not np.isin(some, others).any()
