@@ -35,7 +35,7 @@ def figure12(evidence: Evidence) -> Figure:
     size = {"figsize": (4 + 2.25 * len(shown), 6.4), "squeeze": False}
     figure, panels = plt.subplots(2, len(shown), sharex=True, sharey="row", **size)
     for column, (scenario, name) in zip(panels.T, shown.items(), strict=True):
-        column[0].set_title(name, fontsize=11)
+        column[0].set_title(name)
         for axes, error in zip(column, BOTH, strict=True):
             for learner, style in learners.items():
                 own = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
@@ -60,7 +60,7 @@ def figure12(evidence: Evidence) -> Figure:
         axes.set_xlabel("robot moves")
         axes.tick_params(axis="x", labelsize=9)
     names = [style.label for style in learners.values()]
-    figure.legend(panels[0, 0].get_lines(), names, loc="outside right center", fontsize=9)
+    figure.legend(panels[0, 0].get_lines(), names, loc="outside right center")
     title(
         figure,
         "Figure 12: what should one use today? Errors against robot moves",
@@ -94,7 +94,7 @@ def figure13(evidence: Evidence) -> Figure:
     logarithmic(axes.xaxis, 5, 10, 20, 50, 100, 200, 500, 1000, 20_000)
     logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
     axes.tick_params(axis="x", labelsize=9)
-    figure.legend(loc="outside right center", fontsize=9)
+    figure.legend(loc="outside right center")
     own = table[~table["learner"].str.contains(" ")]
     enough = own.loc[own[ERROR] < published, "poses"].min()
     beaten = f", which {enough:.0f} poses suffice to beat" if np.isfinite(enough) else ""

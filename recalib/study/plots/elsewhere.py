@@ -46,7 +46,7 @@ def _draw_assignments(axes: Axes, tables: dict) -> None:
             )
     axes.set(xlabel="final error [cm, degrees]", ylabel="share of the assignments")
     logarithmic(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
-    axes.set_title("Other links, encoders and signs", fontsize=11)
+    axes.set_title("Other links, encoders and signs")
 
 
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
@@ -63,7 +63,7 @@ def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
     axes.set(xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
     logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)
-    axes.set_title("Other amounts (improved)", fontsize=11)
+    axes.set_title("Other amounts (improved)")
 
 
 def _draw_robots(axes: Axes, evidence: Evidence) -> None:
@@ -89,4 +89,4 @@ def _draw_robots(axes: Axes, evidence: Evidence) -> None:
     axes.set_ylabel("larger error left [% of the initial one]")
     logarithmic(axes.yaxis, 2, 5, 10, 20, 50, 100)
     axes.set_xticks(places, [robot.upper() for robot in robots])
-    axes.set_title("Other robots", fontsize=11)
+    axes.set_title("Other robots")

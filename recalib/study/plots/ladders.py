@@ -106,4 +106,4 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     logarithmic(axes.yaxis, 1, 3, 10, 30, 100, 300)
     axes.set_ylim(1, TOP)
     if axes.get_legend_handles_labels()[0]:  # none where a learner never gets there
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), fontsize=9)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1))

@@ -53,7 +53,7 @@ def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     axes.yaxis.label.set_size(SIZE)
     logarithmic(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
     logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
-    axes.set_title("How rough may the search be?", fontsize=11, pad=ABOVE)
+    axes.set_title("How rough may the search be?", pad=ABOVE)
     legend_under(axes)
     return median[IMPROVED][rough - 1]
 
@@ -76,9 +76,7 @@ def _draw_order(axes: Axes, trials: pd.DataFrame, error: ErrorStyle) -> None:
     axes.set_ylabel(error.label, fontsize=SIZE)
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     logarithmic(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
-    axes.set_title(
-        f"{error.kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
-    )
+    axes.set_title(f"{error.kind.capitalize()} map: rank\ncorrelation {found:+.2f}", pad=ABOVE)
     legend_under(axes)
 
 

@@ -24,7 +24,7 @@ STYLE = {
     "figure.dpi": 110,
     "figure.constrained_layout.use": True,
     "font.size": 11,
-    "axes.titlesize": 12,
+    "axes.titlesize": 11,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
     "axes.spines.top": False,
@@ -32,8 +32,10 @@ STYLE = {
     "axes.grid": True,
     "axes.axisbelow": True,  # the grid
     "grid.color": "0.9",
+    "legend.fontsize": 9,
     "legend.frameon": False,
     "legend.handlelength": 2.6,  # two whole dashes
+    "legend.title_fontsize": 9,
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
@@ -54,7 +56,7 @@ def save(figure: Figure, *paths: str | Path) -> None:
 
 
 def plain(axis: Axis, *ticks: float) -> None:
-    """Label a logarithmic axis at these values, as plain numbers."""
+    """Label an axis at these values alone, as plain numbers."""
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
     axis.set_minor_locator(NullLocator())
@@ -115,9 +117,7 @@ def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) 
         *axes.get_legend_handles_labels(),
         loc="outside lower center",
         ncols=columns,
-        fontsize=9,
         title=explained,
-        title_fontsize=9,
     )
 
 

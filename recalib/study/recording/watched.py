@@ -9,7 +9,7 @@ from recalib.damaged.plant import Plant
 from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import POSITION, Workspace, orientation_error, position_error
+from recalib.nominal.poses import POSITION, orientation_error, position_error
 from recalib.study.experiments.poses import ResultPoses, train_for_results
 from recalib.study.recording.phases import POSES
 from recalib.training import History
@@ -99,6 +99,14 @@ def watch(
     achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape)
     repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
     measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
+    cells = None
+    if has_cells:
+        half_ranges = workspace.half_ranges[POSITION]
+        cells = Cells(
+            centres=workspace.centre[:3, 3] + learner.nets.w_k * half_ranges,
+            weights=np.stack(weights),
+            corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
+        )
     return Watched(
         history=history,
         desired=goals,
@@ -107,21 +115,7 @@ def watch(
         misses=position_error(achieved, goals),
         tilts=orientation_error(achieved, np.broadcast_to(goals, achieved.shape)),
         scatter=(measured - achieved[-1][:, None])[..., :3, 3],
-        cells=_cells(learner, workspace, thetas, weights) if has_cells else None,
-    )
-
-
-def _cells(
-    learner: HierarchicalLearner,
-    workspace: Workspace,
-    thetas: Sequence[np.ndarray],
-    weights: Sequence[np.ndarray],
-) -> Cells:
-    half_ranges = workspace.half_ranges[POSITION]
-    return Cells(
-        centres=workspace.centre[:3, 3] + learner.nets.w_k * half_ranges,
-        weights=np.stack(weights),
-        corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
+        cells=cells,
     )
 
 

@@ -96,7 +96,9 @@ def write_recording(
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
-        measure_at = _measured_at(job, name)
+        measure_at = range(job.moves + 1)  # of today's: after each move
+        if rules := job.learners[name]:
+            measure_at = campaign.measured_at(job.measuring, rules.iterations)
         poses = Stream.SCENARIO.draw(
             job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
         )
@@ -116,14 +118,6 @@ def write_recording(
         rec.disconnect()
         check_end(temporary)
     return watched
-
-
-def _measured_at(job: Recording, name: str) -> Sequence[int]:
-    """The iterations of a learner after which it is measured: today's after each of its moves."""
-    learner = job.learners[name]
-    if learner:
-        return campaign.measured_at(job.measuring, learner.iterations)
-    return range(job.moves + 1)
 
 
 def _compare(path: Path, learner: str, shown: Mapping, measured: Mapping) -> None:

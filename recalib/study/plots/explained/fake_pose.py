@@ -49,7 +49,7 @@ def fake_pose(evidence: Evidence) -> Figure:
     )
     for axes, text in zip(panels, texts, strict=True):
         _point(axes, DESIRED, "desired pose", NEUTRAL, "*", (7, 6))
-        axes.set_title(text, fontsize=11, fontweight="normal", loc="center")
+        axes.set_title(text, fontweight="normal", loc="center")
     title(
         figure,
         "The controller is not touched: only the pose that it is sent changes",

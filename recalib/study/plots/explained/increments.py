@@ -43,7 +43,7 @@ def increments(evidence: Evidence) -> Figure:
             arrowprops={"arrowstyle": "-|>", "color": INK, "shrinkB": 5},
         )
         axes.set(xlabel="desired pose", ylim=(-1.15, 1.75))
-        axes.set_title(text, fontsize=11, fontweight="normal")
+        axes.set_title(text, fontweight="normal")
         axes.legend(loc="lower right", fontsize=10)
     panels[0].set_ylabel("command")
     title(

@@ -28,11 +28,11 @@ def schedule(evidence: Evidence) -> Figure:
         visits = iterations * expected_learning(widths, DIMENSIONS, VOLUME)
         right.plot(widths, visits, label=NAMES[name], **style.line())
     left.set(xlabel="iterations", ylabel="width of the neighbourhood", ylim=(0, None))
-    left.set_title("wide at first, narrow in the end", fontsize=11, fontweight="normal")
+    left.set_title("wide at first, narrow in the end", fontweight="normal")
     left.legend(fontsize=10)
     right.set(xlabel="width of the neighbourhood", ylabel=f"visits of a cell for {STEP:g} of width")
     right.set_ylim(bottom=0)
-    right.set_title("how often are cells visited meanwhile?", fontsize=11, fontweight="normal")
+    right.set_title("how often are cells visited meanwhile?", fontweight="normal")
     title(
         figure,
         "How fast neighbourhoods shrink",
