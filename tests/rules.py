@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 
 from snakemake.api import SnakemakeApi
-from snakemake.io import Wildcards
+from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
 from recalib.study.trainings import Trainings

@@ -68,7 +68,7 @@ DEPENDS = {
     "experiments.ladder.*": f"all {EVIDENCE} summary",
     "experiments.evidence": "all claims",
     "experiments.robots": "all figure summary",
-    "experiments.ensemble.improved.assignments.draws": "ensemble ensemble_chunk",  # one more chunk
+    "experiments.ensemble.improved.assignments.draws": "ensemble",  # one more chunk
     "experiments.ensemble.*": "ensemble_chunk",
     "experiments.draws_per_job": "ensemble_chunk",
     "benchmark.learners": "benchmark_table",

@@ -48,13 +48,9 @@ def search_for(
 
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(budget.seeds)]
-
-    def robots(runs: int) -> Commandable:
-        return resolved.plant(controller, budget.seed, seeds * (runs // len(seeds)))
-
     found = []
-    for number in range(first + 1, last + 1):
-        poses = Stream.SEARCH.draw(  # no other search has them, and no training
+    for number in range(first + 1, last + 1):  # nothing is that of another, or of results
+        poses = Stream.SEARCH.draw(
             budget.seed,
             seeds,
             learner.iterations,
@@ -63,6 +59,11 @@ def search_for(
             training=training,
             scenario=resolved.scenario,
         )
+
+        def robots(runs: int, stream: str = poses.name) -> Commandable:
+            each = seeds * (runs // len(seeds))
+            return resolved.plant(controller, budget.seed, each, stream)
+
         trials = Search(robots, rules_of(learner), budget, poses).all_rounds()
         trials.insert(0, "search", number)
         found.append(trials)
