@@ -63,9 +63,12 @@ def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
         ("study STUDY=my_arm", "--report results/studies/my_arm/report.html"),
         ("quick", "snakemake --cores 2 --configfile workflow/studies/quick.yaml --quiet"),
-        ("view STUDY=my_arm", "watch view results/studies/my_arm/recordings/fall.rrd"),
-        ("web STUDY=my_arm", "watch web results/studies/my_arm --port 9090"),
-        ("view SCENARIO=noise", "watch view results/recordings/noise.rrd"),
+        ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
+        ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
+        (
+            "view SCENARIO=noise",
+            "CI=true .venv/bin/rerun --bind 127.0.0.1 --new results/recordings",
+        ),
     ],
 )
 def test_a_command_speaks_of_its_study(project, command, said):

@@ -59,7 +59,7 @@ class Visit:
 
 @pytest.fixture(scope="module")
 def visit(site, tmp_path_factory) -> Visit:
-    seen, axe = Visit(), (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
+    met, axe = Visit(), (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
     with chromium(tmp_path_factory.mktemp("browser")) as browser:
         browser.set_script_timeout(PATIENCE)
         pages = sorted({*site.rglob("*.html")} - {site / "404.html"})  # that is for servers
@@ -70,13 +70,13 @@ def visit(site, tmp_path_factory) -> Visit:
                 browser.get(page.as_uri())
                 assert browser.execute_script(SCHEME) == SCHEMES[scheme]
                 name = f"{page.relative_to(site)}, {scheme}"
-                seen.broken += browser.execute_script(BROKEN)
-                seen.links |= set(browser.execute_script(LINKS))
+                met.broken += browser.execute_script(BROKEN)
+                met.links |= set(browser.execute_script(LINKS))
                 browser.execute_script(axe)
-                seen.violations[name] = browser.execute_async_script(AXE)
-        seen.found = search(browser, "multiverse")
-        seen.console, seen.requests = severe(browser), requests(browser)
-    return seen
+                met.violations[name] = browser.execute_async_script(AXE)
+        met.found = search(browser, "multiverse")
+        met.console, met.requests = severe(browser), requests(browser)
+    return met
 
 
 def search(browser, word: str) -> str:

@@ -31,11 +31,12 @@ STARTS = {
     " plots.registry": set(),
     "evidence.benchmark evidence.checks evidence.summary mapping.visits": {"pandas"},
     "assignments experiments.benchmark experiments.ensemble experiments.real_arm"
-    " experiments.speed experiments.trials multiverse.drawing plants recording.files": ARMS,
+    " experiments.speed experiments.trials multiverse.drawing plants": ARMS,
     "experiments.campaign experiments.replay mapping.measured multiverse.efforts"
     " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"},
     "experiments.tracker": ARMS - {"numba"},
-    "recording.film recording.picture": {"rerun"},
+    "recording.pictures": {"rerun"},
+    "recording.writing": ARMS | {"pandas", "rerun"},
 }
 EXPLAINED = [its.home for its in FIGURES.values() if its.part == "ideas"]
 

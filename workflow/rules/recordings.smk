@@ -27,7 +27,7 @@ rule recording:
     output:
         rrd="{root}/recordings/{recording}.rrd",
     params:
-        **calls("recalib.study.recording.files.record", reads=samples_of_recorded),
+        **calls("recalib.study.recording.writing.record", reads=samples_of_recorded),
         arguments=lambda w: as_text(recording=recorded(w)),
     threads: 1
     resources:
@@ -67,7 +67,7 @@ rule before_and_after:
             labels={"picture": "2: after recalibration"},
         ),
     params:
-        **calls("recalib.study.recording.picture.before_and_after"),
+        **calls("recalib.study.recording.pictures.before_and_after"),
     localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
@@ -81,7 +81,7 @@ rule film:
     output:
         film="{root}/figures/{recording}.webp",
     params:
-        **calls("recalib.study.recording.film.take_film"),
+        **calls("recalib.study.recording.pictures.take_film"),
     localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"

@@ -7,9 +7,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.evidence.real import ERROR
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.looks import looks
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, LABELS, plain, title, words
+from recalib.study.plots.palette import BORDER, BOTH, styles_of
+from recalib.study.plots.style import band, logarithmic, note, title, words
 
 SHOWN = {
     "links_encoders": "the paper's damage",
@@ -32,37 +31,36 @@ def _shown(table: pd.DataFrame) -> dict[str, str]:
 def figure12(evidence: Evidence) -> Figure:
     """Errors against moves for every learner on some of the benchmark's scenarios."""
     table = evidence.table("benchmark.csv")
-    shown, learners = _shown(table), looks(table["learner"].unique())
+    shown, learners = _shown(table), styles_of(table["learner"].unique())
     size = {"figsize": (4 + 2.25 * len(shown), 6.4), "squeeze": False}
     figure, panels = plt.subplots(2, len(shown), sharex=True, sharey="row", **size)
     for column, (scenario, name) in zip(panels.T, shown.items(), strict=True):
-        column[0].set_title(name, fontsize=11)
-        for axes, (error, label) in zip(column, LABELS.items(), strict=True):
-            for learner, look in learners.items():
+        column[0].set_title(name)
+        for axes, error in zip(column, BOTH, strict=True):
+            for learner, style in learners.items():
                 own = table[(table["scenario"] == scenario) & (table["learner"] == learner)]
                 low, middle, high = (
-                    own[f"{error}{end}"].clip(SMALLEST) for end in ("_low", "", "_high")
+                    own[f"{error.column}{end}"].clip(SMALLEST) for end in ("_low", "", "_high")
                 )
-                band = {"color": look.color, "alpha": 0.2, "linewidth": 0}
-                axes.fill_between(own["moves"], low, high, **band)
+                band(axes, own["moves"], (low, high), style.color)
                 axes.plot(
                     own["moves"],
                     middle,
-                    marker=look.marker or None,
+                    marker=style.marker or None,
                     markersize=7 if learner in UNDER else 4,
                     linewidth=5 if learner in UNDER else 1.4,
-                    color=look.color,
+                    color=style.color,
                 )
-            axes.set(xscale=LOG, yscale=LOG, ylim=(SMALLEST, 30))
             if axes in panels[:, 0]:
-                axes.set_ylabel(label)
-            plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
-            plain(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1, 10)
+                axes.set_ylabel(error.label)
+            logarithmic(axes.xaxis, 1, 10, 100, 1000, 10_000)
+            logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1, 10)
+            axes.set_ylim(SMALLEST, 30)
     for axes in panels[-1]:
         axes.set_xlabel("robot moves")
         axes.tick_params(axis="x", labelsize=9)
-    names = [look.label for look in learners.values()]
-    figure.legend(panels[0, 0].get_lines(), names, loc="outside right center", fontsize=9)
+    names = [style.label for style in learners.values()]
+    figure.legend(panels[0, 0].get_lines(), names, loc="outside right center")
     title(
         figure,
         "Figure 12: what should one use today? Errors against robot moves",
@@ -76,38 +74,27 @@ def figure13(evidence: Evidence) -> Figure:
     """The real arm: errors on the test poses against the number of recorded poses."""
     table, published = evidence.table("real.csv"), evidence.fact("published_mm")["after_mm"]
     figure, axes = plt.subplots(figsize=(9, 4.6))
-    shown = looks(learner.split()[0] for learner in table["learner"].unique())
+    shown = styles_of(learner.split()[0] for learner in table["learner"].unique())
     for learner, own in table.groupby("learner", sort=False):
         name, _, twin = learner.partition(" ")
-        look, linestyle = shown[name], (0, (4, 2)) if twin else "-"
-        bounds = own[f"{ERROR}_low"], own[f"{ERROR}_high"]
-        axes.fill_between(own["poses"], *bounds, color=look.color, alpha=0.2, linewidth=0)
+        style = shown[name]
+        band(axes, own["poses"], (own[f"{ERROR}_low"], own[f"{ERROR}_high"]), style.color)
         axes.plot(
             own["poses"],
             own[ERROR],
-            color=look.color,
-            marker=look.marker or None,
-            linestyle=linestyle,
-            label=f"{look.label} {twin}".strip(),
+            color=style.color,
+            marker=style.marker or None,
+            linestyle=(0, (4, 2)) if twin else "-",
+            label=f"{style.label} {twin}".strip(),
         )
     axes.axhline(published, **BORDER)
-    axes.annotate(
-        f"published: {published} mm",
-        (3000, published),
-        (0, -12),
-        textcoords="offset points",
-        fontsize=9,
-    )
-    axes.set(
-        xscale=LOG,
-        yscale=LOG,
-        xlabel="recorded poses (moves on the twin)",
-        ylabel="mean position error, test poses [mm]",
-    )
-    plain(axes.xaxis, 5, 10, 20, 50, 100, 200, 500, 1000, 20_000)
-    plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
+    note(axes, f"published: {published} mm", (3000, published), (0, -12), fontsize=9)
+    axes.set_xlabel("recorded poses (moves on the twin)")
+    axes.set_ylabel("mean position error, test poses [mm]")
+    logarithmic(axes.xaxis, 5, 10, 20, 50, 100, 200, 500, 1000, 20_000)
+    logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50)
     axes.tick_params(axis="x", labelsize=9)
-    figure.legend(loc="outside right center", fontsize=9)
+    figure.legend(loc="outside right center")
     own = table[~table["learner"].str.contains(" ")]
     enough = own.loc[own[ERROR] < published, "poses"].min()
     beaten = f", which {enough:.0f} poses suffice to beat" if np.isfinite(enough) else ""

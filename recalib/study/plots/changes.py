@@ -9,9 +9,16 @@ from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.changes import compare, with_and_without
 from recalib.study.evidence.claims.maps import SEPARATE
 from recalib.study.evidence.results import Evidence
-from recalib.study.plots.looks import looks
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, INTERVALS, at_line, legend_below, plain, title
+from recalib.study.plots.palette import Style, styles_of
+from recalib.study.plots.style import (
+    INTERVALS,
+    finish,
+    line_across,
+    logarithmic,
+    name_rows,
+    note,
+    with_intervals,
+)
 from recalib.study.shipped import REFERENCE
 from recalib.study.statistics import Estimate
 
@@ -26,32 +33,31 @@ def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     if own and evidence.fact("shipped"):
         measured = {across.column: across for across in SEPARATE.across.values()}
         reference = evidence.table(REFERENCE)
-        rows[MAPS.label] = [measured[each].in_reference(reference) for each in NESTED]
+        rows[MAPS.label] = [measured[column].in_reference(reference) for column in NESTED]
     for switch in OTHERS if own else ():
         pairs = with_and_without(evidence, switch).values()
         rows[switch.label] = [compare(evidence, *pair) for pair in pairs]
-    for learner, look in looks(evidence.fact("beside")).items():
+    for learner, style in styles_of(evidence.fact("beside")).items():
         others = evidence.fact("improved"), evidence.fact("short")
-        rows[f"{look.label}{ANOTHER}"] = [compare(evidence, learner, each) for each in others]
+        rows[f"{style.label}{ANOTHER}"] = [compare(evidence, learner, other) for other in others]
     return rows
 
 
 def _draw(
-    axes: Axes, heights: np.ndarray, ratios: list[Estimate], look, label: str, above: bool
+    axes: Axes, heights: np.ndarray, ratios: list[Estimate], style: Style, label: str, above: bool
 ) -> None:
-    means, low, high = np.transpose(ratios)
-    axes.hlines(heights, low, high, color=look.color)
-    axes.scatter(means, heights, label=label, zorder=3, **look.signs())
+    means, *ends = np.transpose(ratios)
+    with_intervals(axes, heights, means, ends, label, style)
     for height, mean in zip(heights, means, strict=True):
-        axes.annotate(
+        note(
+            axes,
             f"{mean:.2f}",
             (mean, height),
             (0, 5 if above else -6),
-            textcoords="offset points",
             ha="center",
             va="bottom" if above else "top",
             fontsize=9,
-            color=look.color,
+            color=style.color,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.4},  # on a line, too
         )
 
@@ -72,7 +78,7 @@ def figure4(evidence: Evidence) -> Figure:
     rows = _rows(evidence)
     figure, axes = plt.subplots(figsize=(8, 1.5 + 0.9 * len(rows)))
     heights = np.arange(len(rows))[::-1]
-    shown = looks([IMPROVED, RITTER])
+    shown = styles_of([IMPROVED, RITTER])
     cases = (
         (IMPROVED, 0.12, "improved with it / without it"),
         (RITTER, -0.12, "Ritter with it / without it"),
@@ -80,18 +86,16 @@ def figure4(evidence: Evidence) -> Figure:
     for case, (learner, offset, label) in enumerate(cases):
         ratios = [estimates[case] for estimates in rows.values()]
         _draw(axes, heights + offset, ratios, shown[learner], label, above=offset > 0)
-    axes.axvline(1, **BORDER)
-    at_line(axes, "left of it: the change helps", x=1)
-    axes.set(xscale=LOG, xlabel="error with the change over error without it")
+    line_across(axes, "left of it: the change helps", x=1)
+    axes.set_xlabel("error with the change over error without it")
     if evidence.fact("beside"):
         axes.set_xlabel(
             "error with the change over error without it;\n"
             "rows of other learners: their error over that of the improved system, and of Ritter's"
         )
-    plain(axes.xaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)
-    axes.set_yticks(heights, rows)
+    logarithmic(axes.xaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)
+    name_rows(axes, heights, rows)
     axes.set_ylim(-0.5, len(rows) - 0.3)
-    axes.grid(axis="y", visible=False)
     searches, seeds, _ = evidence.errors(evidence.fact("improved")).shape
     how = ""
     if MAPS.label in rows:
@@ -99,9 +103,9 @@ def figure4(evidence: Evidence) -> Figure:
             f"\n{MAPS.label}: both searches go on from one winner;"
             f" {len(evidence.table(REFERENCE))} replicates, 95 % interval of their mean"
         )
-    title(figure, _heading(rows))
-    legend_below(
+    finish(
         figure,
+        _heading(rows),
         axes,
         len(cases),
         f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"

@@ -11,9 +11,9 @@ from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import short
-from recalib.study.plots.sheet import SMALL, Sheet
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, NEUTRAL, plain
+from recalib.study.plots.palette import BORDER, NEUTRAL
+from recalib.study.plots.sheet import Sheet, write
+from recalib.study.plots.style import logarithmic, plain
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -74,12 +74,9 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
 
 def _times(axes: Axes, its: Mapping[str, "pd.DataFrame"]) -> None:
     most = max(table["high"].max() for table in its.values())
-    axes.set(
-        xscale=LOG,
-        xlim=(0.95, max(2.1, 1.05 * most)),
-        xlabel="how many times as large; 1: the same",
-    )
-    plain(axes.xaxis, *(tick for tick in TICKS if tick < axes.get_xlim()[1]))
+    end = max(2.1, 1.05 * most)
+    logarithmic(axes.xaxis, *(tick for tick in TICKS if tick < end))
+    axes.set(xlim=(0.95, end), xlabel="how many times as large; 1: the same")
     _draw(axes, its, 1, "{} times")
 
 
@@ -90,27 +87,22 @@ def _more(axes: Axes, its: Mapping[str, "pd.DataFrame"]) -> None:
 
 
 def _draw(axes: Axes, its: Mapping[str, "pd.DataFrame"], none: float, said: str) -> None:
-    """Claims from above; an inch of the sheet is a unit of the axis."""
-    top, edges = sum(map(_height, its.values())), axes.get_yaxis_transform()
-    axes.set(ylim=(0, top), yticks=[])
+    """Claims from above."""
+    _, top = axes.get_ylim()
     axes.vlines(none, 0, top, **BORDER)
-    axes.tick_params(labelsize=SMALL)
-    axes.xaxis.label.set_size(SMALL + 0.5)
-    axes.spines["left"].set_visible(False)
-    words = {"transform": edges, "fontsize": SMALL, "va": "center", "linespacing": 1.15}
     for what, effects in its.items():
         top -= HEADING
-        axes.text(-LEFT / PLOT, top + 0.08, what, weight="bold", **words, **ON_LINES)
+        write(axes, -LEFT / PLOT, top + 0.08, what, weight="bold", **ON_LINES)
         for row in effects.itertuples():
             top -= ROW
             middle = top + ROW / 2
             largest, least = (level_in_words(row.factor, its) for its in (row.largest, row.least))
             choice = f"{LABELS[row.factor].asks}: {largest},\ninstead of: {least}"
-            axes.text(-LEFT / PLOT + 0.04, middle, choice, **words)
+            write(axes, -LEFT / PLOT + 0.04, middle, choice)
             axes.hlines(middle, row.low, row.high, color=NEUTRAL)
             axes.scatter(row.effect, middle, s=26, color=NEUTRAL, zorder=3)
             number, low, high = map(_two, (row.effect, row.low, row.high))
-            axes.text(1.03, middle, f"{said.format(number)} ({low} to {high})", **words)
+            write(axes, 1.03, middle, f"{said.format(number)} ({low} to {high})")
         top -= GAP
 
 

@@ -7,12 +7,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, UNITS
-from recalib.study.plots.looks import DASHED, SOLID, looks
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import legend_under, plain, title
-
-STYLES = SOLID, DASHED  # of cm and degrees: colours are learners
+from recalib.study.plots.palette import BOTH, styles_of
+from recalib.study.plots.style import legend_under, logarithmic, title
 
 
 def figure11(evidence: Evidence) -> Figure:
@@ -38,63 +34,59 @@ def figure11(evidence: Evidence) -> Figure:
 
 
 def _draw_assignments(axes: Axes, tables: dict) -> None:
-    for error, unit, linestyle in zip(ERRORS, UNITS, STYLES, strict=True):
-        for learner, look in looks(tables).items():
-            values = np.sort(tables[learner][f"final_{error}"])
+    for error in BOTH:
+        for learner, style in styles_of(tables).items():
+            values = np.sort(tables[learner][f"final_{error.column}"])
             axes.step(
                 values,
                 np.arange(1, len(values) + 1) / len(values),
-                color=look.color,
-                linestyle=linestyle,
-                label=f"{look.label}, {unit}",
+                color=style.color,
+                linestyle=error.linestyle,
+                label=f"{style.label}, {error.unit}",
             )
-    axes.set(xscale=LOG, xlabel="final error [cm, degrees]", ylabel="share of the assignments")
-    plain(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
-    axes.set_title("Other links, encoders and signs", fontsize=11)
+    axes.set(xlabel="final error [cm, degrees]", ylabel="share of the assignments")
+    logarithmic(axes.xaxis, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
+    axes.set_title("Other links, encoders and signs")
 
 
 def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
     scaled = evidence.table(f"ensemble/scaled.{IMPROVED}.parquet").groupby("scale")
-    color = looks([IMPROVED])[IMPROVED].color
-    styles = zip(ERRORS, UNITS, STYLES, "os", strict=True)
-    for error, unit, linestyle, marker in styles:
+    color = styles_of([IMPROVED])[IMPROVED].color
+    for error in BOTH:
         for moment, shade in (("initial", "0.5"), ("final", color)):
-            low, middle, high = (scaled[f"{moment}_{error}"].quantile(q) for q in (0.05, 0.5, 0.95))
+            low, middle, high = (
+                scaled[f"{moment}_{error.column}"].quantile(q) for q in (0.05, 0.5, 0.95)
+            )
             axes.fill_between(middle.index, low, high, color=shade, alpha=0.12, linewidth=0)
-            look = {"color": shade, "linestyle": linestyle, "marker": marker}
-            axes.plot(middle.index, middle, label=f"{moment} {unit}", **look)
-    axes.set(
-        xscale=LOG,
-        yscale=LOG,
-        xlabel="size of the damage, times the paper's",
-        ylabel="error [cm, degrees]",
-    )
-    plain(axes.xaxis, 0.1, 0.3, 1, 3)
-    plain(axes.yaxis, 0.01, 0.1, 1, 10)
-    axes.set_title("Other amounts (improved)", fontsize=11)
+            style = {"color": shade, "linestyle": error.linestyle, "marker": error.marker}
+            axes.plot(middle.index, middle, label=f"{moment} {error.unit}", **style)
+    axes.set(xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
+    logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
+    logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)
+    axes.set_title("Other amounts (improved)")
 
 
 def _draw_robots(axes: Axes, evidence: Evidence) -> None:
-    robots, learners = evidence.fact("elsewhere"), looks(evidence.fact("learners"))
+    robots, learners = evidence.fact("elsewhere"), styles_of(evidence.fact("learners"))
     places = np.arange(len(robots))
     offsets = 0.2 * (np.arange(len(learners)) - (len(learners) - 1) / 2)
-    for offset, (learner, look) in zip(offsets, learners.items(), strict=True):
-        left = [
+    for offset, (learner, style) in zip(offsets, learners.items(), strict=True):
+        remaining = [
             np.max(
-                evidence.errors(learner, each).mean(axis=(0, 1))
-                / evidence.errors(learner, each, "first").mean(axis=(0, 1))
+                evidence.errors(learner, scenario).mean(axis=(0, 1))
+                / evidence.errors(learner, scenario, "first").mean(axis=(0, 1))
             )
-            for each in robots.values()
+            for scenario in robots.values()
         ]
         iterations = evidence.history(learner, next(iter(robots.values())))["iteration"].max()
         axes.scatter(
             places + offset,
-            100 * np.array(left),
-            label=f"{look.label}, {iterations:,} iterations",
+            100 * np.array(remaining),
+            label=f"{style.label}, {iterations:,} iterations",
             zorder=3,
-            **look.signs(),
+            **style.signs(),
         )
-    axes.set(yscale=LOG, ylabel="larger error left [% of the initial one]")
-    plain(axes.yaxis, 2, 5, 10, 20, 50, 100)
+    axes.set_ylabel("larger error left [% of the initial one]")
+    logarithmic(axes.yaxis, 2, 5, 10, 20, 50, 100)
     axes.set_xticks(places, [robot.upper() for robot in robots])
-    axes.set_title("Other robots", fontsize=11)
+    axes.set_title("Other robots")

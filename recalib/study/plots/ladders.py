@@ -10,9 +10,8 @@ from recalib.study.evidence.factor import CELLS, DOUBLE, PUBLISHED, leading
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.words import ranged
-from recalib.study.plots.looks import Look, looks
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, INTERVALS, LABELS, at_line, legend_below, plain, title
+from recalib.study.plots.palette import BOTH, Style, styles_of
+from recalib.study.plots.style import INTERVALS, finish, line_across, logarithmic
 from recalib.study.statistics import estimate
 
 SMALL = 9.5  # points: a label no wider than its panel
@@ -25,7 +24,7 @@ def figure9(evidence: Evidence) -> Figure:
     """The ladders of iterations and the speed-up over error levels."""
     figure, panels = plt.subplots(1, 3, figsize=(10, 4.6))
     ladders = {name: evidence.ladder(name) for name in (IMPROVED, *CELLS)}
-    for name, look in looks(ladders).items():
+    for name, style in styles_of(ladders).items():
         rungs = list(ladders[name])
         for kind, axes in enumerate(panels[:2]):
             rows = [
@@ -33,21 +32,20 @@ def figure9(evidence: Evidence) -> Figure:
                 for rung, errors in ladders[name].items()
             ]
             means, low, high = np.transpose(rows)
-            axes.vlines(rungs, low, high, color=look.color, alpha=0.6)
-            label = _named(name, look)
-            axes.plot(rungs, means, marker=look.marker, label=label, **look.line())
-    for axes, label in zip(panels[:2], LABELS.values(), strict=True):
-        axes.set(xscale=LOG, yscale=LOG)
+            axes.vlines(rungs, low, high, color=style.color, alpha=0.6)
+            label = _named(name, style)
+            axes.plot(rungs, means, marker=style.marker, label=label, **style.line())
+    for axes, error in zip(panels[:2], BOTH, strict=True):
         axes.set_xlabel("iterations, tuned for each number", fontsize=SMALL)
-        axes.set_ylabel(label, fontsize=SMALL)
-        plain(axes.xaxis, 100, 1000, 10_000)
-        plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 4, 8)
+        axes.set_ylabel(error.label, fontsize=SMALL)
+        logarithmic(axes.xaxis, 100, 1000, 10_000)
+        logarithmic(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 4, 8)
     _draw_factors(panels[2], evidence, ladders)
-    searches = sorted({len(each) for ladder in ladders.values() for each in ladder.values()})
-    title(figure, f"Figure 9: with as many cells as {CELLS[DOUBLE]},\n{_needs(evidence, ladders)}")
+    searches = sorted({len(errors) for ladder in ladders.values() for errors in ladder.values()})
+    text = f"Figure 9: with as many cells as {CELLS[DOUBLE]},\n{_needs(evidence, ladders)}"
     means = f"means over {' or, for short trainings, '.join(map(str, searches))} searches"
     spread = f"{means} and their seeds; {INTERVALS};\nan arrow at the border: it goes on"
-    legend_below(figure, panels[0], len(ladders), spread)
+    finish(figure, text, panels[0], len(ladders), spread)
     return figure
 
 
@@ -67,27 +65,27 @@ def _needs(evidence: Evidence, ladders: dict) -> str:
     return f"Ritter's needs {ranged(factor.mean, within, said)} times as many iterations"
 
 
-def _named(name: str, look: Look) -> str:
-    return f"Ritter's, cells of {CELLS[name]}" if name in CELLS else look.label
+def _named(name: str, style: Style) -> str:
+    return f"Ritter's, cells of {CELLS[name]}" if name in CELLS else style.label
 
 
 def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     fast, own = ladders[IMPROVED], evidence.fact("iterations")
     initial = evidence.errors(evidence.fact("improved"), moment="first").mean(axis=(0, 1))
-    for place, (name, look) in enumerate(looks(CELLS).items()):
+    for place, (name, style) in enumerate(styles_of(CELLS).items()):
         aside = 1.02 ** (1 if place else -1)  # so that the lines of both can be seen
-        goals, luck = [level * initial for level in LEVELS], evidence.rng("levels", name)
-        factors = speed_up(ladders[name], fast, goals, luck)
+        goals, rng = [level * initial for level in LEVELS], evidence.rng("levels", name)
+        factors = speed_up(ladders[name], fast, goals, rng)
         for level, factor in zip(LEVELS, factors, strict=True):
             if np.isfinite(factor.mean):
                 # beyond the ends where a learner, in some studies, does not get there
                 low, high = np.clip(factor[1:], 1, TOP)
-                axes.vlines(100 * level * aside, low, high, color=look.color)
+                axes.vlines(100 * level * aside, low, high, color=style.color)
                 for end, marker in ((1, "v"), (TOP, "^")):
                     if end in (low, high):
-                        arrow = {"marker": marker, "color": look.color, "clip_on": False}
+                        arrow = {"marker": marker, "color": style.color, "clip_on": False}
                         axes.scatter(100 * level * aside, end, s=20, **arrow)
-                axes.scatter(100 * level * aside, factor.mean, zorder=3, **look.signs())
+                axes.scatter(100 * level * aside, factor.mean, zorder=3, **style.signs())
         ours = leading(evidence, name)
         if np.isfinite(ours.mean):
             final = ladders[IMPROVED][own].mean(axis=(0, 1))
@@ -96,17 +94,16 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
                 ours.mean,
                 s=120,
                 marker="*",
-                color=look.color,
+                color=style.color,
                 edgecolors="black",
                 zorder=4,
                 label=f"for its errors after {own}: {ours.mean:.0f}",
             )
-    axes.axhline(PUBLISHED, **BORDER)
-    at_line(axes, f"the paper: about {PUBLISHED}", y=PUBLISHED, until=0.55)
-    axes.set(xscale=LOG, yscale=LOG, ylim=(1, TOP))
+    line_across(axes, f"the paper: about {PUBLISHED}", y=PUBLISHED, until=0.55)
     axes.set_xlabel("both errors within [% of the initial]", fontsize=SMALL)
     axes.set_ylabel("Ritter's iterations / improved", fontsize=SMALL)
-    plain(axes.xaxis, 3, 5, 10, 20, 30)
-    plain(axes.yaxis, 1, 3, 10, 30, 100, 300)
+    logarithmic(axes.xaxis, 3, 5, 10, 20, 30)
+    logarithmic(axes.yaxis, 1, 3, 10, 30, 100, 300)
+    axes.set_ylim(1, TOP)
     if axes.get_legend_handles_labels()[0]:  # none where a learner never gets there
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 1), fontsize=9)
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 1))

@@ -1,4 +1,4 @@
-"""Figures of errors: how they fall, and what is left of them."""
+"""Figures of errors: how they fall, and how much of them remains."""
 
 import re
 from collections.abc import Sequence
@@ -13,19 +13,17 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
-from recalib.study.measured import ERRORS, KINDS, UNITS, errors_of
-from recalib.study.plots.looks import Look, looks
-from recalib.study.plots.steady import LOG
+from recalib.study.measured import ERRORS, errors_of
+from recalib.study.plots.palette import BORDER, BOTH, ErrorStyle, Style, styles_of
 from recalib.study.plots.style import (
     BAND,
-    BORDER,
-    LABELS,
-    ORIENTATION,
-    POSITION,
-    at_line,
-    legend_below,
-    plain,
-    title,
+    band,
+    finish,
+    line_across,
+    logarithmic,
+    name_rows,
+    note,
+    with_intervals,
     words,
 )
 from recalib.study.statistics import first_within, typical
@@ -35,20 +33,19 @@ NEAR = 1.2  # times: two numbers beside a linear axis that would stand on each o
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
 
-def curves(history: pd.DataFrame, error: str) -> pd.DataFrame:
+def curves(history: pd.DataFrame, error: ErrorStyle) -> pd.DataFrame:
     """Errors by iteration (row) and seed (column)."""
-    return history.pivot(index="iteration", columns="seed", values=error)
+    return history.pivot(index="iteration", columns="seed", values=error.column)
 
 
-def label(look, history: pd.DataFrame) -> str:
+def label(style: Style, history: pd.DataFrame) -> str:
     """A learner's name, with its iterations."""
-    return f"{look.label}, {history['iteration'].max():,} iterations"
+    return f"{style.label}, {history['iteration'].max():,} iterations"
 
 
 def draw_band(axes: Axes, table: pd.DataFrame, color: str) -> None:
     """The spread of searches and seeds: 5th to 95th percentile at each iteration."""
-    low, high = np.percentile(table, BAND, axis=1)
-    axes.fill_between(table.index, low, high, color=color, alpha=0.2, linewidth=0)
+    band(axes, table.index, np.percentile(table, BAND, axis=1), color)
 
 
 def of_typical_search(history: pd.DataFrame) -> pd.DataFrame:
@@ -60,10 +57,10 @@ def of_typical_search(history: pd.DataFrame) -> pd.DataFrame:
 def draw_learning(axes: Axes, history: pd.DataFrame) -> None:
     """Both errors over the iterations on one scale, as in the paper's Figure 1."""
     bold = of_typical_search(history)
-    for error, style, name in zip(ERRORS, (POSITION, ORIENTATION), KINDS, strict=True):
-        draw_band(axes, curves(history, error), style["color"])
+    for error in BOTH:
+        draw_band(axes, curves(history, error), error.color)
         line = curves(bold, error).mean(axis=1)
-        axes.plot(line.index, line, linewidth=2.4, label=name, **style)
+        axes.plot(line.index, line, linewidth=2.4, label=error.kind, **error.line())
     axes.set(xlabel="iterations (two moves each)", xlim=(0, history["iteration"].max()))
 
 
@@ -74,27 +71,26 @@ def figure1(evidence: Evidence) -> Figure:
     for axes in panels:
         draw_learning(axes, history)
     panels[0].set(ylabel="mean error [cm, degrees]", ylim=(0, None))
-    panels[1].set(yscale=LOG)
+    logarithmic(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     panels[1].set_ylim(bottom=0.75 * panels[1].get_ylim()[0])  # room for the number under a line
-    plain(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
-    for error, style, unit in zip(ERRORS, (POSITION, ORIENTATION), UNITS, strict=True):
+    for error in BOTH:
         for axes, row, where in zip(panels, (0, -1), ("left", "right"), strict=True):
-            upper = ends.iloc[row][list(ERRORS)].idxmax() == error
+            upper = ends.iloc[row][list(ERRORS)].idxmax() == error.column
             near = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
             beside = (18, (8 if upper else -8) if near else 0)
-            axes.annotate(
-                f"{ends[error].iloc[row]:.{2 if row else 1}f} {unit}",
-                (ends.index[row], ends[error].iloc[row]),
+            note(
+                axes,
+                f"{ends[error.column].iloc[row]:.{2 if row else 1}f} {error.unit}",
+                (ends.index[row], ends[error.column].iloc[row]),
                 beside if where == "left" else (0, 10 if upper else -14),
-                textcoords="offset points",
                 ha=where,
-                color=style["color"],
+                color=error.color,
             )
-    left = 100 * ends.iloc[-1] / ends.iloc[0]
+    remaining = 100 * ends.iloc[-1] / ends.iloc[0]
     text = (
         f"Figure 1: both errors over {ends.index[-1]} iterations;"
-        f" {left.iloc[0]:.0f} % and {left.iloc[1]:.0f} % of them are left"
+        f" {remaining.iloc[0]:.0f} % and {remaining.iloc[1]:.0f} % of them are left"
     )
     if not evidence.shipped:
         resolved = evidence.scenario()
@@ -102,13 +98,12 @@ def figure1(evidence: Evidence) -> Figure:
         short = 0 < len(entries) <= NAMED
         damage = "; ".join(entries) if short else words(evidence.fact("scenario"))
         text += f"\n({evidence.study}: {resolved['robot'].upper()}, {damage})"
-    title(figure, text)
     seeds = history.groupby("search")["seed"].nunique().iloc[0]
     spread = f"means over {evidence.fact('tests')} test poses;"
     spread += f" bold: the median of {history['search'].nunique()} searches for widths and rates"
     spread += f", mean of its {seeds} seeds;"
     spread += f" band: {BAND[0]}-{BAND[1]} % of all {history['seed'].nunique()} runs"
-    legend_below(figure, panels[0], 2, spread)
+    finish(figure, text, panels[0], 2, spread)
     return figure
 
 
@@ -119,49 +114,49 @@ def figure2(evidence: Evidence) -> Figure:
     compared = both if len(both) == 2 else []
     drawn = dict.fromkeys((*evidence.fact("learners"), *both))
     histories = {learner: evidence.history(learner) for learner in drawn}
-    shown = {learner: _by_cells(learner, look) for learner, look in looks(histories).items()}
-    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
+    styles = styles_of(histories)
+    shown = {learner: _by_cells(learner, style) for learner, style in styles.items()}
+    for axes, error in zip(panels, BOTH, strict=True):
         for learner, history in histories.items():
             table = curves(history, error)
             table = table[table.index > 0]
-            look = shown[learner]
-            draw_band(axes, table, look.color)
-            axes.plot(table.index, table.mean(axis=1), label=label(look, history), **look.line())
-        first = next(iter(histories.values())).groupby("iteration")[error].mean().iloc[0]
-        axes.axhline(first, **BORDER)
-        at_line(axes, f"before: {first:.2f}", y=first)
+            style = shown[learner]
+            draw_band(axes, table, style.color)
+            axes.plot(table.index, table.mean(axis=1), label=label(style, history), **style.line())
+        first = next(iter(histories.values())).groupby("iteration")[error.column].mean().iloc[0]
+        line_across(axes, f"before: {first:.2f}", y=first)
         reached = []
         for one, other in (compared, compared[::-1]) if compared else ():
-            level = histories[other].groupby("iteration")[error].mean().iloc[-1]
-            when = _reached(histories[one], [error], np.array([level]))
+            level = histories[other].groupby("iteration")[error.column].mean().iloc[-1]
+            when = _reached(histories[one], [error.column], np.array([level]))
             reached.append(
                 (level, f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}")
             )
         for (level, told), above in zip(sorted(reached), (False, True), strict=False):
             axes.axhline(level, **BORDER)
-            axes.annotate(
+            note(
+                axes,
                 told,
                 (0.02, level),
                 (0, 3 if above else -3),  # two levels may be near to each other
                 xycoords=("axes fraction", "data"),
-                textcoords="offset points",
                 va="bottom" if above else "top",
                 fontsize=9,
             )
-        axes.set(xscale=LOG, yscale=LOG, xlabel="iterations (two moves each)", ylabel=text)
-        plain(axes.xaxis, 1, 10, 100, 1000, 10_000)
-        plain(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-    title(figure, f"Figure 2: {_in_one_sentence(histories, compared)}")
+        axes.set(xlabel="iterations (two moves each)", ylabel=error.label)
+        logarithmic(axes.xaxis, 1, 10, 100, 1000, 10_000)
+        logarithmic(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
+    text = f"Figure 2: {_in_one_sentence(histories, compared)}"
     runs = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
     spread = f"lines: means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %"
-    legend_below(figure, panels[0], min(len(histories), 2), spread)
+    finish(figure, text, panels[0], min(len(histories), 2), spread)
     return figure
 
 
-def _by_cells(learner: str, look: Look) -> Look:
+def _by_cells(learner: str, style: Style) -> Style:
     """Ritter's with the cells that its net has."""
     cells = CELLS.get(re.sub(r"_\d+$", "", learner))
-    return replace(look, label=f"Ritter's, cells of {cells}") if cells else look
+    return replace(style, label=f"Ritter's, cells of {cells}") if cells else style
 
 
 def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:
@@ -185,7 +180,7 @@ def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str
 
 
 def figure3(evidence: Evidence) -> Figure:
-    """What is left of the initial errors in every scenario."""
+    """What remains of the initial errors in every scenario."""
     scenarios, learners = evidence.fact("scenarios"), evidence.fact("learners")
     histories = {
         (scenario, learner): evidence.history(learner, scenario)
@@ -195,7 +190,7 @@ def figure3(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
     offsets = 0.22 * (np.arange(len(learners))[::-1] - (len(learners) - 1) / 2)
-    for axes, (error, text) in zip(panels, LABELS.items(), strict=True):
+    for axes, error in zip(panels, BOTH, strict=True):
         initial = [
             curves(histories[scenario, learners[0]], error).iloc[0].mean() for scenario in scenarios
         ]
@@ -208,20 +203,17 @@ def figure3(evidence: Evidence) -> Figure:
             label="before recalibration",
             zorder=3,
         )
-        for offset, (learner, look) in zip(offsets, looks(learners).items(), strict=True):
+        for offset, (learner, style) in zip(offsets, styles_of(learners).items(), strict=True):
             final = [curves(histories[scenario, learner], error).iloc[-1] for scenario in scenarios]
             means = np.maximum([values.mean() for values in final], FLOOR)
-            low, high = np.maximum(
-                np.transpose([np.percentile(values, BAND) for values in final]), FLOOR
-            )
-            axes.hlines(rows + offset, low, high, color=look.color, linewidth=1.5)
-            name = label(look, histories[scenarios[0], learner])
-            axes.scatter(means, rows + offset, s=36, label=name, zorder=3, **look.signs())
-        axes.set(xscale=LOG, xlabel=f"{text}; {FLOOR:g} stands for less", xlim=(FLOOR / 1.5, 30))
-        plain(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
-        axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
-        axes.grid(axis="y", visible=False)
-    title(figure, "Figure 3: errors before and after learning, in every scenario")
+            ends = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
+            name = label(style, histories[scenarios[0], learner])
+            with_intervals(axes, rows + offset, means, ends, name, style)
+        axes.set_xlabel(f"{error.label}; {FLOOR:g} stands for less")
+        logarithmic(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
+        axes.set_xlim(FLOOR / 1.5, 30)
+        name_rows(axes, rows, map(words, scenarios))
+    text = "Figure 3: errors before and after learning, in every scenario"
     spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
-    legend_below(figure, panels[0], 1 + len(learners), spread)
+    finish(figure, text, panels[0], 1 + len(learners), spread)
     return figure

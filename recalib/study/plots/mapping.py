@@ -8,17 +8,13 @@ from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.looks import DASHED
-from recalib.study.plots.steady import LOG
+from recalib.study.plots.palette import BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (
-    BORDER,
-    NEUTRAL,
-    ORIENTATION,
-    POSITION,
-    at_line,
-    legend_below,
-    plain,
-    title,
+    finish,
+    line_across,
+    logarithmic,
+    name_rows,
+    with_intervals,
     words,
 )
 
@@ -29,29 +25,19 @@ def figure5(evidence: Evidence) -> Figure:
     table, scenarios = evidence.table("mapping/coupling.parquet"), evidence.fact("scenarios")
     limit = coupling.CLAIM.limits["ratio"]
     rows = np.arange(len(scenarios))[::-1]
-    styles = zip((0.15, -0.15), KINDS, (POSITION, ORIENTATION), "os", strict=True)
-    for offset, kind, style, marker in styles:
-        quantiles = table.groupby("scenario")[kind].quantile([0.05, 0.5, 0.95]).unstack()
-        quantiles = quantiles.loc[scenarios]
-        axes.hlines(rows + offset, quantiles[0.05], quantiles[0.95], color=style["color"])
-        axes.scatter(
-            quantiles[0.5],
-            rows + offset,
-            color=style["color"],
-            marker=marker,
-            label=f"{kind} commands",
-            zorder=3,
-        )
-    axes.axvline(limit, **BORDER)
-    at_line(axes, f"criterion: below {limit:g}", x=limit)
+    for offset, error in zip((0.15, -0.15), BOTH, strict=True):
+        quantiles = table.groupby("scenario")[error.kind].quantile([0.05, 0.5, 0.95]).unstack()
+        low, middle, high = quantiles.loc[scenarios].to_numpy().T
+        name = f"{error.kind} commands"
+        with_intervals(axes, rows + offset, middle, (low, high), name, error)
+    line_across(axes, f"criterion: below {limit:g}", x=limit)
     axes.set(xlabel="norm of the off-diagonal block over that of the diagonal block")
     widest = max(table.groupby("scenario")[kind].quantile(0.95).max() for kind in KINDS)
     axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
-    axes.set_yticks(rows, [words(scenario) for scenario in scenarios])
-    axes.grid(axis="y", visible=False)
+    name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
-    title(figure, "Figure 5: how much positions influence orientation commands, and the reverse")
-    legend_below(figure, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
+    text = "Figure 5: how much positions influence orientation commands, and the reverse"
+    finish(figure, text, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
 
 
@@ -71,26 +57,18 @@ def figure7(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
-    axes.axhline(1, **BORDER)
-    at_line(axes, "above: a constant would be the better guess", y=1)
-    axes.set(
-        xscale=LOG,
-        yscale=LOG,
-        xlabel="encoder shifts, times the paper's (links at most once)",
-        ylabel="$E_{upd} / E_{clas}$",
-        ylim=(None, 3),
-    )
-    plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
-    plain(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
+    line_across(axes, "above: a constant would be the better guess", y=1)
+    axes.set_xlabel("encoder shifts, times the paper's (links at most once)")
+    axes.set_ylabel("$E_{upd} / E_{clas}$")
+    logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
+    logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
+    axes.set_ylim(top=3)
     largest = ratio.dropna().index.get_level_values("scale").max()
-    kept = (ratio["theta"].dropna() < 1).all()
-    title(
+    better = (ratio["theta"].dropna() < 1).all()
+    finish(
         figure,
         "Figure 7: the old mapping of commands is a better guess than a constant"
-        + (f",\nup to {largest:g} times the paper's damage" if kept else " in slight damage"),
-    )
-    legend_below(
-        figure,
+        + (f",\nup to {largest:g} times the paper's damage" if better else " in slight damage"),
         axes,
         2,
         f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
@@ -115,20 +93,18 @@ def figure8(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"width {width:g}",
         )
-    axes.axhline(1, **BORDER)
-    at_line(axes, "equation (10)", y=1, until=0.65)
+    line_across(axes, "equation (10)", y=1, until=0.65)
     away = expected_learning.CLAIM.limits["away"]
-    axes.axvline(away, **BORDER)
-    at_line(axes, f"criterion: from {away:g} on", x=away)
+    line_across(axes, f"criterion: from {away:g} on", x=away)
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",
         xlim=(-0.1, 6.2),
         ylim=(0, 1.15),
     )
-    title(figure, "Figure 8: equation (10), from the border of the workspace inwards")
-    legend_below(
+    finish(
         figure,
+        "Figure 8: equation (10), from the border of the workspace inwards",
         axes,
         table["width"].nunique(),
         "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
@@ -175,6 +151,6 @@ def figure10(evidence: Evidence) -> Figure:
         xlim=(0, None),
         ylim=(0, None),
     )
-    title(figure, "Figure 10: the initial errors of every assignment of the paper's damage")
-    legend_below(figure, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
+    text = "Figure 10: the initial errors of every assignment of the paper's damage"
+    finish(figure, text, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
     return figure

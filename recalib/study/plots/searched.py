@@ -9,27 +9,15 @@ from matplotlib.figure import Figure
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import rough_search
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, KINDS
-from recalib.study.plots.looks import looks
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import (
-    BAND,
-    BORDER,
-    LABELS,
-    NEUTRAL,
-    ORIENTATION,
-    POSITION,
-    at_line,
-    legend_under,
-    plain,
-    title,
-)
+from recalib.study.plots.palette import BOTH, NEUTRAL, ErrorStyle, styles_of
+from recalib.study.plots.style import BAND, band, legend_under, line_across, logarithmic, title
 
 REMAINS = {  # what the search minimises
     "worse": "larger remaining share of both errors",
     "geometric_mean": "remaining share, geometric mean",
 }
-NETS = {KINDS[0]: ("g_k", "g_kl"), KINDS[1]: ("g_kl", "g_k")}  # narrow and wide, as the paper wants
+# narrow and wide, as the paper wants
+NETS = {"position": ("g_k", "g_kl"), "orientation": ("g_kl", "g_k")}
 SIZE = 9.5  # points: a label no wider than its panel
 ABOVE = 18  # points, in which stands what an upright line is
 PARTS = 10  # of the trials, from one end of the ratios to the other
@@ -49,50 +37,46 @@ def _best(trials: pd.DataFrame) -> np.ndarray:
 def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     """How little the best of few trials leaves; returns the improved system's median."""
     rough, median = evidence.fact("rough_trials"), {}
-    for role, look in looks([IMPROVED, RITTER]).items():
+    for role, style in styles_of([IMPROVED, RITTER]).items():
         best = _best(_first_rounds(evidence, evidence.fact(role)))
         trials = np.arange(1, best.shape[1] + 1)
         low, median[role], high = np.percentile(best, (BAND[0], 50, BAND[1]), axis=0)
-        axes.fill_between(trials, low, high, color=look.color, alpha=0.2, linewidth=0)
+        band(axes, trials, (low, high), style.color)
         length = evidence.sought(evidence.fact(role)).learner.iterations
-        name = f"{look.label}, {length:,} iterations"
-        axes.plot(trials, median[role], label=name, **look.line())
+        name = f"{style.label}, {length:,} iterations"
+        axes.plot(trials, median[role], label=name, **style.line())
     limit = rough_search.CLAIM.limits["left"]
-    axes.axhline(limit, **BORDER)
-    at_line(axes, f"a {limit:word}", y=limit)
-    axes.axvline(rough, **BORDER)
-    at_line(axes, f"{rough} trials", x=rough)
-    axes.set(xscale=LOG, yscale=LOG)
+    line_across(axes, f"a {limit:word}", y=limit)
+    line_across(axes, f"{rough} trials", x=rough)
     axes.set_xlabel("random trials, of which the best counts", fontsize=SIZE)
     axes.set_ylabel(REMAINS[evidence.sought(evidence.fact(IMPROVED)).budget.score])
     axes.yaxis.label.set_size(SIZE)
-    plain(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
-    plain(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
-    axes.set_title("How rough may the search be?", fontsize=11, pad=ABOVE)
+    logarithmic(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
+    logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
+    axes.set_title("How rough may the search be?", pad=ABOVE)
     legend_under(axes)
     return median[IMPROVED][rough - 1]
 
 
-def _draw_order(axes: Axes, trials: pd.DataFrame, kind: str, error: str, color: str) -> None:
+def _draw_order(axes: Axes, trials: pd.DataFrame, error: ErrorStyle) -> None:
     """One map's error against the order of its widths, and the mean rank correlation."""
-    narrow, wide = NETS[kind]
-    trials = trials.assign(ratio=trials[f"{kind}/{narrow}"] / trials[f"{kind}/{wide}"])
-    ranks = [its[["ratio", error]].rank() for _, its in trials.groupby("search")]
+    narrow, wide = NETS[error.kind]
+    table = trials[["search"]].assign(
+        ratio=trials[f"{error.kind}/{narrow}"] / trials[f"{error.kind}/{wide}"],
+        error=trials[error.column],
+    )
+    ranks = [its[["ratio", "error"]].rank() for _, its in table.groupby("search")]
     found = float(np.mean([its.corr().iloc[0, 1] for its in ranks]))
-    axes.scatter(trials["ratio"], trials[error], s=5, alpha=0.4, color=color, linewidths=0)
-    ordered = trials.sort_values("ratio")[["ratio", error]].to_numpy()
+    axes.scatter(table["ratio"], table["error"], s=5, alpha=0.4, color=error.color, linewidths=0)
+    ordered = table.sort_values("ratio")[["ratio", "error"]].to_numpy()
     middles = np.array([np.median(part, axis=0) for part in np.array_split(ordered, PARTS)])
     axes.plot(*middles.T, color=NEUTRAL, linewidth=2, label="median of a tenth of the trials")
-    axes.axvline(1, **BORDER)
-    at_line(axes, "equally wide", x=1)
-    axes.set(xscale=LOG, yscale=LOG)
+    line_across(axes, "equally wide", x=1)
     axes.set_xlabel(f"final width of ${_sign(narrow)}$ over ${_sign(wide)}$", fontsize=SIZE)
-    axes.set_ylabel(LABELS[error], fontsize=SIZE)
-    plain(axes.xaxis, 0.1, 0.3, 1, 3, 10)
-    plain(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
-    axes.set_title(
-        f"{kind.capitalize()} map: rank\ncorrelation {found:+.2f}", fontsize=11, pad=ABOVE
-    )
+    axes.set_ylabel(error.label, fontsize=SIZE)
+    logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
+    logarithmic(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
+    axes.set_title(f"{error.kind.capitalize()} map: rank\ncorrelation {found:+.2f}", pad=ABOVE)
     legend_under(axes)
 
 
@@ -107,9 +91,8 @@ def figure6(evidence: Evidence) -> Figure:
     remaining = _draw_shares(panels[0], evidence)
     improved = evidence.fact("improved")
     trials, budget = _first_rounds(evidence, improved), evidence.sought(improved)
-    styles = zip(panels[1:], KINDS, ERRORS, (POSITION, ORIENTATION), strict=True)
-    for axes, kind, error, style in styles:
-        _draw_order(axes, trials, kind, error, style["color"])
+    for axes, error in zip(panels[1:], BOTH, strict=True):
+        _draw_order(axes, trials, error)
     title(
         figure,
         f"Figure 6: the best of {evidence.fact('rough_trials')} random trials leaves"

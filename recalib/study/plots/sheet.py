@@ -14,6 +14,8 @@ ABOVE, BETWEEN = 1.3, 0.62  # inches: title and what explains it; a panel's axis
 class Sheet:
     """Panels over each other, as wide as the middle one of three columns.
 
+    An inch of the sheet is a unit of a panel's vertical axis, which goes up from 0.
+
     Args:
         columns: widths [inch] of the words on the left, the panels, the words on the right.
         heights: of the panels [inch].
@@ -40,7 +42,12 @@ class Sheet:
         for height in heights:
             top -= height
             box = (left, top / tall, (columns[1] - EDGE) / wide, height / tall)
-            self.panels.append(self.figure.add_axes(box))
+            axes = self.figure.add_axes(box)
+            axes.set(ylim=(0, height), yticks=[])
+            axes.tick_params(labelsize=SMALL)
+            axes.xaxis.label.set_size(SMALL + 0.5)
+            axes.spines["left"].set_visible(False)
+            self.panels.append(axes)
             top -= BETWEEN
         self.figure.suptitle(
             title, fontweight="bold", fontsize=12, x=EDGE / wide, y=1 - EDGE / tall, ha="left"
@@ -51,14 +58,8 @@ class Sheet:
 
     def head(self, place: float, text: str) -> None:
         """What a column is, above the first panel: from this part of the panel's width."""
-        self.panels[0].text(
-            place,
-            sum(self.panels[0].get_ylim()) + 0.07,
-            text,
-            transform=self.panels[0].get_yaxis_transform(),
-            fontsize=SMALL,
-            style="italic",
-        )
+        axes = self.panels[0]
+        write(axes, place, sum(axes.get_ylim()) + 0.07, text, va="baseline", style="italic")
 
     def note(self, text: str) -> None:
         """Words below all panels."""
@@ -72,3 +73,9 @@ class Sheet:
         self.figure.legend(
             signs.values(), signs, loc="lower left", ncols=columns, fontsize=SMALL + 0.5
         )
+
+
+def write(axes: Axes, place: float, height: float, text: str, **font) -> None:
+    """Words beside a panel: from this part of its width, about this height [inch]."""
+    font = {"fontsize": SMALL, "va": "center", "linespacing": 1.15} | font
+    axes.text(place, height, text, transform=axes.get_yaxis_transform(), **font)

@@ -1,5 +1,7 @@
-"""What all figures share: one style, legible in black and white and to the colour-blind."""
+"""What all figures share: one style, and the words, lines and axes that they have in common."""
 
+from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -11,18 +13,18 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
+from numpy.typing import ArrayLike
 
 from recalib.storage import whole
-from recalib.study.measured import ERRORS
-from recalib.study.plots.looks import DASHED, SOLID
-from recalib.study.plots.steady import steady
+from recalib.study.plots.palette import BORDER, Style
+from recalib.study.plots.steady import LOG, steady
 
 STYLE = {
     "figure.figsize": (8, 4.5),
     "figure.dpi": 110,
     "figure.constrained_layout.use": True,
     "font.size": 11,
-    "axes.titlesize": 12,
+    "axes.titlesize": 11,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
     "axes.spines.top": False,
@@ -30,21 +32,16 @@ STYLE = {
     "axes.grid": True,
     "axes.axisbelow": True,  # the grid
     "grid.color": "0.9",
+    "legend.fontsize": 9,
     "legend.frameon": False,
     "legend.handlelength": 2.6,  # two whole dashes
+    "legend.title_fontsize": 9,
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
-LABELS = dict(zip(ERRORS, ("position error [cm]", "orientation error [degrees]"), strict=True))
-# What colours mean besides learners, which have the palette of Okabe and Ito (`looks`).
-POSITION = {"color": "#5D3A9B", "linestyle": SOLID}
-ORIENTATION = {"color": "#994F00", "linestyle": DASHED}
-HOLDS, FAILS = "#44AA99", "#882255"
-NEUTRAL = "black"
 BAND = (5, 95)  # percent of the runs
 # of `statistics.Estimate`
 INTERVALS = "lines: where 95 % of repetitions with other searches and seeds would lie"
-BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
@@ -59,10 +56,45 @@ def save(figure: Figure, *paths: str | Path) -> None:
 
 
 def plain(axis: Axis, *ticks: float) -> None:
-    """Label a logarithmic axis at these values, as plain numbers."""
+    """Label an axis at these values alone, as plain numbers."""
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_major_formatter(StrMethodFormatter("{x:,g}"))
     axis.set_minor_locator(NullLocator())
+
+
+def logarithmic(axis: Axis, *ticks: float) -> None:
+    """Make an axis logarithmic, and label it at these values."""
+    axis.axes.set(**{f"{axis.axis_name}scale": LOG})
+    plain(axis, *ticks)
+
+
+def name_rows(axes: Axes, heights: Sequence[float], names: Iterable[str]) -> None:
+    """Name what stands in rows at these heights."""
+    axes.set_yticks(heights, names)
+    axes.grid(axis="y", visible=False)
+
+
+def band(axes: Axes, places: ArrayLike, ends: Iterable[ArrayLike], color: str) -> None:
+    """What lies between the lower and the upper end, paler than its line."""
+    axes.fill_between(places, *ends, color=color, alpha=0.2, linewidth=0)
+
+
+def with_intervals(
+    axes: Axes,
+    rows: ArrayLike,
+    values: ArrayLike,
+    ends: Iterable[ArrayLike],
+    label: str,
+    style: Style,
+) -> None:
+    """Signs in rows, each on the line from the lower to the upper end of its interval."""
+    axes.hlines(rows, *ends, color=style.color)
+    axes.scatter(values, rows, label=label, zorder=3, **style.signs())
+
+
+def note(axes: Axes, text: str, at: tuple, points: tuple[float, float], **font) -> None:
+    """Words, so many points to the right of a place in the data and above it."""
+    axes.annotate(text, at, points, textcoords="offset points", **font)
 
 
 def title(figure: Figure, text: str, below: str = "") -> None:
@@ -72,15 +104,20 @@ def title(figure: Figure, text: str, below: str = "") -> None:
         figure.supxlabel(below, fontsize=9)
 
 
-def legend_below(figure: Figure, axes: Axes, columns: int, text: str = "") -> None:
-    """The legend of one of the panels for all of them, below the figure: it hides no data."""
+def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) -> None:
+    """The title, and below the figure, where it hides no data, the legend of one of the panels.
+
+    Args:
+        axes: whose legend is that of all panels.
+        columns: of the legend.
+        explained: what its signs mean.
+    """
+    title(figure, text)
     figure.legend(
         *axes.get_legend_handles_labels(),
         loc="outside lower center",
         ncols=columns,
-        fontsize=9,
-        title=text,
-        title_fontsize=9,
+        title=explained,
     )
 
 
@@ -91,21 +128,25 @@ def legend_under(axes: Axes, columns: int = 1) -> None:
     )
 
 
-def at_line(
+def line_across(
     axes: Axes, text: str, x: float | None = None, y: float | None = None, until: float = 1
 ) -> None:
-    """Say what a line across the axes is: an upright one at x, a level one at y.
+    """A line that parts one side of the axes from the other, and what it is.
+
+    An upright one at x, or a level one at y.
 
     Args:
         until: the part of the axes' width at which the words on a level line end.
     """
     upright = x is not None
-    axes.annotate(
+    draw = partial(axes.axvline, x) if upright else partial(axes.axhline, y)
+    draw(**BORDER)
+    note(
+        axes,
         text,
         (x, 1) if upright else (until, y),
         (0, 2) if upright else (-2, 2),
         xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
-        textcoords="offset points",
         ha="center" if upright else "right",
         va="bottom",
         fontsize=8,

@@ -14,15 +14,22 @@ from recalib.study.evidence.claims.across import Setups
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
 from recalib.study.evidence.words import ranged, short
-from recalib.study.plots.sheet import SMALL, Sheet
-from recalib.study.plots.steady import LOG
-from recalib.study.plots.style import BORDER, HOLDS, NEUTRAL, plain
+from recalib.study.plots.palette import BORDER, HOLDS, NEUTRAL
+from recalib.study.plots.sheet import Sheet, write
+from recalib.study.plots.style import logarithmic, plain
 from recalib.study.statistics import LEVEL, Estimate
 
 LEFT, PLOT, RIGHT = 3.15, 3.7, 3.65  # inches: what is claimed, its numbers, its verdict
 TALL, LESS = 0.56, 0.45  # inches of a row: of a claim, and of another system beside it
 DARK, PALE = {"dots": "0.35", "mean": NEUTRAL}, {"dots": "0.7", "mean": "0.6"}
-RANGES = {"ratio": (0.05, 4), "correlation": (-1, 1), "limit": (0.01, 10)}
+SCALES: Mapping[str, tuple[str, tuple[float, ...]]] = {  # names and ticks of axes
+    "ratio": (
+        "error with what the paper proposes over error without it",
+        (0.05, 0.1, 0.2, 0.5, 1, 2, 4),
+    ),
+    "correlation": ("rank correlation", (-1, -0.5, 0, 0.5, 1)),
+    "limit": ("what was measured over its limit", (0.01, 0.1, 1, 10)),
+}
 LITTLE = 1e-6  # what the arithmetic leaves
 REACH = ndtri((1 + LEVEL) / 2)  # standard deviations
 
@@ -78,12 +85,12 @@ def rows(evidence: Evidence) -> list[Row]:
 def figure14(evidence: Evidence) -> Figure:
     """The numbers of all setups for each claim, their mean, and what of their spread is luck."""
     shown = rows(evidence)
-    panels = {kind: [row for row in shown if row.kind == kind] for kind in RANGES}
+    panels = {kind: [row for row in shown if row.kind == kind] for kind in SCALES}
     heights = [sum(row.height for row in its) for its in panels.values()]
     sheet = Sheet((LEFT, PLOT, RIGHT), heights, _heading(shown), _explained(evidence, shown), 0.6)
     for axes, (kind, its) in zip(sheet.panels, panels.items(), strict=True):
-        _draw(axes, its, RANGES[kind])
-        _scale(axes, kind)
+        limits = _scale(axes, kind)
+        _draw(axes, its, limits)
     heads = {-LEFT / PLOT: "the paper says", 1.03: "verdict", 1.32: "mean (95 % interval), spread"}
     for place, head in heads.items():
         sheet.head(place, head)
@@ -112,16 +119,15 @@ def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
 
 
 def _draw(axes: Axes, its: Sequence[Row], limits: tuple[float, float]) -> None:
-    """Rows from above; an inch of the sheet is a unit of the axis."""
-    top = sum(row.height for row in its)
-    axes.set(ylim=(0, top), yticks=[])
+    """Rows from above."""
+    _, top = axes.get_ylim()
     for row in its:
         _draw_row(axes, row, top - row.height / 2, limits)
         top -= row.height
 
 
 def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) -> None:
-    model, look = row.setups.model, DARK if row.leads else PALE
+    model, style = row.setups.model, DARK if row.leads else PALE
     comparison, ends = row.setups.across.comparison, np.array(limits)
     (limit,) = row.placed([row.setups.across.limit()])
     side = (limits[0], limit) if comparison.below else (limit, limits[1])
@@ -144,13 +150,13 @@ def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) 
     band = np.clip(row.placed([mean - REACH * luck, mean + REACH * luck]), *ends)
     alone = f"luck alone: {LEVEL:.0%} of the dots, if all setups were alike".replace("%", " %")
     axes.hlines(upper, *band, color="0.85", linewidth=15, label=alone, zorder=1)
-    _dots(axes, row.placed(np.sort(model.numbers)), upper, limits, look["dots"])
+    _dots(axes, row.placed(np.sort(model.numbers)), upper, limits, style["dots"])
     another = np.clip(row.placed(model.another[1:]), *ends)
-    axes.hlines(lower, *another, color=look["mean"], linewidth=0.8, label=OTHERS)
+    axes.hlines(lower, *another, color=style["mean"], linewidth=0.8, label=OTHERS)
     interval = np.clip(row.placed(model.mean[1:]), *ends)
-    axes.hlines(lower, *interval, color=look["mean"], linewidth=3, label=MEAN)
+    axes.hlines(lower, *interval, color=style["mean"], linewidth=3, label=MEAN)
     (at,) = np.clip(row.placed([mean]), *ends)
-    axes.scatter(at, lower, s=34, marker="D", color=look["mean"], zorder=3)
+    axes.scatter(at, lower, s=34, marker="D", color=style["mean"], zorder=3)
     _write(axes, row, middle)
 
 
@@ -176,19 +182,15 @@ def _dots(
 
 
 def _write(axes: Axes, row: Row, middle: float) -> None:
-    setups, column = row.setups, {"fontsize": SMALL, "va": "center", "linespacing": 1.15}
-    limit = setups.across.comparison
+    limit = row.setups.across.comparison
     against = "" if limit.bounds else f", limit {limit.limit:g}"
     lines = [*textwrap.wrap(row.statement, 46)] if row.leads else []
     what = "\n".join([*lines, f"{row.system}{against}"])
     color = NEUTRAL if row.leads else "0.4"
-    edges = axes.get_yaxis_transform()
-    axes.text(-LEFT / PLOT, middle, what, transform=edges, color=color, **column)
+    write(axes, -LEFT / PLOT, middle, what, color=color)
     weight = "bold" if row.leads else "normal"
-    axes.text(1.03, middle, row.verdict, transform=edges, color=color, weight=weight, **column)
-    axes.text(
-        1.32, middle, "\n".join(_numbers(setups, row.of)), transform=edges, color=color, **column
-    )
+    write(axes, 1.03, middle, row.verdict, color=color, weight=weight)
+    write(axes, 1.32, middle, "\n".join(_numbers(row.setups, row.of)), color=color)
 
 
 def _numbers(setups: Setups, of: int) -> list[str]:
@@ -211,24 +213,17 @@ def _spread(deviation: float, logarithmic: bool) -> str:
     return f"{100 * part:.0f} %" if part < 1 else f"×{1 + part:.2g}"
 
 
-def _scale(axes: Axes, kind: str) -> None:
-    logarithmic = kind != "correlation"
-    low, high = RANGES[kind]
+def _scale(axes: Axes, kind: str) -> tuple[float, float]:
+    """Make the axis of a kind of claims; returns its ends."""
     label, ticks = SCALES[kind]
-    pad = (high / low) ** 0.02 if logarithmic else 0.02 * (high - low)
-    axes.set(xscale=LOG if logarithmic else "linear", xlabel=label)
-    axes.set_xlim((low / pad, high * pad) if logarithmic else (low - pad, high + pad))
-    plain(axes.xaxis, *ticks)
-    axes.tick_params(labelsize=SMALL)
-    axes.xaxis.label.set_size(SMALL + 0.5)
-    axes.spines["left"].set_visible(False)
-
-
-SCALES: Mapping[str, tuple[str, tuple[float, ...]]] = {
-    "ratio": (
-        "error with what the paper proposes over error without it",
-        (0.05, 0.1, 0.2, 0.5, 1, 2, 4),
-    ),
-    "correlation": ("rank correlation", (-1, -0.5, 0, 0.5, 1)),
-    "limit": ("what was measured over its limit", (0.01, 0.1, 1, 10)),
-}
+    low, high = ticks[0], ticks[-1]
+    axes.set_xlabel(label)
+    if kind == "correlation":
+        pad = 0.02 * (high - low)
+        axes.set_xlim(low - pad, high + pad)
+        plain(axes.xaxis, *ticks)
+    else:
+        pad = (high / low) ** 0.02
+        logarithmic(axes.xaxis, *ticks)
+        axes.set_xlim(low / pad, high * pad)
+    return low, high

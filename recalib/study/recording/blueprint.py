@@ -7,9 +7,9 @@ import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
 from recalib.study.entrants import label_of
-from recalib.study.recording.acts import ARM
 from recalib.study.recording.errors import PUBLISHED
-from recalib.study.recording.story import Watched
+from recalib.study.recording.phases import ARM
+from recalib.study.recording.watched import Watched
 
 TITLES = {
     "position_error_cm": "mean position error [cm]",
@@ -46,7 +46,7 @@ def arrange(
         name="the arm before and after",
     )
     beside = rrb.Vertical(
-        rrb.Horizontal(*(_scene(label_of(each), each, workspace, eye) for each in learners)),
+        rrb.Horizontal(*(_scene(label_of(name), name, workspace, eye) for name in learners)),
         rrb.Horizontal(
             rrb.TextDocumentView(origin="beside", name="what one sees"),
             *_plots(learners, watched, published),

@@ -1,41 +1,40 @@
 """Errors over time, for the plots."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import rerun as rr
 
 from recalib.study.measured import ERRORS, UNITS
-from recalib.study.recording.clocks import measurements
 from recalib.study.recording.colours import GREY
-from recalib.study.recording.story import Motion, Watched
+from recalib.study.recording.scene import Scene
 
 PUBLISHED = "paper"  # the entity's name beside those of the learners
 
 
-def send_errors(
-    rec: rr.RecordingStream, learner: str, colour: tuple, watched: Watched, motion: Motion
-) -> None:
+def send_errors(scene: Scene, colour: Sequence[int]) -> None:
     """Mean errors over all test poses."""
-    clock, rows = measurements(watched, motion)
-    results = watched.history.columns()
+    results = scene.watched.history.columns()
+    # a few moves in a moment are no noise to be averaged
+    style = rr.SeriesLines(names=scene.learner, colors=colour, widths=3, aggregation_policy="off")
     for quantity in ERRORS:
-        entity, values = f"errors/{quantity}/{learner}", results[quantity][rows]
-        rec.send_columns(entity, clock, rr.Scalars.columns(scalars=values))
-        # a few moves in a moment are no noise to be averaged
-        look = rr.SeriesLines(names=learner, colors=colour, widths=3, aggregation_policy="off")
-        rec.log(entity, look, static=True)
+        _send(scene, quantity, scene.learner, results[quantity], style)
 
 
-def send_published(
-    rec: rr.RecordingStream, published: Mapping[str, float], watched: Watched, motion: Motion
-) -> None:
+def send_published(scene: Scene, published: Mapping[str, float]) -> None:
     """The published initial errors, where there are any, as straight lines in the plots."""
-    clock, rows = measurements(watched, motion)
     for quantity, unit in zip(ERRORS, UNITS, strict=True):
         if quantity in published:
-            entity, value = f"errors/{quantity}/{PUBLISHED}", published[quantity]
-            line = np.full(len(rows), value)
-            rec.send_columns(entity, clock, rr.Scalars.columns(scalars=line))
-            name = f"the paper, before: {value} {unit}"
-            rec.log(entity, rr.SeriesLines(names=name, colors=GREY, widths=1), static=True)
+            name = f"the paper, before: {published[quantity]} {unit}"
+            level = np.full(len(scene.motion.moves), published[quantity])
+            style = rr.SeriesLines(names=name, colors=GREY, widths=1)
+            _send(scene, quantity, PUBLISHED, level, style)
+
+
+def _send(
+    scene: Scene, quantity: str, name: str, values: np.ndarray, style: rr.SeriesLines
+) -> None:
+    clock, rows = scene.motion.throughout()
+    entity = f"errors/{quantity}/{name}"
+    scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=values[rows]))
+    scene.rec.log(entity, style, static=True)

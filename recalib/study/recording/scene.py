@@ -16,20 +16,49 @@
     /errors/<quantity>/paper       the published initial error, where it is meant
 
 Timeline `moves` counts the robot's moves while it learns. Timeline `time` runs through the three
-acts of `story.Motion`; what is measured during learning stands on both.
+phases of `phases.Motion`; what is measured during learning stands on both.
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import rerun as rr
 
 from recalib.nominal.poses import POSITION, Workspace
-from recalib.study.recording.clocks import clocks, measurements
-from recalib.study.recording.colours import GREY, WHITE, of_misses
-from recalib.study.recording.story import Motion, Watched
+from recalib.study.recording.colours import GREY, WHITE
+from recalib.study.recording.phases import Clock, Motion
+from recalib.study.recording.watched import Watched
 
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A learner's training on its way into a recording, below an entity of the learner's name.
+
+    Attributes:
+        rec: the recording.
+        learner: its name.
+        workspace: of the robot.
+        watched: the training.
+        motion: of the arm that shows it.
+    """
+
+    rec: rr.RecordingStream
+    learner: str
+    workspace: Workspace
+    watched: Watched
+    motion: Motion
+
+    def log(self, part: str, *what: rr.AsComponents) -> None:
+        """Log what stands still."""
+        self.rec.log(f"{self.learner}/{part}", *what, static=True)
+
+    def send(self, part: str, clock: Clock, columns: rr.ComponentColumnList, each: int = 1) -> None:
+        """Send columns over time, with so many rows at each moment."""
+        moments = len(clock[0].as_arrow_array())
+        self.rec.send_columns(f"{self.learner}/{part}", clock, columns.partition([each] * moments))
 
 
 def unit_of(workspace: Workspace) -> float:
@@ -41,81 +70,51 @@ def log_surroundings(
     rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, texts: Mapping[str, str]
 ) -> None:
     """The texts by entity, the workspace's box and the desired poses (pose, 4, 4)."""
+    unit = unit_of(workspace)
     rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
     for entity, text in texts.items():
         rec.log(entity, rr.TextDocument(text, media_type="text/markdown"), static=True)
-    centre, half_sizes, unit = (
-        workspace.centre[:3, 3],
-        workspace.half_ranges[POSITION],
-        unit_of(workspace),
-    )
-    edges = rr.components.FillMode.MajorWireframe
     box = rr.Boxes3D(
-        centers=[centre], half_sizes=[half_sizes], colors=GREY, radii=0.004 * unit, fill_mode=edges
+        centers=[workspace.centre[:3, 3]],
+        half_sizes=[workspace.half_ranges[POSITION]],
+        colors=GREY,
+        radii=0.004 * unit,
+        fill_mode=rr.components.FillMode.MajorWireframe,
     )
     rec.log("workspace", box, static=True)
-    rec.log(
-        "desired",
-        rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.0075 * unit),
-        static=True,
-    )
+    axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.0075 * unit)
+    rec.log("desired", axes, static=True)
 
 
-def send_landings(
-    rec: rr.RecordingStream, learner: str, unit: float, watched: Watched, motion: Motion
-) -> None:
-    """Achieved frames, and the misses as lines in a colour that tells their length."""
-    clock, rows = measurements(watched, motion)
-    achieved = watched.achieved[rows]
-    starts = np.broadcast_to(watched.desired[:, :3, 3], achieved[..., :3, 3].shape)
-    lines = np.stack([starts, achieved[..., :3, 3]], axis=-2).reshape(-1, 2, 3)
-    axes = axes_of(achieved.reshape(-1, 4, 4), AXIS * unit)
-    colours = of_misses(watched.misses[rows].ravel())
-    for entity, strips, tints, radius in (
-        (f"{learner}/achieved", axes, np.repeat(colours, 3, axis=0), 0.014 * unit),
-        (f"{learner}/miss", lines, colours, 0.03 * unit),
-    ):
-        columns = rr.LineStrips3D.columns(strips=strips, colors=tints)
-        rec.send_columns(entity, clock, columns.partition([len(strips) // len(rows)] * len(rows)))
-        rec.log(entity, rr.LineStrips3D.from_fields(radii=radius), static=True)
-
-
-def send_target(
-    rec: rr.RecordingStream,
-    workspace: Workspace,
-    learner: str,
-    when: tuple[str, str],
-    watched: Watched,
-    motion: Motion,
-) -> None:
+def send_target(scene: Scene, before: str, after: str) -> None:
     """The pose that the arm is sent to, and above the workspace words for how far off it is.
 
     Args:
-        when: words for the first and the third act.
+        before, after: words for the first and the third phase.
     """
-    poses, moves = len(watched.desired), watched.history.moves
-    caption, target = f"{learner}/target/caption", f"{learner}/target/pose"
+    workspace, watched, motion = scene.workspace, scene.watched, scene.motion
     above = workspace.centre[:3, 3] + [0, 0, 1.4 * workspace.half_ranges[2]]
-    rec.log(caption, rr.Points3D([above], radii=0, colors=WHITE), static=True)
+    scene.log("target/caption", rr.Points3D([above], radii=0, colors=WHITE))
     dot = rr.Points3D.from_fields(radii=0.052 * unit_of(workspace), colors=WHITE)
-    rec.log(target, dot, static=True)
+    scene.log("target/pose", dot)
+    poses = len(watched.desired)
     seconds, visited, captions = [], [], []
-    for act, (measurement, words) in enumerate(zip((0, -1), when, strict=True)):
+    for phase, (row, words) in enumerate(((0, before), (-1, after))):
         for pose in range(poses):
-            seconds += [motion.departures[act, pose], motion.arrivals[act, pose]]
+            seconds += [motion.departures[phase, pose], motion.arrivals[phase, pose]]
             visited += [pose, pose]
-            captions += [words, f"{words}: {_off(watched, measurement, pose)}"]
-    acts = [rr.TimeColumn("time", duration=seconds)]
+            captions += [words, f"{words}: {_off(watched, row, pose)}"]
+    last = poses - 1  # where it waits while it learns
     progress = [
-        f"after {done} moves: {_off(watched, row, poses - 1)}" for row, done in enumerate(moves)
+        f"after {done} moves: {_off(watched, row, last)}" for row, done in enumerate(motion.moves)
     ]
     for clock, where, words in (
-        (acts, visited, captions),
-        (clocks(watched, motion)[1], [poses - 1] * len(progress), progress),
+        ([rr.TimeColumn("time", duration=seconds)], visited, captions),
+        (motion.measurements(), [last] * len(progress), progress),
     ):
-        rec.send_columns(caption, clock, rr.Points3D.columns(labels=words))
+        scene.send("target/caption", clock, rr.Points3D.columns(labels=words))
         there = rr.Points3D.columns(positions=watched.desired[where, :3, 3])
-        rec.send_columns(target, clock, there)
+        scene.send("target/pose", clock, there)
 
 
 def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
@@ -126,8 +125,6 @@ def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
 
 
 def _off(watched: Watched, measurement: int, pose: int) -> str:
-    centimetres, degrees = (
-        100 * watched.misses[measurement, pose],
-        np.degrees(watched.tilts[measurement, pose]),
-    )
+    centimetres = 100 * watched.misses[measurement, pose]
+    degrees = np.degrees(watched.tilts[measurement, pose])
     return f"{centimetres:.1f} cm and {degrees:.1f}° off"

@@ -1,12 +1,21 @@
-"""The viewer's program, which writes nothing into a home and tells nobody of its use."""
+"""The viewer's program: it listens to this machine alone and tells nobody of its use."""
 
 import os
+import socket
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import IO, TypeVar
 
 import rerun_cli
 
+T = TypeVar("T")
+HERE = "127.0.0.1"
 # Not the script that starts it, so that it can be ended.
 PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
+PATIENCE = 60.0  # seconds for it to start and to load, in software on a busy machine
 
 
 def quiet() -> dict[str, str]:
@@ -15,3 +24,33 @@ def quiet() -> dict[str, str]:
     It has no setting for this but a file in the home; where nobody looks on, it does neither.
     """
     return os.environ | {"CI": "true"}
+
+
+@contextmanager
+def viewer(*options: str, log: int | IO = subprocess.DEVNULL) -> Iterator[subprocess.Popen]:
+    """The program with these options, ended at the end of the block."""
+    command = [PROGRAM, "--bind", HERE, *options]
+    process = subprocess.Popen(command, env=quiet(), stdout=log, stderr=log)
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def answer(process: subprocess.Popen, ask: Callable[[], T]) -> T:
+    """What it answers as soon as it listens. Raises ConnectionError: it ended, or never does."""
+    deadline = time.monotonic() + PATIENCE
+    while process.poll() is None and time.monotonic() < deadline:
+        try:
+            return ask()
+        except (OSError, RuntimeError):
+            time.sleep(0.05)
+    raise ConnectionError
+
+
+def free_port() -> str:
+    """One that no program listens to."""
+    with socket.socket() as free:
+        free.bind((HERE, 0))
+        return str(free.getsockname()[1])

@@ -1,21 +1,75 @@
-"""Writing a recording: a run of an experiment once more, watched."""
+"""A recording: a run of an experiment once more, watched, and compared with the experiment."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import rerun as rr
+from rerun.chunk import RrdReader
+from rerun.error_utils import RerunWarning
 
+from recalib.errors import RecalibError
 from recalib.interfaces import Learner
 from recalib.storage import whole
 from recalib.study.configuration.damages import damages_among, disturbances_among
+from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
+from recalib.study.experiments.settings import build_tuned
+from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import Resolved
-from recalib.study.recording import about, arms, colours, corrections, errors, scatter, scene, story
+from recalib.study.recording import captions, colours
+from recalib.study.recording.arms import send_arms
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.seal import check_errors, check_recording, write_sealed
+from recalib.study.recording.errors import send_errors, send_published
+from recalib.study.recording.landings import send_landings, send_scatter
+from recalib.study.recording.maps import send_map
+from recalib.study.recording.phases import move
+from recalib.study.recording.scene import Scene, log_surroundings, send_target
+from recalib.study.recording.watched import Watched, watch
 from recalib.study.recordings import Recording
+from recalib.study.statistics import typical
+
+
+class BrokenRecording(RecalibError):
+    """A recording that is not what it should be."""
+
+    def __init__(self, path: Path, reason: str):
+        self.path, self.reason = path, reason
+        super().__init__(f"{path} is no valid recording: {reason}")
+
+
+def record(
+    rrd: Path, recording: Recording, scenario: Path, samples: list[Path], histories: list[Path]
+) -> None:
+    """Write the recording of a scenario from files: a run of a typical search.
+
+    It is that of the first of the paper's learners. See `write_recording`.
+
+    Args:
+        rrd: its file.
+        recording: what is recorded.
+        scenario: file of the scenario as resolved.
+        samples: for each of its learners of the paper, the file of the search for it.
+        histories: for each of them, the file of its training.
+    """
+    resolved = Resolved.read(scenario)
+    papers = recording.papers()
+    tables = dict(zip(papers, map(pd.read_parquet, histories), strict=True))
+    errors = errors_of(next(iter(tables.values())))
+    seed = typical(errors) * errors.shape[1]  # the first one of that search
+    measured = {name: table[table["seed"] == seed] for name, table in tables.items()}
+    searched = dict(zip(papers, samples, strict=True))
+    learners = {
+        name: build_tuned(learner, searched[name], measured[name]["search"].unique())
+        if learner
+        else make_peer(name, 1, resolved.controller())
+        for name, learner in recording.learners.items()
+    }
+    write_recording(rrd, recording, resolved, learners, measured, seed)
 
 
 def write_recording(
@@ -25,7 +79,7 @@ def write_recording(
     learners: Mapping[str, Learner],
     measured: Mapping[str, Mapping[str, Sequence]],
     seed: int,
-) -> dict[str, story.Watched]:
+) -> dict[str, Watched]:
     """Train learners on a scenario's robot, and write what one would have seen.
 
     The file appears whole or not at all, and not before it was compared with the experiment.
@@ -42,48 +96,81 @@ def write_recording(
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
-        measure_at = _measured_at(job, name)
+        measure_at = range(job.moves + 1)  # of today's: after each move
+        if rules := job.learners[name]:
+            measure_at = campaign.measured_at(job.measuring, rules.iterations)
         poses = Stream.SCENARIO.draw(
             job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
         )
         plant = resolved.plant(controller, job.seed, [seed])
-        watched[name] = story.watch(controller, plant, learner, poses, measure_at)
+        watched[name] = watch(controller, plant, learner, poses, measure_at)
         if name in measured:
-            check_errors(path, name, watched[name].history.columns(), measured[name])
-
-    robot, most = controller.robot, max(each.history.moves[-1] for each in watched.values())
-    unit, damages = scene.unit_of(robot.workspace), damages_among(resolved.damages)
-    disturbed = disturbances_among(resolved.damages) is not None
-    texts = {"about": about.panel(resolved, watched), "beside": about.beside(watched)}
-
-    def fill(rec: rr.RecordingStream) -> None:
-        rec.send_recording_name(path.stem)
-        rec.send_property("run", rr.AnyValues(**about.properties(job, resolved)))
-        main = next(iter(watched.values()))
-        scene.log_surroundings(rec, robot.workspace, main.desired, texts)
-        errors.send_published(rec, job.published, main, story.move(main, robot.home, most))
-        for colour, (name, each) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
-            shown = each, story.move(each, robot.home, most)
-            arms.send_arms(rec, robot, damages, name, *shown)
-            scene.send_target(rec, robot.workspace, name, about.when(resolved), *shown)
-            errors.send_errors(rec, name, colour, *shown)
-            scene.send_landings(rec, name, unit, *shown)
-            if disturbed:
-                scatter.send_scatter(rec, name, unit, *shown)
-            if each.cells:
-                corrections.send_map(rec, name, unit, each.cells, *shown)
-
+            _compare(path, name, watched[name].history.columns(), measured[name])
+    workspace = controller.robot.workspace
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
-        blueprint = arrange(watched, robot.workspace, job.published, not all(job.learners.values()))
-        write_sealed(temporary, path.stem, blueprint, fill)
-        check_recording(temporary, {name: each.history.columns() for name, each in watched.items()})
+        # without the properties that Rerun would add by itself: one is the time of writing
+        rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
+        side_by_side = not all(job.learners.values())
+        blueprint = arrange(watched, workspace, job.published, side_by_side)
+        rec.save(temporary, default_blueprint=blueprint)
+        _fill(rec, path.stem, job, resolved, watched)
+        rec.disconnect()
+        check_end(temporary)
     return watched
 
 
-def _measured_at(job: Recording, name: str) -> Sequence[int]:
-    """The iterations of a learner after which it is measured: today's after each of its moves."""
-    learner = job.learners[name]
-    if learner:
-        return campaign.measured_at(job.measuring, learner.iterations)
-    return range(job.moves + 1)
+def _compare(path: Path, learner: str, shown: Mapping, measured: Mapping) -> None:
+    """Raise BrokenRecording where something else was watched than what had been measured."""
+    rows = {moves: row for row, moves in enumerate(shown["moves"])}
+    for row, moves in enumerate(measured["moves"]):
+        where = f"{learner} after {moves} moves"
+        if moves not in rows:
+            raise BrokenRecording(path, f"{where} was measured, but is not shown")
+        for quantity in ERRORS:
+            ours = shown[quantity][rows[moves]]
+            theirs = np.asarray(measured[quantity])[row]
+            if not np.isclose(ours, theirs, rtol=1e-9, atol=1e-12):
+                raise BrokenRecording(
+                    path, f"{where}: {quantity} is {ours}, but was measured as {theirs}"
+                )
+
+
+def _fill(
+    rec: rr.RecordingStream,
+    title: str,
+    job: Recording,
+    resolved: Resolved,
+    watched: Mapping[str, Watched],
+) -> None:
+    robot, damages = resolved.controller().robot, damages_among(resolved.damages)
+    main, most = (
+        next(iter(watched.values())),
+        max(its.history.moves[-1] for its in watched.values()),
+    )
+    texts = {"about": captions.panel(resolved, watched), "beside": captions.beside(watched)}
+    rec.send_recording_name(title)
+    rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))
+    log_surroundings(rec, robot.workspace, main.desired, texts)
+    for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
+        motion = move(its.angles, its.history.moves, robot.home, most)
+        scene = Scene(rec, name, robot.workspace, its, motion)
+        if its is main:
+            send_published(scene, job.published)
+        send_arms(scene, robot, damages)
+        send_target(scene, *captions.when(resolved))
+        send_errors(scene, colour)
+        send_landings(scene)
+        if disturbances_among(resolved.damages):
+            send_scatter(scene)
+        if its.cells:
+            send_map(scene, its.cells)
+
+
+def check_end(path: Path) -> None:
+    """Raise BrokenRecording where a file ends too early: to Rerun that is a mere warning."""
+    try:
+        with warnings.catch_warnings(action="error", category=RerunWarning):
+            RrdReader(path)
+    except (RerunWarning, RuntimeError) as error:
+        raise BrokenRecording(path, str(error)) from error

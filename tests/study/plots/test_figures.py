@@ -8,22 +8,11 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from recalib.study.evidence.findings import figures as figures_of_findings
-from recalib.study.evidence.needs import Request
-from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.plots.looks import LOOKS, OTHER, UNKNOWN, looks
+from recalib.study.evidence.results import Undeclared
+from recalib.study.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
 from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
-from recalib.study.plots.style import (
-    BORDER,
-    FAILS,
-    HOLDS,
-    ORIENTATION,
-    POSITION,
-    STYLE,
-    plt,
-    save,
-)
-from recalib.study.trainings import Trainings
+from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
 from tests.made_up import (
     NOISE,
@@ -42,39 +31,12 @@ def bytes_of(figure: str, evidence, folder, suffixes=(".svg", ".png")) -> list[b
     return [path.read_bytes() for path in paths]
 
 
-class WithNoise(Evidence):
-    """Results with noise in all that was measured."""
-
-    def table(self, name):
-        table = super().table(name)
-        rng = np.random.default_rng(1)
-        for column in table.select_dtypes("float").columns.difference(["scale", "width"]):
-            table[column] *= 1 + NOISE * rng.choice([-1, 1], len(table))
-            if name.endswith(".csv"):  # the workflow writes six digits of what has this noise
-                table[column] = [float(f"{value:.6g}") for value in table[column]]
-        return table
-
-
-def of_a_full_run(figure, study):
-    """What a figure reads of the results that `make` leaves; None where they are not there."""
-    ask = Request(study, Trainings(study), "results", "workflow/search/{}.csv".format)
-    FIGURES[figure].needs(ask)
-    there = all((ROOT / path).exists() for path in ask.evidence.inputs)
-    return ask.evidence if there and not ask.lacking else None
-
-
 @pytest.mark.slow
 @few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
-def test_noise_in_the_last_digits_changes_no_byte(figure, request, study, tmp_path, monkeypatch):
-    """Of the results of a full run; where there are none, of made-up ones."""
-    monkeypatch.chdir(ROOT)
-    if evidence := of_a_full_run(figure, study):
-        first = bytes_of(figure, evidence, tmp_path)
-        again = bytes_of(figure, WithNoise(**evidence.model_dump()), tmp_path)
-    else:
-        results = [request.getfixturevalue(name) for name in ("made_up", "disturbed")]
-        first, again = (bytes_of(figure, evidence_of(figure, its), tmp_path) for its in results)
+def test_noise_in_the_last_digits_changes_no_byte(figure, made_up, disturbed, tmp_path):
+    evidence = (evidence_of(figure, results) for results in (made_up, disturbed))
+    first, again = (bytes_of(figure, its, tmp_path) for its in evidence)
     assert first == again and min(map(len, first)) > 5000
 
 
@@ -173,24 +135,14 @@ def test_legends_hide_no_data_and_the_grid_lies_below(drawing):
             assert not legend.get_window_extent().overlaps(axes.get_window_extent())
 
 
-def test_every_line_across_a_figure_says_what_it_is(drawing):
-    """Those that part one side from the other: at each ends some text of the axes."""
-    for axes in drawing.axes:
-        own = [line for line in axes.lines if str(line.get_color()) == BORDER["color"]]
-        said = [text.xy for text in axes.texts if hasattr(text, "xy")]
-        for line in own:
-            (x, _), (y, _) = line.get_data()
-            assert any(np.isclose(x, at[0]) or np.isclose(y, at[1]) for at in said)
-
-
 def test_a_colour_means_one_thing_throughout():
     """A learner, its kin of other iterations, an error, or a verdict."""
-    of_learners = {look.color for look in LOOKS.values()}
-    others = [POSITION["color"], ORIENTATION["color"], HOLDS, FAILS]
+    of_learners = {style.color for style in STYLES.values()}
+    others = [*(error.color for error in BOTH), HOLDS, FAILS]
     others += [color for color, _ in (*OTHER.values(), *UNKNOWN)]
     assert len({*others}) == len(others)
     assert not {*others} & of_learners
-    assert len(of_learners) == len(LOOKS)
+    assert len(of_learners) == len(STYLES)
 
 
 def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
@@ -204,8 +156,8 @@ def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
 def test_every_colour_of_a_figure_has_its_meaning(figure, made_up, tmp_path):
     """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
     (svg,) = bytes_of(figure, evidence_of(figure, made_up), tmp_path, [".svg"])
-    known = [look.color for look in LOOKS.values()] + [color for color, _ in OTHER.values()]
-    known += [color for color, _ in UNKNOWN] + [style["color"] for style in (POSITION, ORIENTATION)]
+    known = [style.color for style in STYLES.values()] + [color for color, _ in OTHER.values()]
+    known += [color for color, _ in UNKNOWN] + [error.color for error in BOTH]
     known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]
     used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", svg.decode())}]
     strange = [color for color in used if not any(is_a_shade_of(color, its) for its in known)]
@@ -241,11 +193,11 @@ def test_logarithms_of_an_axis_have_no_last_digits():
 
 
 def test_every_learner_looks_like_itself_and_unlike_the_others(study):
-    benchmark = looks(study.benchmark.learners)
-    assert set(study.benchmark.learners) == set(LOOKS)
-    assert len({(look.color, look.marker) for look in benchmark.values()}) == len(benchmark)
-    defaults = looks(study.experiments.learners)
-    assert defaults["ritter"] is LOOKS["ritter"] and defaults["ritter_200"].label == "Ritter"
-    assert len({look.color for look in defaults.values()}) == 3
-    unknown = looks(["improved", "mine", "another"])
+    benchmark = styles_of(study.benchmark.learners)
+    assert set(study.benchmark.learners) == set(STYLES)
+    assert len({(style.color, style.marker) for style in benchmark.values()}) == len(benchmark)
+    defaults = styles_of(study.experiments.learners)
+    assert defaults["ritter"] is STYLES["ritter"] and defaults["ritter_200"].label == "Ritter"
+    assert len({style.color for style in defaults.values()}) == 3
+    unknown = styles_of(["improved", "mine", "another"])
     assert unknown["mine"].label == "mine" and unknown["mine"].color != unknown["another"].color

@@ -41,7 +41,7 @@ def planted(few, tmp_path_factory) -> MadeUp:
 
 @pytest.fixture(scope="module")
 def figures(planted):
-    """All that are looked at, drawn."""
+    """All that have to be legible, drawn."""
     found = {}
     with plt.rc_context(STYLE), few_resamples():
         for name in LEGIBLE:
@@ -60,21 +60,21 @@ def texts(figure) -> list[Text]:
 
     with mock.patch.object(Text, "draw", draws):
         figure.draw_without_rendering()
-    return [each for each in found.values() if each.get_visible() and each.get_text().strip()]
+    return [text for text in found.values() if text.get_visible() and text.get_text().strip()]
 
 
 @pytest.mark.parametrize("name", LEGIBLE)
 def test_a_figure_can_be_read_on_a_page(figures, name):
     figure = figures[name]
     pixels = PAGE / (72 * figure.get_figwidth())
-    small = {each.get_text(): each.get_fontsize() * pixels for each in texts(figure)}
+    small = {text.get_text(): text.get_fontsize() * pixels for text in texts(figure)}
     assert min(small.values()) >= LEAST, min(small.items(), key=lambda item: item[1])
 
 
 @pytest.mark.parametrize("name", LEGIBLE)
 def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
     figure = figures[name]
-    boxes = [(each.get_text(), each.get_window_extent()) for each in texts(figure)]
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
     for (one, its), (other, another) in combinations(boxes, 2):
         assert not its.padded(-1).overlaps(another.padded(-1)), (one, other)
     for text, box in boxes:
@@ -83,7 +83,7 @@ def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
 
 
 def said(figure) -> str:
-    return "\n".join(each.get_text() for each in texts(figure))
+    return "\n".join(text.get_text() for text in texts(figure))
 
 
 def test_figure_14_judges_as_the_claims_do(figures, planted):
@@ -94,8 +94,8 @@ def test_figure_14_judges_as_the_claims_do(figures, planted):
         for claim in CLAIMS
         for system in claim.across
     ]
-    shown = [each.get_text() for each in texts(figures["figure14"])]
-    assert sorted(each for each in shown if each in set(verdicts)) == sorted(verdicts)
+    shown = [text.get_text() for text in texts(figures["figure14"])]
+    assert sorted(text for text in shown if text in set(verdicts)) == sorted(verdicts)
     leading = [next(iter(judged[claim.id]["systems"].values())) for claim in CLAIMS if claim.across]
     supported = sum(its["verdict"] == "supported" for its in leading)
     title = figures["figure14"].get_suptitle()
@@ -136,7 +136,7 @@ def test_every_choice_has_words(study):
     assert [*LABELS] == [*Factors.model_fields]
     for factor, levels in study.universes.factors:
         words = [level_in_words(factor, level) for level in levels]
-        assert len({*words}) == len(levels) and not any("_" in each for each in words)
+        assert len({*words}) == len(levels) and not any("_" in word for word in words)
         assert {*LABELS[factor].levels} == {*map(str, levels)}
 
 
@@ -156,5 +156,5 @@ def test_the_bar_of_separate_maps_is_the_nested_comparison(figures, planted):
     reference = evidence_of("figure4", planted).table(REFERENCE)
     axes = figures["figure4"].axes[0]
     assert axes.get_yticklabels()[0].get_text() == "separate maps"
-    expected = {f"{np.exp(np.log(reference[each]).mean()):.2f}" for each in COLUMNS}
+    expected = {f"{np.exp(np.log(reference[column]).mean()):.2f}" for column in COLUMNS}
     assert expected <= {text.get_text() for text in axes.texts}

@@ -8,7 +8,8 @@ from scipy.optimize import root
 
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK, LEARNED, blank, planar_arm
-from recalib.study.plots.style import FAILS, NEUTRAL, title
+from recalib.study.plots.palette import FAILS, NEUTRAL
+from recalib.study.plots.style import title
 
 NOMINAL, DAMAGED = (1.0, 0.9), (1.0, 0.72)  # lengths of links, shortened as bad ones are
 SLIPPED = np.radians([0, 14])  # encoders
@@ -48,7 +49,7 @@ def fake_pose(evidence: Evidence) -> Figure:
     )
     for axes, text in zip(panels, texts, strict=True):
         _point(axes, DESIRED, "desired pose", NEUTRAL, "*", (7, 6))
-        axes.set_title(text, fontsize=11, fontweight="normal", loc="center")
+        axes.set_title(text, fontweight="normal", loc="center")
     title(
         figure,
         "The controller is not touched: only the pose that it is sent changes",
@@ -58,8 +59,8 @@ def fake_pose(evidence: Evidence) -> Figure:
 
 
 def _arm(axes: Axes, joints: np.ndarray, color: str) -> None:
-    look = {"color": color, "linewidth": 5, "solid_capstyle": "round", "marker": "o"}
-    axes.plot(*(joints + BASE).T, markersize=9, markerfacecolor="white", **look)
+    style = {"color": color, "linewidth": 5, "solid_capstyle": "round", "marker": "o"}
+    axes.plot(*(joints + BASE).T, markersize=9, markerfacecolor="white", **style)
 
 
 def _point(axes: Axes, at: np.ndarray, name: str, color: str, marker: str, offset) -> None:

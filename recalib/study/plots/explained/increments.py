@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from recalib.learners.nets import regular_grid
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK
-from recalib.study.plots.looks import looks
+from recalib.study.plots.palette import styles_of
 from recalib.study.plots.style import title
 
 CELLS = regular_grid((9,))[:, 0]
@@ -27,13 +27,13 @@ def increments(evidence: Evidence) -> Figure:
     values = CELLS + near * (learned - CELLS)  # (4)
     changes = CELLS + near * (learned - CELLS[WINNER])  # (7)
     texts = ("Ritter: all move towards its new value", "improved: all move by its change")
-    for axes, after, look, text in zip(
-        panels, (values, changes), looks(["ritter", "improved"]).values(), texts, strict=True
+    for axes, after, style, text in zip(
+        panels, (values, changes), styles_of(["ritter", "improved"]).values(), texts, strict=True
     ):
         axes.plot(CELLS, CELLS, color="0.6", label="before the damage")
         axes.plot(CELLS, wanted(CELLS), color=INK, linestyle=(0, (5, 2)), label="what is right now")
-        axes.vlines(CELLS, CELLS, after, color=look.color, linewidth=1, alpha=0.6)
-        axes.scatter(CELLS, after, color=look.color, zorder=3, label="cells after one correction")
+        axes.vlines(CELLS, CELLS, after, color=style.color, linewidth=1, alpha=0.6)
+        axes.scatter(CELLS, after, color=style.color, zorder=3, label="cells after one correction")
         axes.annotate(
             "corrected here",
             (CELLS[WINNER], learned),
@@ -43,7 +43,7 @@ def increments(evidence: Evidence) -> Figure:
             arrowprops={"arrowstyle": "-|>", "color": INK, "shrinkB": 5},
         )
         axes.set(xlabel="desired pose", ylim=(-1.15, 1.75))
-        axes.set_title(text, fontsize=11, fontweight="normal")
+        axes.set_title(text, fontweight="normal")
         axes.legend(loc="lower right", fontsize=10)
     panels[0].set_ylabel("command")
     title(

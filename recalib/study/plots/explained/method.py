@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 from recalib.learners.nets import Nets
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK, LEARNED, arrow, blank, box
-from recalib.study.plots.style import FAILS, ORIENTATION, POSITION, title
+from recalib.study.plots.palette import BOTH, FAILS
+from recalib.study.plots.style import title
 
 NETS = Nets((3, 3, 1), (3, 3, 1))  # one layer of each net
 WIDTH = 0.9  # of all neighbourhoods, in workspace coordinates: which is wider is searched for
-MAPS = {"position": POSITION["color"], "orientation": ORIENTATION["color"]}
 
 
 def method(evidence: Evidence) -> Figure:
@@ -64,7 +64,8 @@ def _nets(axes: Axes) -> None:
     axes.text(7.6, 9.2, "a subnet in each cell:\norientations", ha="center", va="center")
     winner = np.array([4]), np.array([4])
     learns = NETS.neighbourhood(*winner, *np.full((2, 1), WIDTH))
-    for y, (name, color) in zip((6.6, 2.4), MAPS.items(), strict=True):
+    for y, error in zip((6.6, 2.4), BOTH, strict=True):
+        name, color = error.kind, error.color
         shades = LinearSegmentedColormap.from_list(name, ["white", color])
         axes.text(-0.5, y, f"{name}\nmap", color=color, fontweight="bold", ha="center", va="center")
         arrow(axes, (2.95, y), (5.85, y), bend=-0.25)
@@ -72,6 +73,6 @@ def _nets(axes: Axes) -> None:
             (2.6, 7.6), (NETS.w_k, NETS.w_kl), learns, ("$g_k$", "$g_{kl}$"), strict=True
         ):
             points = np.array([x, y]) + 1.7 * cells[:, :2]
-            look = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
-            axes.scatter(*points.T, s=200, zorder=3, **look)
+            style = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
+            axes.scatter(*points.T, s=200, zorder=3, **style)
             axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=10)

@@ -11,7 +11,8 @@ from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.evidence.claims import figure_1
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.explained.sketch import INK
-from recalib.study.plots.style import FAILS, HOLDS, title
+from recalib.study.plots.palette import FAILS, HOLDS
+from recalib.study.plots.style import title
 
 SHOWN = "robot", "home", "assignment", "cells", "effort", "tool"  # of all factors
 WIDE = 15  # characters of a column
@@ -31,8 +32,8 @@ def multiverse(evidence: Evidence) -> Figure:
     steps = np.arange(paths.shape[1])
     for path, its in zip(paths, holds, strict=True):
         # pale and dark, too: the colours alone are much the same grey to some
-        look = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
-        axes.plot(steps, path, linewidth=0.6, **look)
+        style = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
+        axes.plot(steps, path, linewidth=0.6, **style)
     for step, factor in enumerate(SHOWN):
         _column(axes, step, factor, levels[factor])
     for share, words in ((holds, "a tenth of both\nerrors remains,\nor less"), (~holds, "more")):

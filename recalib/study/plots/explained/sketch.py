@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 
-from recalib.study.plots.looks import LOOKS
+from recalib.study.plots.palette import STYLES
 
 INK = "0.25"
-LEARNED = LOOKS["improved"].color  # what the improved map makes
+LEARNED = STYLES["improved"].color  # what the improved map makes
 
 
 def blank(axes: Axes, width: float, height: float) -> None:

@@ -1,4 +1,4 @@
-"""How each learner is shown, in every figure: a colour, and a sign for black and white."""
+"""What colours and signs mean in every figure: also in black and white, and to the colour-blind."""
 
 import re
 from collections.abc import Iterable
@@ -7,16 +7,17 @@ from itertools import cycle
 from typing import Any
 
 from recalib.study.entrants import ENTRANTS, label_of
+from recalib.study.measured import ERRORS, KINDS, UNITS
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
 
 @dataclass(frozen=True)
-class Look:
-    """How a learner is shown.
+class Style:
+    """How a learner or an error is shown.
 
     Attributes:
-        color: of Okabe and Ito's palette, which the colour-blind can tell apart.
+        color: a learner's is of Okabe and Ito's palette, which the colour-blind can tell apart.
         marker: empty for none.
         linestyle: as Matplotlib has them.
         label: what it is called.
@@ -36,9 +37,30 @@ class Look:
         return {"color": self.color, "marker": self.marker or "."}
 
 
-LOOKS = {
-    name: Look(each.color, each.marker, DASHED if name == "ritter" else SOLID, each.label)
-    for name, each in ENTRANTS.items()
+@dataclass(frozen=True)
+class ErrorStyle(Style):
+    """How one of the two errors is shown; its label is that of an axis.
+
+    Attributes:
+        column: of a table that has it.
+        kind: position or orientation.
+        unit: as it is written behind a number.
+    """
+
+    column: str
+    kind: str
+    unit: str
+
+
+LABELS = "position error [cm]", "orientation error [degrees]"
+COLOURS, LINES = ("#5D3A9B", "#994F00"), (SOLID, DASHED)
+BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS))
+HOLDS, FAILS = "#44AA99", "#882255"
+NEUTRAL = "black"
+BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
+STYLES = {
+    name: Style(its.color, its.marker, DASHED if name == "ritter" else SOLID, its.label)
+    for name, its in ENTRANTS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
@@ -47,18 +69,18 @@ OTHER = {"improved": ("#80B9D9", "d"), "ritter": ("#EFA07A", "^")}
 UNKNOWN = ("#661100", "X"), ("#DDCC77", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
 
 
-def looks(learners: Iterable[str]) -> dict[str, Look]:
+def styles_of(learners: Iterable[str]) -> dict[str, Style]:
     """How the learners of one figure are shown, by name."""
-    found: dict[str, Look] = {}
+    found: dict[str, Style] = {}
     unknown = cycle(UNKNOWN)
     for learner in learners:
         name = re.sub(r"_\d+$", "", learner)
-        if learner in LOOKS:
-            found[learner] = LOOKS[learner]
+        if learner in STYLES:
+            found[learner] = STYLES[learner]
         elif name in OTHER:
             color, marker = OTHER[name]
-            found[learner] = replace(LOOKS[name], color=color, marker=marker, linestyle=DOTTED)
+            found[learner] = replace(STYLES[name], color=color, marker=marker, linestyle=DOTTED)
         else:
             color, marker = next(unknown)
-            found[learner] = Look(color, marker, DASHED, label_of(learner))
+            found[learner] = Style(color, marker, DASHED, label_of(learner))
     return found

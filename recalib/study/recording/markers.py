@@ -16,8 +16,8 @@ NEAR = 0.6  # places whose words would lie upon one another
 
 
 @dataclass(frozen=True)
-class Mark:
-    """A mark at a link, in its frame.
+class Marker:
+    """A marker at a link, in its frame.
 
     Attributes:
         link: that has it.
@@ -32,8 +32,8 @@ class Mark:
     axis: np.ndarray | None
 
 
-def marks(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Mark]:
-    """The marks of damages on the arm that has them.
+def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker]:
+    """The markers of damages on the arm that has them, those of links first.
 
     Args:
         unit: m, by which they are sized.
@@ -42,23 +42,18 @@ def marks(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Mark]:
     of_links: dict[str, list[str]] = {}
     of_joints: dict[str, list[str]] = {}
     for damage in damages:
-        match damage:
-            case BaseShift():
-                continue
-            case LinkShortening():
-                of_links.setdefault(damage.link, []).append(words(damage))
-            case _:
-                link = moved[1 + robot.joints.index(damage.joint)]
-                of_joints.setdefault(link, []).append(words(damage))
-    found = [
-        *(_of_link(robot, link, "\n".join(each)) for link, each in of_links.items()),
-        *(_of_joint(robot, link, "\n".join(each), unit) for link, each in of_joints.items()),
-    ]
+        if isinstance(damage, LinkShortening):
+            of_links.setdefault(damage.link, []).append(words(damage))
+        elif not isinstance(damage, BaseShift):
+            link = moved[1 + robot.joints.index(damage.joint)]
+            of_joints.setdefault(link, []).append(words(damage))
+    found = [_of_link(robot, link, "\n".join(lines)) for link, lines in of_links.items()]
+    found += [_of_joint(robot, link, "\n".join(lines), unit) for link, lines in of_joints.items()]
     return _gathered(robot, found, NEAR * unit)
 
 
 def words(damage: Damage) -> str:
-    """What is wrong, without where: the mark stands there."""
+    """What is wrong, without where: the marker stands there."""
     (key, _), (_, amount), *_ = describe(damage).items()
     return f"{amount} short" if isinstance(damage, LinkShortening) else f"{key} {amount}"
 
@@ -77,39 +72,41 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     return flat @ placement.rotation.T + placement.translation
 
 
-def _gathered(robot: Robot, found: list[Mark], near: float) -> list[Mark]:
-    """The marks, with the words of those so near [m] to one another at the last of them."""
+def _gathered(robot: Robot, found: list[Marker], near: float) -> list[Marker]:
+    """The markers, with the words of those so near [m] to one another at the last of them."""
     data = robot.arm.model.createData()
     pin.forwardKinematics(robot.arm.model, data, robot.home)
-    places = [data.oMi[robot.links[mark.link]].act(mark.at) for mark in found]
+    places = [data.oMi[robot.links[marker.link]].act(marker.at) for marker in found]
     groups: list[list[int]] = []
     for number, place in enumerate(places):
-        close = (its for its in groups if np.linalg.norm(place - places[its[-1]]) < near)
-        its = next(close, None)
-        if its is None:
-            groups.append([number])
+        for group in groups:
+            if np.linalg.norm(place - places[group[-1]]) < near:
+                group.append(number)
+                break
         else:
-            its.append(number)
-    gathered = list(found)
-    for *others, last in (group for group in groups if len(group) > 1):
-        lines = (
-            f"{found[each].link.removesuffix('_link').replace('_', ' ')}: {line}"
-            for each in (*others, last)
-            for line in found[each].words.splitlines()
-        )
-        gathered[last] = replace(found[last], words="\n".join(lines))
-        for each in others:
-            gathered[each] = replace(found[each], words="")
+            groups.append([number])
+    gathered = [replace(marker, words="") for marker in found]
+    for group in groups:
+        lines = found[group[-1]].words
+        if len(group) > 1:
+            lines = "\n".join(line for number in group for line in _named(found[number]))
+        gathered[group[-1]] = replace(found[group[-1]], words=lines)
     return gathered
 
 
-def _of_link(robot: Robot, link: str, text: str) -> Mark:
+def _named(marker: Marker) -> list[str]:
+    """Its words, each with its link."""
+    link = marker.link.removesuffix("_link").replace("_", " ")
+    return [f"{link}: {line}" for line in marker.words.splitlines()]
+
+
+def _of_link(robot: Robot, link: str, text: str) -> Marker:
     end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
-    return Mark(link, text, end / 2, None)
+    return Marker(link, text, end / 2, None)
 
 
-def _of_joint(robot: Robot, link: str, text: str, unit: float) -> Mark:
+def _of_joint(robot: Robot, link: str, text: str, unit: float) -> Marker:
     model, joint = robot.arm.model, robot.links[link]
     jacobian = pin.computeJointJacobian(model, model.createData(), robot.home, joint)
     reach = HALF_AXIS * unit * jacobian[3:, joint - 1]
-    return Mark(link, text, reach, np.stack([-reach, reach]))
+    return Marker(link, text, reach, np.stack([-reach, reach]))

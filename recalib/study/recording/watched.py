@@ -1,4 +1,4 @@
-"""What a recording tells: a training watched from outside, and how the arm moves around it."""
+"""A training watched from outside: where the arm goes, and what the cells of its map learn."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,16 +11,32 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
 from recalib.study.experiments.poses import ResultPoses, train_for_results
-from recalib.study.recording.acts import ACT, FRAMES_A_SECOND, LEARNING, POSES
-from recalib.study.recording.cells import Cells, CellWatch
+from recalib.study.recording.phases import POSES
 from recalib.training import History
 
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
 
 @dataclass(frozen=True)
+class Cells:
+    """The supernet's cells of the map that gives positions.
+
+    Attributes:
+        centres: (cell, 3) m in the base frame.
+        weights: (measurement, cell) of the neighbourhood g_k about the last winner, in [0, 1]; zero
+            before the first.
+        corrections: (measurement, cell, 3) m along the base's axes, by which learning moved the
+            position commands of a cell, the mean over its subnet.
+    """
+
+    centres: np.ndarray
+    weights: np.ndarray
+    corrections: np.ndarray
+
+
+@dataclass(frozen=True)
 class Watched:
-    """One training of one learner, seen at each of its measurements.
+    """One training of one learner, with what was there at each of its measurements.
 
     Attributes:
         history: the errors on all test poses.
@@ -63,25 +79,34 @@ def watch(
     Args:
         plant: one run of the controller's robot.
         poses: of one run; the first few of those to measure on are shown.
-        measure_at: numbers of iterations after which to measure.
+        measure_at: numbers of iterations after which to measure, from 0 on.
     """
     workspace, shown = controller.robot.workspace, visiting_order(poses.tests[0, :POSES])
+    commands, thetas, weights = [], [], []
     has_cells = isinstance(learner, HierarchicalLearner)
-    cells = CellWatch(learner, workspace, poses.desired[0]) if has_cells else None
-    commands = []
 
-    def look(iteration: int, *_: float) -> None:
+    def on_progress(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
-        if cells:
-            cells.look(iteration)
+        if has_cells:
+            theta = next(iter(learner.maps.values())).theta
+            thetas.append(theta.all[0, ..., POSITION].copy())
+            weights.append(_neighbourhood(learner, poses.desired[0], iteration))
 
-    history = train_for_results(plant, learner, poses, measure_at, progress=look)
+    history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
     goals, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
     angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
     achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape)
     repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
     measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
+    cells = None
+    if has_cells:
+        half_ranges = workspace.half_ranges[POSITION]
+        cells = Cells(
+            centres=workspace.centre[:3, 3] + learner.nets.w_k * half_ranges,
+            weights=np.stack(weights),
+            corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
+        )
     return Watched(
         history=history,
         desired=goals,
@@ -90,59 +115,15 @@ def watch(
         misses=position_error(achieved, goals),
         tilts=orientation_error(achieved, np.broadcast_to(goals, achieved.shape)),
         scatter=(measured - achieved[-1][:, None])[..., :3, 3],
-        cells=cells and cells.seen(),
+        cells=cells,
     )
 
 
-@dataclass(frozen=True)
-class Motion:
-    """Three acts: visit the shown poses, wait at the last of them while learning, visit them again.
-
-    Attributes:
-        times: (frame,) seconds from the start, in the first and the third act.
-        angles: (frame, joint) rad that the controller believes in.
-        departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the
-            acts one and three.
-        learning: (measurement,) seconds of the second act at which the measurements are shown.
-        end: seconds at which the third act ends.
-    """
-
-    times: np.ndarray
-    angles: np.ndarray
-    departures: np.ndarray
-    arrivals: np.ndarray
-    learning: np.ndarray
-    end: float
-
-
-def move(watched: Watched, home: np.ndarray, most: int) -> Motion:
-    """The motion that shows a training, from the home angles (joint,) [rad].
-
-    Args:
-        most: moves of the longest training that is shown beside it: all share one clock.
-    """
-    before, after = watched.angles[0], watched.angles[-1]
-    visit = ACT / len(before)
-    starts = np.array([0, ACT + LEARNING])
-    departures = starts[:, None] + np.arange(len(before)) * visit
-    clock = np.arange(round(visit * FRAMES_A_SECOND)) / FRAMES_A_SECOND
-    done = np.minimum(clock / (visit / 2), 1)
-    return Motion(
-        times=(departures[:, :, None] + clock).ravel(),
-        angles=np.concatenate([_visits(home, before, done), _visits(after[-1], after, done)]),
-        departures=departures,
-        arrivals=departures + visit / 2,
-        learning=ACT + LEARNING * watched.history.moves / max(most, 1),
-        end=2 * ACT + LEARNING,
-    )
-
-
-def _visits(start: np.ndarray, stops: np.ndarray, done: np.ndarray) -> np.ndarray:
-    """Angles (stop x frame, 6) of smooth moves from `start` (6,) from stop to stop (stop, 6).
-
-    Args:
-        done: (frame,) of each way, in [0, 1], if the arm moved evenly.
-    """
-    eased = (done**2 * (3 - 2 * done))[:, None]  # at rest at both ends
-    starts = np.concatenate([start[None], stops[:-1]])[:, None]
-    return (starts + eased * (stops[:, None] - starts)).reshape(-1, stops.shape[-1])
+def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
+    """g_k (cell,) in the iteration before; zero where there was none."""
+    nets, last = learner.nets, iteration - 1
+    if iteration == 0:
+        return np.zeros(len(nets.w_k))
+    name = next(iter(learner.maps))
+    widths = learner.rules.widths(learner.schedule, name, last / len(desired))
+    return nets.neighbourhood(*nets.winner(desired[[last]]), *widths)[0][0]

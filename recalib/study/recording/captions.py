@@ -9,8 +9,8 @@ from recalib.study.configuration.damages import Entry, damages_among, describe
 from recalib.study.entrants import label_of
 from recalib.study.measured import ERRORS
 from recalib.study.plants import Resolved
-from recalib.study.recording.scatter import enlarged
-from recalib.study.recording.story import Watched
+from recalib.study.recording.landings import enlarged
+from recalib.study.recording.watched import Watched
 from recalib.study.recordings import Recording
 
 NOTHING = 1e-3  # cm and degrees: an error below it is none
@@ -25,18 +25,12 @@ RIGHT = """\
 DISTURBED = """\
 **What disturbs it**: {entries}. Pink: how far {repeated} measurements of each pose are \
 off{enlarged}."""
-MISSES = """\
-It visits {poses} poses (white axes) and misses them (orange: by 10 cm, pale: by 1 mm), learns for \
-{moves} moves, and visits them again: mean errors over all test poses are {before} before, {after} \
-after."""
-KEPT = """\
-It visits {poses} poses (white axes), learns for {moves} moves that there is nothing to correct, \
-and visits them again: mean errors over all test poses stay below {nothing:g} cm and\
- {nothing:g}°."""
-SPOILT = """\
-It visits {poses} poses (white axes), learns for {moves} moves although there is nothing to \
-correct, and visits them again: mean errors over all test poses are {before} before, {after} \
-after."""
+VISITS = """\
+It visits {poses} poses (white axes){misses}, learns for {moves} moves{what}, and visits them \
+again: mean errors over all test poses {errors}."""
+MISSES = " and misses them (orange: by 10 cm, pale: by 1 mm)"
+ERRORS_MOVE = "are {before} before, {after} after"
+ERRORS_STAY = f"stay below {NOTHING:g} cm and {NOTHING:g}°"
 MAP = """\
 **The map** that corrects its commands: cells (dots) light up about the one that learned last; \
 arrows are how far each moves a command."""
@@ -46,8 +40,8 @@ BESIDE = """\
 **The same arm under {count} learners**: the same poses in the same order, and one clock of moves \
 while they learn. Colours as in the first tab.
 
-{each}"""
-EACH = "**{name}**, {what}: {moves} moves, from {before} to {after}."
+{learners}"""
+LEARNER = "**{name}**, {what}: {moves} moves, from {before} to {after}."
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -56,16 +50,11 @@ def panel(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
     main = next(iter(watched.values()))
     damaged = damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damaged]
-    position, orientation = _errors(main)
-    kept = max(*position, *orientation) < NOTHING
-    story = MISSES if damaged else KEPT if kept else SPOILT
     paragraphs = [
         ARMS.format(robot=resolved.robot.upper()),
         WRONG.format(entries="; ".join(map(in_words, damaged))) if damaged else RIGHT,
         *([_disturbed(disturbances, main)] if disturbances else []),
-        story.format(
-            poses=len(main.desired), moves=main.history.moves[-1], nothing=NOTHING, **_ends(main)
-        ),
+        _story(main, bool(damaged)),
         MAP if main.cells else MODEL,
     ]
     return "\n\n".join(paragraphs)
@@ -80,10 +69,23 @@ def _disturbed(disturbances: Sequence[Entry], watched: Watched) -> str:
     )
 
 
+def _story(watched: Watched, damaged: bool) -> str:
+    columns = watched.history.columns()
+    stay = not damaged and max(max(columns[error]) for error in ERRORS) < NOTHING
+    what = " that there is nothing to correct" if stay else " although there is nothing to correct"
+    return VISITS.format(
+        poses=len(watched.desired),
+        moves=watched.history.moves[-1],
+        misses=MISSES if damaged else "",
+        what="" if damaged else what,
+        errors=ERRORS_STAY if stay else ERRORS_MOVE.format(**_ends(watched)),
+    )
+
+
 def beside(watched: Mapping[str, Watched]) -> str:
     """The text below all learners' arms, in Markdown."""
-    each = (
-        EACH.format(
+    learners = (
+        LEARNER.format(
             name=label_of(name),
             what="a map" if its.cells else "an identified model",
             moves=its.history.moves[-1],
@@ -91,35 +93,30 @@ def beside(watched: Mapping[str, Watched]) -> str:
         )
         for name, its in watched.items()
     )
-    return BESIDE.format(count=len(watched), each="\n\n".join(each))
+    return BESIDE.format(count=len(watched), learners="\n\n".join(learners))
 
 
 def when(resolved: Resolved) -> tuple[str, str]:
-    """What the captions call the first and the third act."""
+    """What the captions call the first and the third phase."""
     what = "recalibration" if damages_among(resolved.damages) else "learning"
     return f"before {what}", f"after {what}"
 
 
-def in_words(entry: Entry) -> str:
-    """What is wrong, in the words of the configuration."""
-    return _said(describe(entry))
-
-
-def _errors(watched: Watched) -> tuple[Sequence[float], ...]:
-    columns = watched.history.columns()
-    return tuple(columns[error] for error in ERRORS)
-
-
 def _ends(watched: Watched) -> dict[str, str]:
-    position, orientation = _errors(watched)
+    position, orientation = (watched.history.columns()[error] for error in ERRORS)
     both = (f"{position[row]:.2f} cm and {orientation[row]:.2f}°" for row in (0, -1))
     return dict(zip(("before", "after"), both, strict=True))
 
 
-def _said(words: Any) -> str:
+def in_words(entry: Entry) -> str:
+    """What is wrong, in the words of the configuration."""
+    return _joined(describe(entry))
+
+
+def _joined(words: Any) -> str:
     match words:
         case dict():
-            return ", ".join(f"{key} {_said(value)}" for key, value in words.items())
+            return ", ".join(f"{key} {_joined(value)}" for key, value in words.items())
         case list():
             return ", ".join(words)
     return str(words)

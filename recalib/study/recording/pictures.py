@@ -1,0 +1,134 @@
+"""Pictures and films of recordings, taken by the real viewer without a screen."""
+
+import tempfile
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from rerun.experimental import ViewerClient
+
+from recalib.errors import RecalibError
+from recalib.storage import whole
+from recalib.study.recording.phases import AFTER, ARM, BEFORE, LEARNING, VISITS
+from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
+
+WINDOW = 1400, 800  # pixels
+TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
+REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
+
+FILM = 1160, 600  # pixels of the window, of which the arm has five eighths
+SHOWN = 6.4  # seconds at the end of each visit of the poses: the last ones
+FRAME, LAST = 100, 2000  # milliseconds
+
+
+class ViewerUnavailable(RecalibError):
+    """The viewer does not run here, most often for want of a Vulkan driver."""
+
+
+def before_and_after(recording: Path, before: Path, after: Path) -> None:
+    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
+    take_pictures(recording, {before: BEFORE, after: AFTER})
+
+
+def take_pictures(
+    recording: Path,
+    pictures: Mapping[Path, float],
+    view: str | None = None,
+    window: tuple[int, int] = WINDOW,
+) -> None:
+    """Write what the viewer shows of a recording, one PNG for each second of its timeline `time`.
+
+    Args:
+        recording: the file.
+        pictures: the second that each shows.
+        view: name of the one that is shown, such as `phases.ARM`; all that the window shows
+            unless given. In a smaller window, words are larger beside the rest.
+        window: its size in pixels.
+
+    Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
+    Raises ViewerUnavailable where the viewer does not start or does not load the recording.
+    """
+    with _client(window) as client:
+        _load(client, recording)
+        for repaint in range(REPAINTS):
+            _show(client, repaint / 100)
+        views = {shown.name: shown.view_id for shown in client.get_state().views}
+        for png, seconds in pictures.items():
+            _show(client, seconds)
+            with whole(png) as temporary:
+                client.save_screenshot(str(temporary.resolve()), views[view] if view else None)
+                _shrink(temporary, 0 if view else TOP_BAR)
+
+
+def take_film(recording: Path, film: Path) -> None:
+    """Write an animated WebP of what the viewer shows of the arm.
+
+    It shows both visits of the poses, and learning five times as fast as the recording does.
+    Needs and raises what `take_pictures` does.
+    """
+    visits = np.arange(VISITS - SHOWN, VISITS, 0.2)
+    learning = VISITS + np.arange(0, LEARNING, 0.5)
+    seconds = np.concatenate([visits, learning, visits + VISITS + LEARNING])
+    with tempfile.TemporaryDirectory() as folder:
+        times = {Path(folder, f"{number}.png"): second for number, second in enumerate(seconds)}
+        take_pictures(recording, times, view=ARM, window=FILM)
+        first, *others = [Image.open(png).convert("RGB") for png in times]
+    with whole(film) as temporary:
+        first.save(
+            temporary,
+            format="WebP",
+            save_all=True,
+            append_images=others,
+            duration=[FRAME] * len(others) + [LAST],
+            loop=0,
+            quality=75,
+        )
+
+
+@contextmanager
+def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
+    """A viewer without a screen. `ViewerClient.spawn` would listen to the whole network."""
+    port = free_port()
+    options = "--headless", "--hide-welcome-screen", "--port", port
+    size = "--window-size", "{}x{}".format(*window)
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
+        try:
+            with viewer(*options, *size, log=log) as process:
+                yield answer(process, lambda: _connect(port))
+        except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
+            log.seek(0)
+            reason = next((line.strip() for line in log if "panicked" in line), "no answer")
+            raise ViewerUnavailable(
+                f"the viewer does not run here ({reason}); it needs a Vulkan driver,"
+                " such as Debian's mesa-vulkan-drivers"
+            ) from None
+
+
+def _connect(port: str) -> ViewerClient:
+    client = ViewerClient(f"rerun+http://{HERE}:{port}/proxy")
+    client.get_state()
+    return client
+
+
+def _load(client: ViewerClient, recording: Path) -> None:
+    client.open(str(recording.resolve()))
+    deadline = time.monotonic() + PATIENCE
+    while (state := client.get_state()).loading or not state.recordings:
+        if time.monotonic() > deadline:
+            raise ViewerUnavailable(f"the viewer did not load {recording} within {PATIENCE:.0f} s")
+        time.sleep(0.1)
+
+
+def _show(client: ViewerClient, seconds: float) -> None:
+    client.set_time("time", duration=seconds, play_state="paused")
+    time.sleep(0.05)
+
+
+def _shrink(png: Path, top: int) -> None:
+    """Cut the top off, and keep 256 colours: a third of the bytes, the same to the eye."""
+    with Image.open(png) as image:
+        picture = image.convert("RGB").crop((0, top, *image.size))
+    picture.quantize(256, dither=Image.Dither.NONE).save(png, optimize=True)

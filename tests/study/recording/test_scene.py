@@ -1,0 +1,210 @@
+"""What a recording shows is what was measured, where it was."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.plant import Plant
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.nominal.controller import Controller
+from recalib.study.experiments.poses import Stream
+from recalib.study.measured import ERRORS
+from recalib.study.recording import colours, landings, markers, scene
+from recalib.study.recording.blueprint import seen_from
+from recalib.study.recording.phases import AFTER, BEFORE, END, FRAMES_A_SECOND, POSES, move
+from recalib.study.recording.watched import REPEATED, visiting_order, watch
+from tests.arms import panda
+from tests.study.recording.conftest import DAMAGES, ITERATIONS, MEASURE_AT, SEED, poses
+
+
+def motion_of(training, robot):
+    return move(training.angles, training.history.moves, robot.home, 2 * ITERATIONS)
+
+
+def test_errors_are_those_of_the_experiment_beside_the_published_ones(job, columns, results):
+    for name, frame in results.items():
+        for quantity in ERRORS:
+            moves, values = columns(f"/errors/{quantity}/{name}", "Scalars:scalars", "moves")
+            measured = dict(zip(frame["moves"], frame[quantity], strict=True))
+            assert dict(zip(moves, np.ravel(values), strict=True)) == measured
+    for quantity, value in job.published.items():
+        _, line = columns(f"/errors/{quantity}/paper", "Scalars:scalars", "moves")
+        assert np.allclose(np.ravel(line), value)
+
+
+def test_landings_are_where_the_damaged_arm_lands(resolved, controller, recording, columns):
+    """Before learning: it is sent to the desired poses themselves."""
+    shown = visiting_order(poses().tests[0, :POSES])
+    goals = controller.robot.workspace.to_poses(shown)
+    (landed,), _ = resolved(DAMAGES).plant(controller, SEED, [0]).achieve(shown[None])
+    training = recording[1]["improved"]
+    assert np.allclose(training.achieved[0], landed) and np.allclose(training.desired, goals)
+    moves, axes = columns("/improved/achieved", "LineStrips3D:strips", "moves")
+    _, misses = columns("/improved/miss", "LineStrips3D:strips", "moves")
+    _, (frames,) = columns("/desired", "LineStrips3D:strips")
+    assert sorted(set(moves)) == [2 * iteration for iteration in MEASURE_AT]
+    length = scene.AXIS * scene.unit_of(controller.robot.workspace)
+    for drawn, placements in (
+        (frames, goals),
+        (axes[0], landed),
+        (axes[-1], training.achieved[-1]),
+    ):
+        tips = np.reshape(drawn, (-1, 3, 2, 3))[:, :, 1].swapaxes(1, 2)
+        expected = placements[:, :3, 3:] + length * placements[:, :3, :3]
+        assert np.allclose(tips, expected, atol=1e-6)
+    for row in (0, -1):
+        ends = np.stack([goals[:, :3, 3], training.achieved[row, :, :3, 3]], axis=1)
+        assert np.allclose(misses[row], ends, atol=1e-6)
+    assert training.misses[-1].mean() < 0.2 * training.misses[0].mean()
+
+
+@pytest.mark.parametrize("timeline", ["time", "moves"])
+@pytest.mark.parametrize("name", ["improved", "ritter"])
+def test_each_arm_ends_where_it_lands_and_its_skeleton_where_it_was_sent(
+    robot, recording, columns, timeline, name
+):
+    training = recording[1][name]
+    tool = robot.arm.model.frames[robot.arm.model.getFrameId("tool0")].placement
+    achieved = training.achieved[-1, -1]  # in the last row: at rest at the last pose, trained
+    _, positions = columns(f"/{name}/links/wrist_3_link", "Transform3D:translation", timeline)
+    _, quaternions = columns(f"/{name}/links/wrist_3_link", "Transform3D:quaternion", timeline)
+    turn = Rotation.from_quat(quaternions[-1][0]).as_matrix()
+    assert np.allclose(positions[-1][0] + turn @ tool.translation, achieved[:3, 3], atol=1e-6)
+    assert np.allclose(turn @ tool.rotation, achieved[:3, :3], atol=1e-6)
+    _, bones = columns(f"/{name}/believed/bones", "LineStrips3D:strips", timeline)
+    _, joints = columns(f"/{name}/believed/joints", "Points3D:positions", timeline)
+    sent = robot.arm.forward(training.angles[-1, -1:])[0, :3, 3]
+    assert np.allclose(bones[-1][0][-1], sent, atol=1e-6)
+    assert np.allclose(joints[-1], bones[-1][0]) and len(joints[-1]) == 8
+    frames = len(motion_of(training, robot).times if timeline == "time" else MEASURE_AT)
+    assert len(positions) == len(bones) == frames
+
+
+def test_every_link_has_its_mesh_and_only_a_short_one_another_colour(robot, columns):
+    links = {frame.name for frame in robot.arm.model.frames if frame.name.endswith("_link")}
+    assert len(links - {"ee_link"}) == 7
+    tint = "Asset3D:albedo_factor"
+    for link in links - {"ee_link"}:
+        entity = f"/improved/ur10/visual_geometries/{link}/visual_0"
+        assert len(columns(entity, "Asset3D:blob")[1][0][0]) > 10_000
+        if link == "forearm_link":
+            red, green, blue = colours.SHORT
+            assert columns(entity, tint)[1][0][0] >> 8 == red << 16 | green << 8 | blue
+        else:
+            with pytest.raises(KeyError):
+                columns(entity, tint)
+
+
+def test_a_shifted_base_is_drawn_shifted_beside_where_it_is_believed(columns):
+    _, base = columns("/improved/links/base_link", "Transform3D:translation", "time")
+    assert np.allclose(base, (0.01, 0.0, -0.02))
+    circles = [
+        np.reshape(columns(f"/improved/{which}/base", "LineStrips3D:strips")[1][0], (-1, 3))
+        for which in ("wrong", "believed")
+    ]
+    assert np.allclose(circles[0] - circles[1], (0.01, 0.0, -0.02))
+    assert columns("/improved/wrong/base/words", "Points3D:labels")[1] == [["moved 2.2 cm"]]
+
+
+def test_what_is_wrong_is_marked_at_its_link_and_joint(robot, columns):
+    unit = scene.unit_of(robot.workspace)
+    found = markers.markers(robot, DAMAGES[:-1], unit)
+    assert [(marker.link, marker.words) for marker in found] == [
+        ("forearm_link", "4 cm short"),
+        ("forearm_link", "encoder -4 deg"),
+        ("upper_arm_link", "sag 0.0002 rad/Nm"),
+    ]
+    short, elbow, shoulder = found
+    assert short.axis is None and np.linalg.norm(short.at) == pytest.approx(0.5723 / 2, abs=1e-3)
+    # the shoulder lifts and the elbow bends about the y axis of their links
+    for marker in (elbow, shoulder):
+        assert np.allclose(np.diff(marker.axis, axis=0), [0, 2 * markers.HALF_AXIS * unit, 0])
+    for number, marker in enumerate(found):
+        entity = f"/improved/wrong/{number}"
+        assert columns(entity, "Points3D:labels")[1] == [[marker.words]]
+        assert columns(entity, "CoordinateFrame:frame")[1] == [[f"improved/{marker.link}"]]
+
+
+def test_words_that_would_lie_upon_one_another_stand_together(robot):
+    damages = (
+        LinkShortening("forearm_link", 0.01),
+        LinkShortening("wrist_1_link", 0.01),
+        LinkShortening("wrist_2_link", 0.04),
+        EncoderShift("shoulder_pan_joint", np.radians(4)),
+        EncoderShift("wrist_3_joint", np.radians(3)),
+    )
+    found = markers.markers(robot, damages, scene.unit_of(robot.workspace))
+    assert {marker.link: marker.words for marker in found if marker.words} == {
+        "forearm_link": "1 cm short",
+        "shoulder_link": "encoder 4 deg",
+        "wrist_3_link": "wrist 1: 1 cm short\nwrist 2: 4 cm short\nwrist 3: encoder 3 deg",
+    }
+    assert len(found) == len(damages), "each has its colour and its axis"
+
+
+def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(recording, columns):
+    training = recording[1]["improved"]
+    assert training.scatter.shape == (POSES, REPEATED, 3)
+    assert training.scatter.std() == pytest.approx(0.0002, rel=0.2)  # of 360 numbers
+    assert landings.enlarged(training) == 100
+    _, lines = columns("/improved/measured", "LineStrips3D:strips", "moves")
+    starts, ends = np.reshape(lines[-1], (POSES, REPEATED, 2, 3)).swapaxes(0, 2)
+    landed = training.achieved[-1, :, :3, 3]
+    assert np.allclose(starts, landed, atol=1e-6)
+    assert np.allclose(ends - starts, 100 * training.scatter.swapaxes(0, 1), atol=1e-5)
+
+
+def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
+    controller, recording, columns
+):
+    training = recording[1]["improved"]
+    _, arrows = columns("/improved/map/corrections", "Arrows3D:vectors", "moves")
+    assert np.ptp(arrows[0]) == 0
+    assert np.allclose(arrows[-1], training.cells.corrections[-1], atol=1e-6)
+    misses = (training.achieved[0] - training.desired)[:, :3, 3].mean(axis=0)
+    made_up_for = -np.mean(arrows[-1], axis=0) @ misses
+    assert made_up_for > 0.5 * misses @ misses
+    last = controller.robot.workspace.to_poses(poses().desired[0, -1])[:3, 3]
+    winner = np.linalg.norm(training.cells.centres - last, axis=-1).argmin()
+    weights = training.cells.weights
+    assert weights[-1].argmax() == winner and weights[-1, winner] == 1
+    assert not weights[0].any()
+
+
+def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
+    training = recording[1]["improved"]
+    motion = motion_of(training, robot)
+    frames = len(motion.times) // 2
+    for angles, stops in (
+        (motion.angles[:frames], training.angles[0]),
+        (motion.angles[frames:], training.angles[-1]),
+    ):
+        a_second = FRAMES_A_SECOND * np.abs(np.diff(angles, axis=0))
+        assert a_second.max() < 2 * np.pi, "never more than one turn a second"
+        assert np.allclose(angles.reshape(len(stops), -1, 6)[:, -1], stops)
+    assert (np.diff(motion.times) > 0).all()
+    events = motion.arrivals[0, -1], BEFORE, *motion.learning, motion.arrivals[1, -1], AFTER, END
+    assert (np.diff(events) > 0).all()
+
+
+def test_an_arm_of_seven_joints_is_watched_and_moved():
+    robot = panda()
+    damaged, controller = apply(robot, [EncoderShift("panda_joint3", 0.05)]), Controller(robot)
+    its = Stream.REPLAY.draw(1, [0], 5, 15)
+    plant = Plant(controller, [damaged], None, [np.random.default_rng(2)])
+    watched = watch(controller, plant, PolynomialLearner(1, 1), its, [0, 5])
+    reached = damaged.forward(watched.angles[-1])
+    np.testing.assert_allclose(reached, watched.achieved[-1], rtol=0, atol=1e-12)
+    motion = motion_of(watched, robot)
+    assert np.allclose(motion.angles[-1], watched.angles[-1, -1])
+    bones = robot.arm.skeleton(motion.angles[-1:])
+    assert bones.shape == (1, 9, 3)  # base, seven joints, tool
+
+
+def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
+    misses = np.array([(5, -5, 4.3), (5, 5, 4.3)])
+    eyes = [seen_from(robot.workspace, miss[None]) for miss in misses]
+    assert eyes[0][1] > 0 > eyes[1][1]
+    for miss, eye in zip(misses, eyes, strict=True):
+        assert np.linalg.norm(np.cross(miss, eye)) > 0.9 * np.linalg.norm(miss)
