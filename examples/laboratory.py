@@ -6,11 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.correct import correct
-from recalib.laboratory.measurements import Measurements
-from recalib.laboratory.summary import verdict
-from recalib.nominal.arms import load_arm
+from recalib import Measurements, calibrate_arm, correct, load_arm, verdict
 
 arm, rng = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(1996)
 joints = rng.uniform(-0.5, 0.5, (40, 6)) + np.array([0, -1.2, 1.9, -2.3, -1.6, 0])

@@ -1,4 +1,5 @@
 import ast
+import re
 import subprocess
 import sys
 
@@ -107,6 +108,19 @@ def test_calibrating_an_arm_loads_no_tables_and_compiles_nothing():
     heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic"}
     calibrating = "import recalib.laboratory.calibrate, recalib.laboratory.files"
     assert loaded_with(calibrating, heavy) == set()
+
+
+def test_what_no_type_can_say_is_rare_and_has_its_reason():
+    ignored = [
+        line
+        for path in ROOT.glob("recalib/**/*.py*")
+        if path.suffix in (".py", ".pyi")
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if "type: ignore" in line
+    ]
+    assert len(ignored) <= 20
+    for line in ignored:
+        assert re.search(r"# type: ignore\[[a-z-]+\]  # \w{2,}", line), line
 
 
 CHANGES = {"DamagedArm", "Finding"}  # what is gathered part by part

@@ -70,7 +70,7 @@ class Resolved(Kept):
         """
         luck = [generator(seed, self.scenario, run, "disturbances") for run in runs]
         arm = self.arm(controller.robot)
-        return Plant(controller, [arm], disturbances_among(self.damages), luck)
+        return Plant(controller, arm, disturbances_among(self.damages), luck)
 
 
 def fleet(
@@ -94,7 +94,7 @@ def resolve(job: jobs.Scenario, assignment: Sequence[Entry] = ()) -> Resolved:
     workspace = controller.robot.workspace
     tests = workspace.sample(generator(job.seed, job.name, "initial errors"), 1, job.poses)
     arm = apply(controller.robot, damages_among(damages))
-    achieved, _ = Plant(controller, [arm]).achieve(tests)
+    achieved, _ = Plant(controller, arm).achieve(tests)
     desired = workspace.to_poses(tests)
     return Resolved(
         scenario=job.name,

@@ -90,7 +90,7 @@ def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, c
 
     def found(**told):
         trials = Search(
-            lambda runs: Plant(controller, [arm]),
+            lambda runs: Plant(controller, arm),
             rules_of(whole.learner),
             8,
             budget,
@@ -149,7 +149,7 @@ def test_another_learner_is_searched_for_alike(plan, controller, damaged):
     given = {"rounds": 1, "trials": 4, "seeds": 2}
     budget = plan.budget().model_copy(update=given)
     rules = Rules(False, True, False, True)
-    args = (lambda runs: Plant(controller, [damaged]), rules, 8, budget, 5, "luck")
+    args = (lambda runs: Plant(controller, damaged), rules, 8, budget, 5, "luck")
     first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
     numbers = search.columns(rules)
     assert other[numbers].equals(first[numbers]) and list(other) == list(first)
@@ -157,8 +157,8 @@ def test_another_learner_is_searched_for_alike(plan, controller, damaged):
     trial = other.iloc[1]
     seeds = range(given["seeds"])
     history = train(
-        Plant(controller, [damaged]),
-        RadialLearner(2, rules, search.schedule(trial, rules)),
+        Plant(controller, damaged),
+        RadialLearner(rules, search.schedule(trial, rules), runs=2),
         campaign.desired_poses(budget.seed, "luck", seeds, 8),
         campaign.test_poses(budget.seed, "luck", seeds, 5),
         [8],

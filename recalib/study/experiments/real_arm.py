@@ -75,7 +75,7 @@ def _model_based(
 
 
 def _black_box(
-    make: Callable[[int], PolynomialLearner | GaussianProcessLearner],
+    make: Callable[[], PolynomialLearner | GaussianProcessLearner],
     arm: Arm,
     known: Measurements,
     unknown: Measurements,
@@ -87,7 +87,7 @@ def _black_box(
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = make(1)
+    learner = make()
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)
@@ -182,7 +182,7 @@ def learn_on_twin(
     iterations, runs = job.learner.iterations, range(job.subsets)
     met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
     history = train(
-        Plant(Controller(robot, job.nominal.controller.greatest_condition), [twin]),
+        Plant(Controller(robot, job.nominal.controller.greatest_condition), twin),
         build_tuned(job.learner, sample, [run + 1 for run in runs]),
         desired_poses(job.seed, "twin", runs, iterations),
         test_poses(job.seed, "twin", runs, job.tests),

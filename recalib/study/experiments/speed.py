@@ -48,7 +48,7 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
-    plant, rng = Plant(controller, [arm]), np.random.default_rng(0)
+    plant, rng = Plant(controller, arm), np.random.default_rng(0)
     commands = rng.uniform(-1, 1, (MOVES, RUNS, 1, 6))
     angles = controller.inverse(robot.workspace.to_poses(commands.reshape(-1, 6)))
     # Both in turn, and the ratio pair by pair: the machine may be shared.
@@ -68,7 +68,7 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
     desired = desired_poses(0, "bench", range(RUNS), ITERATIONS)
     for name, rules in job.learners.items():
         learner = build_tuned(rules, samples[name], range(1, RUNS + 1))
-        arguments = Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
+        arguments = Plant(controller, arm), learner, desired, desired[:, :1], [ITERATIONS]
         spent = seconds(train, *arguments) / (RUNS * ITERATIONS)
         lines.append(
             f"{name}: {1e6 * spent:.0f} us an iteration and seed,"

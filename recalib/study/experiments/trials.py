@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Commandable, Learner
+from recalib.interfaces import Commandable
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Budget
@@ -22,6 +21,8 @@ from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from recalib.learners.radial import RadialLearner
 
 DIGITS = 4  # of errors and scores
 
@@ -65,7 +66,7 @@ class Search:
         fixed: numbers of a trial that are not sought.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
         order: of the poses to learn from; see `desired_poses`.
-        learner: makes one of so many runs, by the rules, with a schedule of each run.
+        learner: its kind.
     """
 
     robots: Callable[[int], Commandable]
@@ -77,7 +78,7 @@ class Search:
     fixed: Mapping[str, float] = field(default_factory=dict)
     error: str = "norm"
     order: str = "random"
-    learner: Callable[[int, Rules, Schedule], Learner] = HierarchicalLearner
+    learner: "type[HierarchicalLearner | RadialLearner]" = HierarchicalLearner
 
     def all_rounds(self) -> "pd.DataFrame":
         """All trials, round after round, a row each."""
@@ -113,7 +114,7 @@ class Search:
         runs = len(trials) * len(seeds)
         history = train(
             self.robots(runs),
-            self.learner(runs, self.rules, search.schedule(trials, self.rules, len(seeds))),
+            self.learner(self.rules, search.schedule(trials, self.rules, len(seeds)), runs=runs),
             np.tile(poses, (len(trials), 1, 1)),
             np.tile(tested, (len(trials), 1, 1)),
             [self.iterations],

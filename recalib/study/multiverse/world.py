@@ -4,17 +4,14 @@ Nothing of a replicate is that of another one: searches, poses and seeds are its
 are compared in it see the same poses.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
 from recalib.study.experiments.campaign import desired_poses, test_poses
@@ -27,7 +24,9 @@ from recalib.training import train
 if TYPE_CHECKING:
     import pandas as pd
 
-Kind = Callable[[int, Rules, Schedule], Learner]
+    from recalib.learners.radial import RadialLearner
+
+    Kind = type[HierarchicalLearner | RadialLearner]
 
 
 class World:
@@ -52,7 +51,7 @@ class World:
         iterations: int,
         like: str = "",
         fixed: Mapping[str, float] = {},
-        kind: Kind = HierarchicalLearner,
+        kind: "Kind" = HierarchicalLearner,
     ) -> Search:
         """The search for a learner, on the paper's damage.
 
@@ -63,7 +62,7 @@ class World:
         """
         universe, arm = self.universe, self.arm(self.universe.own)
         return Search(
-            robots=lambda runs: Plant(self.controller, [arm]),
+            robots=lambda runs: Plant(self.controller, arm),
             rules=rules_in(universe, learner),
             iterations=iterations,
             budget=universe.budget,
@@ -81,7 +80,7 @@ class World:
         iterations: int,
         trials: "pd.DataFrame",
         scenario: str = "",
-        kind: Kind = HierarchicalLearner,
+        kind: "Kind" = HierarchicalLearner,
     ) -> np.ndarray:
         """First and last errors (seed, 2, 2) [cm, degrees] of the best of some trials.
 
@@ -92,8 +91,8 @@ class World:
         arm, rules = self.arm(scenario or universe.own), rules_in(universe, learner)
         scope = f"replicate {self.replicate}"
         history = train(
-            Plant(self.controller, [arm]),
-            kind(len(seeds), rules, search.schedule(best_of(trials), rules)),
+            Plant(self.controller, arm),
+            kind(rules, search.schedule(best_of(trials), rules), runs=len(seeds)),
             desired_poses(universe.seed, scope, seeds, iterations, universe.order),
             test_poses(universe.seed, scope, seeds, universe.tests),
             [0, iterations],

@@ -39,7 +39,7 @@ def final_errors(study, controller, learner="improved"):
     history = train(
         Plant(
             controller,
-            [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
+            apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages)),
         ),
         build_tuned(settings, sample, searches),
         campaign.desired_poses(study.seed, "links_encoders", seeds, settings.iterations),
