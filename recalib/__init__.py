@@ -8,8 +8,8 @@ from importlib import import_module
 
 __version__ = "0.1.0"
 
-# Where each name is at home. It is imported when it is asked for: Pinocchio, SciPy and scikit-learn
-# take seconds, and nobody needs all of them.
+# Where each name is at home. It is imported when it is asked for: Pinocchio, Numba and SciPy
+# take a second, and nobody needs all of them.
 _HOMES = {
     "Controller": "recalib.nominal.controller",
     "ExternalRobot": "recalib.external",

@@ -22,6 +22,7 @@ FOR_STUDIES_ALONE = {
     "pyarrow",
     "pydantic",
     "rerun",
+    "sklearn",
     "snakemake",
     "tqdm",
     "yaml",
