@@ -15,8 +15,8 @@ __version__ = "0.1.0"
 def _homes() -> dict[str, str]:
     """The module of each public name, from the stub that type checkers and editors read.
 
-    A name is imported when it is asked for: Pinocchio, SciPy and scikit-learn take a second, and
-    nobody needs all of them.
+    A name is imported when it is asked for: Pinocchio, Numba and SciPy take a second, and nobody
+    needs all of them.
     """
     import ast
     from pathlib import Path

@@ -11,7 +11,6 @@ LIBRARY = "nominal", "damaged", "identification", "learners", "laboratory"
 STUDY = "mapping", "experiments", "evidence", "multiverse", "plots", "recording"
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
-    "laboratory/drawings.py": {"matplotlib"},
     "laboratory/page.py": {"jinja2"},
     "laboratory/watching.py": {"rerun"},
     "viewing.py": {"rerun"},
@@ -23,6 +22,7 @@ FOR_STUDIES_ALONE = {
     "pyarrow",
     "pydantic",
     "rerun",
+    "sklearn",
     "snakemake",
     "tqdm",
     "yaml",

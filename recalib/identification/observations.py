@@ -32,6 +32,7 @@ class Observations:
         targets: (n,) the number of the target, or of the ball, that was seen; 0 unless given.
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
+        times: (n,) s, which do not decrease; None where nobody wrote them down.
     """
 
     joints: np.ndarray
@@ -39,6 +40,7 @@ class Observations:
     targets: np.ndarray = None
     sockets: np.ndarray | None = None
     distances: Sequence[Distance] = field(default=())
+    times: np.ndarray | None = None
 
     def __post_init__(self):
         if self.targets is None:
@@ -50,7 +52,7 @@ class Observations:
     def __getitem__(self, rows: np.ndarray) -> "Observations":
         """Some of the rows, by their numbers or by a mask."""
         parts = {"joints": self.joints[rows], "targets": self.targets[rows]}
-        for name in ("measured", "sockets"):
+        for name in ("measured", "sockets", "times"):
             if getattr(self, name) is not None:
                 parts[name] = getattr(self, name)[rows]
         return replace(self, **parts)

@@ -22,7 +22,7 @@ CHANCE = 1e-6  # with which what is named would be there by chance, were all tha
 SHARE = 0.15  # of what is left of the squares; real arms leave more than noise
 MOST = 3  # faults at once
 ENDS = 10  # rows on either side of a jump
-SMALL = 1e-3  # of a step: for slopes
+SMALL = 1e-3  # of the typical step: for slopes
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,9 @@ class Fault:
 
     Attributes:
         kind: lag, drift or jump.
-        size: of a lag, by how much of a step to it poses are late; otherwise m, by how much the
-            instrument moves against the base, over all rows or at once.
+        size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
+            of the step to each; otherwise m, by how much the instrument moves against the base,
+            from the first row to the last or at once.
         row: from 0, the first one after a jump.
     """
 
@@ -55,10 +56,10 @@ def faults(geometry: Calibration, seen: Observations, counted: np.ndarray) -> li
     weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
     residuals = np.concatenate([*near.residuals], axis=1) * weights
     arm = np.concatenate([*near.jacobians], axis=1) * weights[..., None]
-    late = _late(geometry, seen)[..., None] * weights[..., None]
+    times = np.arange(len(seen)) if seen.times is None else seen.times
+    late = _late(geometry, seen, times)[..., None] * weights[..., None]
     moved = _moved(geometry, seen) * weights[..., None]
-    times = np.arange(len(seen))[:, None, None]
-    drifted = moved * times / len(seen)
+    drifted = moved * ((times - times[0]) / np.ptp(times))[:, None, None]
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it leaves
         left = _Left(residuals, arm)
@@ -71,7 +72,8 @@ def faults(geometry: Calibration, seen: Observations, counted: np.ndarray) -> li
         if share < SHARE:
             break
         found.append(fault)
-        columns = {LAG: late, DRIFT: drifted, JUMP: moved * (times >= fault.row)}[fault.kind]
+        jumped = moved * (np.arange(len(seen)) >= fault.row)[:, None, None]
+        columns = {LAG: late, DRIFT: drifted, JUMP: jumped}[fault.kind]
         arm = np.concatenate([arm, columns], axis=2)
     return found
 
@@ -126,12 +128,16 @@ class _Left:
         return scipy.linalg.cho_solve(self._factor, pulls)
 
 
-def _late(geometry: Calibration, seen: Observations) -> np.ndarray:
-    """What takes the targets back along the step to each row, over the step (n, k) [m, rad]."""
-    steps = np.diff(seen.joints, axis=0, prepend=seen.joints[:1])
+def _late(geometry: Calibration, seen: Observations, times: np.ndarray) -> np.ndarray:
+    """How targets go back with time (n, k) [m, rad], at the speed of the step to each row."""
+    times, first, numbers = np.unique(times, return_index=True, return_inverse=True)
+    lasted = np.diff(times)  # of rows at one time all are as fast
+    speeds = np.diff(seen.joints[first], axis=0) / lasted[:, None]
+    speeds = np.concatenate([0 * speeds[:1], speeds])[numbers]
+    small = SMALL * np.median(lasted)
     here = geometry.seen(seen.joints, seen.targets)
-    before = geometry.seen(seen.joints - SMALL * steps, seen.targets)
-    return displacements(here, before)[:, : 3 * seen.kinds] / SMALL
+    before = geometry.seen(seen.joints - small * speeds, seen.targets)
+    return displacements(here, before)[:, : 3 * seen.kinds] / small
 
 
 def _moved(geometry: Calibration, seen: Observations) -> np.ndarray:

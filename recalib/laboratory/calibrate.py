@@ -182,7 +182,7 @@ def _observations(
     if rows.rotations is not None:
         measured = np.tile(np.eye(4), (len(rows), 1, 1))
         measured[:, :3, :3], measured[:, :3, 3] = rows.rotations, rows.positions
-    seen = Observations(rows.coordinates, measured, numbers)
+    seen = Observations(rows.coordinates, measured, numbers, times=rows.times)
     if rows.sockets is None:
         if said.distances:
             raise InvalidFile(

@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from itertools import islice
 from os import PathLike
 from pathlib import Path
@@ -82,6 +83,21 @@ class Table:
             )
         return numbers
 
+    def dates(self, column: str) -> np.ndarray:
+        """The moments (n,) in a column, in seconds.
+
+        Raises InvalidFile: a cell that is none.
+        """
+        dates = [_date(cell) for cell in self.cells[column]]
+        if None in dates:
+            row = dates.index(None)
+            raise InvalidFile(
+                self.path,
+                f"row {row + 1} of column {self.shown(column)!r} is {self.cells[column][row]!r};"
+                f" expected: a date as 2026-11-23T08:15:00.5, or seconds in {column} [s]",
+            )
+        return np.array(dates)
+
     def check_columns(self, valid: Collection[str]) -> None:
         """Raise InvalidFile where a column is not among the valid ones."""
         for column in self.cells:
@@ -148,6 +164,14 @@ def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -
             if headings[index] in columns
         },
     )
+
+
+def _date(cell: str) -> float | None:
+    try:
+        date = datetime.fromisoformat(cell)
+    except ValueError:
+        return None
+    return (date if date.tzinfo else date.replace(tzinfo=UTC)).timestamp()
 
 
 def _number(cell: str) -> float:

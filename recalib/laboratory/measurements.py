@@ -12,7 +12,7 @@ from recalib.identification.soundness import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
-from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.spelling import listed
 
 POSITION = "x", "y", "z"
@@ -21,7 +21,7 @@ MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place 
 QUATERNION = "qx", "qy", "qz", "qw"
 ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
 VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
-LABELS = "target", "socket"
+LABELS, TIMES = ("target", "socket"), "time"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
 
@@ -38,6 +38,7 @@ class Measurements:
         nominal: (n, 3) m, where the positions should have been; None likewise.
         targets: (n,) names of the targets that were measured, the same everywhere if there is one.
         sockets: (n,) names of the sockets in which the ball sat; None where there are none.
+        times: (n,) s, when rows were measured; None where there are none.
     """
 
     count: int
@@ -47,6 +48,7 @@ class Measurements:
     nominal: np.ndarray | None = None
     targets: np.ndarray | None = None
     sockets: np.ndarray | None = None
+    times: np.ndarray | None = None
 
     def __len__(self) -> int:
         return self.count
@@ -86,7 +88,8 @@ def read_desired(path: str | PathLike, arm: Arm) -> Measurements:
 
 def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Measurements:
     table = read_table(path, description and description.columns)
-    table.check_columns([*arm.joints, *(name for group in VECTORS for name in group), *LABELS])
+    vectors = (name for group in VECTORS for name in group)
+    table.check_columns([*arm.joints, *vectors, *LABELS, TIMES])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -107,7 +110,23 @@ def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Me
         _rotations(table, vectors),
         vectors[NOMINAL],
         *(_labels(table, label) for label in LABELS),
+        _times(table),
     )
+
+
+def _times(table: Table) -> np.ndarray | None:
+    """Seconds (n,) from whenever."""
+    if TIMES not in table:
+        return None
+    times = table.dates(TIMES) if not table.units[TIMES] else table.numbers(TIMES, TIME)
+    if (early := np.diff(times) < 0).any():
+        row = int(early.argmax()) + 2
+        raise InvalidFile(
+            table.path, f"row {row} was measured before row {row - 1}; try: sort the rows by time"
+        )
+    if times[0] == times[-1]:
+        raise InvalidFile(table.path, f"column {TIMES!r} is the same in all rows; try: without it")
+    return times
 
 
 def _labels(table: Table, column: str) -> np.ndarray | None:

@@ -31,23 +31,27 @@ def postures(rng, rows: int, on_a_path: bool) -> np.ndarray:
     return CubicSpline(np.linspace(0, 1, len(through)), through)(np.linspace(0, 1, rows))
 
 
-def found(arm, seed: int, on_a_path: bool, kinds=2, rows=ROWS, lag=0.0, jump=0.0, drift=0.0):
-    """What is found in rows of a bent arm with these faults."""
+def found(
+    arm, seed: int, on_a_path: bool, kinds=2, rows=ROWS, lag=0.0, jump=0.0, drift=0.0, times=None
+):
+    """What is found in rows of a bent arm with these faults, in a lag of steps or of seconds."""
     rng, bent = np.random.default_rng(seed), ErrorModel(arm, OFFSETS)
     parameters = rng.standard_normal(len(bent.deviations)) * ERRORS["v"]
     bent.twists(parameters)[:, 3:] *= ERRORS["w"] / ERRORS["v"]
     parameters[bent.offset_columns] *= ERRORS["offset"] / ERRORS["v"]
     joints = postures(rng, rows, on_a_path)
-    steps = np.diff(joints, axis=0, prepend=joints[:1])
-    poses = bent.predict(parameters, joints - lag * steps)
+    clock = np.arange(rows) if times is None else times
+    speeds = np.diff(joints, axis=0, prepend=joints[:1])
+    speeds[1:] /= np.diff(clock)[:, None]
+    poses = bent.predict(parameters, joints - lag * speeds)
     where = rng.standard_normal(3)
     where /= np.linalg.norm(where)
-    times = np.arange(rows)
-    poses[:, :3, 3] += np.outer(jump * (times >= 2 * rows // 5) + drift * times / rows, where)
+    jumped = np.arange(rows) >= 2 * rows // 5
+    poses[:, :3, 3] += np.outer(jump * jumped + drift * clock / clock[-1], where)
     poses[:, :3, 3] += NOISE[0] * rng.standard_normal((rows, 3))
     turns = Rotation.from_rotvec(NOISE[1] * rng.standard_normal((rows, 3))).as_matrix()
     poses[:, :3, :3] = turns @ poses[:, :3, :3]
-    seen = Observations(joints, poses if kinds == 2 else poses[:, :3, 3])
+    seen = Observations(joints, poses if kinds == 2 else poses[:, :3, 3], times=times)
     frames = Frames(
         base_unknown=True,
         targets_unknown=True,
@@ -77,6 +81,14 @@ def test_a_jump_between_sessions_is_named_by_its_first_row(on_a_path, kinds, arm
 
 def test_a_drift_is_named(arm):
     (fault,) = found(arm, 3, on_a_path=False, drift=1e-3)
+    assert fault.kind == DRIFT and fault.size == pytest.approx(1e-3, rel=0.2)
+
+
+def test_where_rows_carry_times_a_lag_is_named_in_seconds_and_a_drift_follows_the_clock(arm):
+    times = np.cumsum(np.random.default_rng(5).uniform(0.1, 3, ROWS))
+    (fault,) = found(arm, 5, on_a_path=True, lag=0.02, times=times)
+    assert fault.kind == LAG and fault.size == pytest.approx(0.02, rel=0.1)
+    (fault,) = found(arm, 6, on_a_path=False, drift=1e-3, times=np.arange(ROWS) ** 3.0)
     assert fault.kind == DRIFT and fault.size == pytest.approx(1e-3, rel=0.2)
 
 
