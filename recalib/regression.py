@@ -98,7 +98,8 @@ def _fitted(
     inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
 ) -> tuple[np.ndarray, float, np.ndarray]:
     """Weights (n, k) of the points, the logarithm of the marginal likelihood, Cholesky's factor."""
-    covariances = sum(covariance_parts(hyperparameters, inputs, inputs))
+    linear, bell = covariance_parts(hyperparameters, inputs, inputs)
+    covariances = linear + bell
     diagonal = np.diag_indices_from(covariances)
     covariances[diagonal] += np.exp(hyperparameters[-1])
     covariances[diagonal] += JITTER
