@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib import Observations, calibrate
 from recalib.identification.error_model import OFFSETS
-from recalib.identification.first_guess import guess_frames
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
@@ -20,7 +20,7 @@ poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in its s
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
 apart = Distance(0, 1, np.linalg.norm(sockets[1] - sockets[0]))  # that is measured
 seen = Observations(joints, sockets=number, distances=[apart])
-calibration = calibrate(arm, [OFFSETS], seen, guess_frames(arm, seen))
+calibration = calibrate(arm, [OFFSETS], seen, initial_frames(arm, seen))
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
 # about their mean: where the arm stands, no socket tells

@@ -21,7 +21,7 @@ _HOMES = {
     "Schedule": "recalib.learners.schedules",
     "Workspace": "recalib.nominal.poses",
     "calibrate": "recalib.identification.calibration",
-    "guess_frames": "recalib.identification.first_guess",
+    "initial_frames": "recalib.identification.initial_estimate",
     "load": "recalib.loading",
     "load_robot": "recalib.nominal.robots",
     "save": "recalib.learned",
