@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Chain, Distance, Observations, calibrate, guess_frames, load_arm
+from recalib import OFFSETS, Chain, Distance, Observations, calibrate, initial_frames, load_arm
 
 rng = np.random.default_rng(1996)
 arm, home = load_arm("panda.urdf", "panda_hand_tcp"), np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
@@ -17,7 +17,7 @@ poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in its s
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
 apart = Distance(0, 1, math.dist(*sockets))  # that is measured
 seen = Observations(joints, sockets=number, distances=[apart])
-calibration = calibrate(arm, [OFFSETS], seen, guess_frames(arm, seen))
+calibration = calibrate(arm, [OFFSETS], seen, initial_frames(arm, seen))
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
 # about their mean: where the arm stands, no socket tells

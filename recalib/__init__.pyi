@@ -30,7 +30,7 @@ from recalib.identification.design import information_gains as information_gains
 from recalib.identification.error_model import JOINT_ERRORS as JOINT_ERRORS
 from recalib.identification.error_model import JOINT_WAVES as JOINT_WAVES
 from recalib.identification.error_model import OFFSETS as OFFSETS
-from recalib.identification.first_guess import guess_frames as guess_frames
+from recalib.identification.initial_estimate import initial_frames as initial_frames
 from recalib.identification.observations import Distance as Distance
 from recalib.identification.observations import Observations as Observations
 from recalib.interfaces import Commandable as Commandable

@@ -77,8 +77,8 @@ def test_what_draws_a_calibration_is_not_needed_to_make_one(package):
     text = (
         f"import sys; sys.modules[{package!r}] = None\n"
         "from recalib.laboratory import calibrate, correct, propose, command_line\n"
-        "from recalib.laboratory.files import looks\n"
-        "written, missing = looks()\n"
+        "from recalib.laboratory.files import optional_outputs\n"
+        "written, missing = optional_outputs()\n"
         "print(len(written), missing)"
     )
     ran = subprocess.run(

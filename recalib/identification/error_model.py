@@ -6,7 +6,7 @@ The parameters are small and zero for the nominal arm. In their order:
   link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
   is the only target where frames are known.
-- centres (socket, 3): by how much [m] the sockets are beside their first guess.
+- centres (socket, 3): by how much [m] the sockets are beside their initial estimate.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -181,7 +181,7 @@ class ErrorModel:
         if found.targets_unknown:
             ends = zip(twists[self._joints :], self._placements[self._joints :], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
-            found = replace(found, targets=np.array([each.homogeneous for each in targets]))
+            found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
@@ -253,7 +253,7 @@ class ErrorModel:
 
 
 def _by_target(targets: np.ndarray | None, count: int):
-    """Each target that is seen, with its rows."""
+    """Each target that is measured, with its rows."""
     if targets is None or not np.any(targets):
         return [(0, slice(count))]
     return [(target, np.flatnonzero(targets == target)) for target in np.unique(targets)]

@@ -1,4 +1,4 @@
-"""What was seen of an arm: the joint coordinates in which its controller believed, and the rest.
+"""What was measured of an arm, at the joint coordinates in which its controller believed.
 
 Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
 position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which
@@ -23,13 +23,13 @@ class Distance(NamedTuple):
 
 @dataclass(frozen=True)
 class Observations:
-    """What was seen of an arm.
+    """What was measured of an arm.
 
     Attributes:
         joints: (n, joints) rad, or m where a joint slides, in which the controller believed.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None where a ball sat in sockets.
-        targets: (n,) the number of the target, or of the ball, that was seen; 0 unless given.
+        targets: (n,) the number of the target, or of the ball; 0 unless given.
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
         times: (n,) s, which do not decrease; None where nobody wrote them down.
@@ -62,9 +62,13 @@ class Observations:
         """What was measured (n, 3) [m], without orientations."""
         return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
 
+    def reached(self, sockets: np.ndarray) -> np.ndarray:
+        """Where the targets were, as `measured`; in sockets, by their centres (socket, 3) [m]."""
+        return sockets[self.sockets] if self.measured is None else self.measured
+
     @property
     def kinds(self) -> int:
-        """Of what is seen in a row: 2 for position and orientation, 1 for a position alone."""
+        """Of what is measured in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
 
     @property

@@ -92,14 +92,14 @@ def _positive(text: str) -> int:
 
 def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.calibrate import calibrate_arm
-    from recalib.laboratory.files import looks, write_files
+    from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
     result = calibrate_arm(
-        given.urdf, given.measurements, given.description, given.tool, given.base, _tell
+        given.urdf, given.measurements, given.description, given.tool, given.base, _print_progress
     )
-    further, missing = looks()
-    _tell(f"files in {given.out}")
+    further, missing = optional_outputs()
+    _print_progress(f"files in {given.out}")
     written = write_files(result, given.out, further)
     print(summary(result), end="")
     print(f"\n{given.out}: {', '.join(written)}")
@@ -173,5 +173,5 @@ def _urdf(given: argparse.Namespace) -> int:
     return DONE
 
 
-def _tell(line: str) -> None:
+def _print_progress(line: str) -> None:
     print(f"... {line}", file=sys.stderr, flush=True)

@@ -73,5 +73,5 @@ def _fits(correction: Correction) -> bool:
     poses, jacobians = calibration.forward_and_jacobian(learned[:1])
     numbers = poses, jacobians, calibration.spreads(learned[:1])
     return learned.shape[1:] == (len(correction.arm.joints),) and all(
-        each.size and np.isfinite(each).all() for each in numbers
+        array.size and np.isfinite(array).all() for array in numbers
     )

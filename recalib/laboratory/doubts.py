@@ -7,20 +7,18 @@ from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
 
-CONTRADICTED = 2.0  # times the error of what is used: so much no part of it can miss
+CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
 
 def doubts(result: Calibrated) -> Iterator[str]:
     """Sentences, the gravest first; none where rows and lines agree."""
     for fault in result.faults:
-        yield f"Careful: {_sentence(fault, result.seen)}."
+        yield f"Careful: {_sentence(fault, result.observations)}."
     validation = result.validation
     if validation.chosen != HYBRID:
         return
-    whole, away, geometry = (
-        1e3 * validation.errors(way, kind)[validation.counted, 0].mean()
-        for way, kind in ((RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC))
-    )
+    compared = (RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC)
+    whole, away, geometry = (1e3 * validation.mean_error(*one) for one in compared)
     if min(away, geometry) > CONTRADICTED * whole:
         yield (
             f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
@@ -28,10 +26,10 @@ def doubts(result: Calibrated) -> Iterator[str]:
         )
 
 
-def _sentence(fault: Fault, seen: Observations) -> str:
-    size, rows = f"{1e3 * fault.size:.2g} mm", len(seen)
+def _sentence(fault: Fault, observations: Observations) -> str:
+    size, rows = f"{1e3 * fault.size:.2g} mm", len(observations)
     late = abs(fault.size)
-    lag = f"{100 * late:.2g} % of a step" if seen.times is None else f"{1e3 * late:.2g} ms"
+    lag = f"{100 * late:.2g} % of a step" if observations.times is None else f"{1e3 * late:.2g} ms"
     return {
         LAG: f"poses seem to be {lag} {'behind' if fault.size > 0 else 'ahead of'} the joints; try"
         " to measure at rest, or to synchronise both",

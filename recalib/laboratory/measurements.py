@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
-from recalib.identification.soundness import FEWEST
+from recalib.identification.diagnostics import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
@@ -52,6 +52,15 @@ class Measurements:
 
     def __len__(self) -> int:
         return self.count
+
+    @property
+    def measured(self) -> np.ndarray | None:
+        """Poses (n, 4, 4) or positions (n, 3) [m] of targets; None where there are neither."""
+        if self.rotations is None:
+            return self.positions
+        poses = np.tile(np.eye(4), (self.count, 1, 1))
+        poses[:, :3, :3], poses[:, :3, 3] = self.rotations, self.positions
+        return poses
 
 
 def read_measurements(

@@ -34,7 +34,7 @@ def described(result: Calibrated) -> list[Parameter]:
     calibration = result.geometry
     # a small deviation tells nothing: of what explains nothing, the prior becomes narrow
     estimate, by_prior = calibration.estimate, calibration.model.deviations <= HELD
-    by_prior[[one.parameter for one in result.left_open]] = True
+    by_prior[[one.parameter for one in result.unidentifiable]] = True
     deviations = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(
@@ -48,14 +48,14 @@ def described(result: Calibrated) -> list[Parameter]:
     ]
 
 
-def open_directions(result: Calibrated) -> list[tuple[str, bool]]:
-    """What was seen leaves open, in words, and whether any other postures could tell it.
+def unidentifiable_directions(result: Calibrated) -> list[tuple[str, bool]]:
+    """What measurements leave open, in words, and whether any other postures could tell it.
 
     Each is a parameter and those that would explain the same.
     """
     names = [name for name, *_ in _names(result)]
     told = []
-    for one in result.left_open:
+    for one in result.unidentifiable:
         *others, last = (names[number] for number in (one.parameter, *one.partners))
         told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
     return told

@@ -14,8 +14,8 @@ import numpy as np
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.frames import HELD
-from recalib.identification.linearised import displacements
-from recalib.identification.openness import Open
+from recalib.identification.identifiability import Unidentifiable
+from recalib.identification.linearisation import displacements
 
 STEP = 1e-4  # of a parameter's prior deviation, to either side
 
@@ -43,7 +43,7 @@ class Place:
 
 def found_places(
     calibration: Calibration,
-    left_open: Sequence[Open],
+    unidentifiable: Sequence[Unidentifiable],
     targets: Sequence[str],
     sockets: Sequence[str],
     tool: str,
@@ -64,7 +64,9 @@ def found_places(
     what += [(f"socket {name}", base, False) for name in sockets]
     if not what:
         return []
-    chosen = np.setdiff1d([one.parameter for one in left_open if one.lasting], free).astype(int)
+    chosen = np.setdiff1d([one.parameter for one in unidentifiable if one.lasting], free).astype(
+        int
+    )
     real = estimate.covariance[np.ix_(free, free)]
     across = estimate.covariance[np.ix_(free, chosen)]
     among = estimate.covariance[np.ix_(chosen, chosen)]

@@ -82,10 +82,12 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
 
 
 def _origin(pose: np.ndarray) -> str:
-    xyz, rpy = (
-        " ".join(f"{each + 0.0:.17g}" for each in part) for part in (pose[:3, 3], angles_of(pose))
-    )
-    return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
+    return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
+
+
+def written(vector: np.ndarray) -> str:
+    """Numbers (n,) as a URDF has them; they read as what they were."""
+    return " ".join(f"{number + 0.0:.17g}" for number in vector)
 
 
 def offset_poses(calibration: Calibration) -> list[np.ndarray]:

@@ -9,9 +9,12 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.frames import UNKNOWN, Frames
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault, faults
 from recalib.nominal.arms import load_arm
+from tests.identification.honesty import with_targets
+from tests.identification.real import Real
 
 ROWS = 119
 MIDDLE = np.radians([20, -65, 100, -40, 95, 10])
@@ -51,7 +54,7 @@ def found(
     poses[:, :3, 3] += NOISE[0] * rng.standard_normal((rows, 3))
     turns = Rotation.from_rotvec(NOISE[1] * rng.standard_normal((rows, 3))).as_matrix()
     poses[:, :3, :3] = turns @ poses[:, :3, :3]
-    seen = Observations(joints, poses if kinds == 2 else poses[:, :3, 3], times=times)
+    observations = Observations(joints, poses if kinds == 2 else poses[:, :3, 3], times=times)
     frames = Frames(
         base_unknown=True,
         targets_unknown=True,
@@ -59,8 +62,8 @@ def found(
         target_deviations=UNKNOWN,
     )
     model = ErrorModel(arm, OFFSETS, frames)
-    estimate = identify(model, seen)
-    return faults(Calibration(model, estimate), seen, estimate.weights > 0.1)
+    estimate = identify(model, observations)
+    return faults(Calibration(model, estimate), observations, estimate.weights > 0.1)
 
 
 @pytest.mark.parametrize("kinds", [1, 2], ids=["positions", "poses"])
@@ -95,6 +98,14 @@ def test_where_rows_carry_times_a_lag_is_named_in_seconds_and_a_drift_follows_th
 def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(arm):
     assert [fault.kind for fault in found(arm, 4, False, rows=10, lag=0.05)] == [LAG]
     assert found(arm, 4, on_a_path=False, rows=10) == []
+
+
+def test_what_several_targets_of_a_posture_share_is_no_fault(arm):
+    """Gears that no model holds move all targets of a posture: rows of it are one."""
+    seen = with_targets(Real(arm, 2, targets=3, gears=np.radians(0.03)), 40)
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, seen))
+    estimate = identify(model, seen)
+    assert faults(Calibration(model, estimate), seen, estimate.weights > 0.1) == []
 
 
 @pytest.mark.slow

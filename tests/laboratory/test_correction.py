@@ -117,6 +117,6 @@ def small(tmp_path_factory):
     joints = MIDDLE + SEEN * np.random.default_rng(3).uniform(-1, 1, (60, 3))
     seen = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
     calibration = calibrate(arm, (OFFSETS,), seen)
-    assert calibration.residual is not None
+    assert calibration.pattern is not None
     Correction(ARM.encode(), calibration, joints).save(folder / "correction.npz")
     return (folder / "correction.npz").read_bytes()

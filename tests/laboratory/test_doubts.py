@@ -29,11 +29,10 @@ def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) ->
     """A calibration with these errors [m] by way and kind."""
     validation = SimpleNamespace(
         chosen=chosen,
-        counted=np.ones(ROWS, dtype=bool),
-        errors=lambda way, kind: np.full((ROWS, 1), errors[way, kind]),
+        mean_error=lambda way, kind: errors[way, kind],
     )
-    seen = Observations(np.zeros((ROWS, 6)), times=times)
-    return SimpleNamespace(validation=validation, faults=found, seen=seen)
+    rows = Observations(np.zeros((ROWS, 6)), times=times)
+    return SimpleNamespace(validation=validation, faults=found, observations=rows)
 
 
 @pytest.mark.parametrize(

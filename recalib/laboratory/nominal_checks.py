@@ -72,7 +72,7 @@ class Fit:
         words = []
         if turn.magnitude() > UNTURNED:
             axis = turn.as_rotvec() / turn.magnitude()
-            about = ", ".join(f"{round(each, 2) + 0.0:g}" for each in axis)
+            about = ", ".join(f"{round(number, 2) + 0.0:g}" for number in axis)
             words.append(
                 f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})"
             )
@@ -190,14 +190,14 @@ def _fit(
     found = np.array([*np.zeros(3), *shift, *(np.zeros(3) if point is None else point)])
     fitted = np.repeat([known is None, point is None], [6, 3])
 
-    def missed(numbers: np.ndarray) -> np.ndarray:
+    def residuals(numbers: np.ndarray) -> np.ndarray:
         found[fitted] = numbers
         return (reached(found) - nominal).ravel()
 
     if fitted.any():
         from scipy.optimize import least_squares  # slow to import, and most tables are right
 
-        best = least_squares(missed, found[fitted], x_scale="jac", max_nfev=STEPS)
+        best = least_squares(residuals, found[fitted], x_scale="jac", max_nfev=STEPS)
         found[fitted] = best.x
     base = np.eye(4)
     base[:3, :3] = (Rotation.from_rotvec(found[:3]) * first).as_matrix()
@@ -206,7 +206,7 @@ def _fit(
 
 
 def _relaxed(poses: np.ndarray, nominal: np.ndarray) -> tuple[np.ndarray, float]:
-    """A first guess of the base's turn (3, 3), and a lower bound [m] of what every fit leaves.
+    """An estimate of the base's turn (3, 3), and a lower bound [m] of the error of every fit.
 
     With a base that may be any matrix the fit is linear: X' p - R z + b = t.
     """
@@ -221,4 +221,4 @@ def _relaxed(poses: np.ndarray, nominal: np.ndarray) -> tuple[np.ndarray, float]
 
 
 def _millimetres(vector: np.ndarray) -> str:
-    return f"({', '.join(f'{round(1e3 * each, 1) + 0.0:g}' for each in vector)}) mm"
+    return f"({', '.join(f'{round(1e3 * number, 1) + 0.0:g}' for number in vector)}) mm"
