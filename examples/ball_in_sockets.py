@@ -16,8 +16,8 @@ poses = arm.forward(joints)
 poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in its socket
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
 apart = Distance(0, 1, math.dist(*sockets))  # that is measured
-seen = Observations(joints, sockets=number, distances=[apart])
-calibration = calibrate(arm, [OFFSETS], seen, initial_frames(arm, seen))
+observations = Observations(joints, sockets=number, distances=[apart])
+calibration = calibrate(arm, [OFFSETS], observations, initial_frames(arm, observations))
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
 # about their mean: where the arm stands, no socket tells

@@ -9,9 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
-from recalib.identification.frames import Frames
+from recalib.identification.frames import HELD, Frames
 from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
+from recalib.identification.parameters import Parameter, parameters_of, table_of
 from recalib.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
@@ -98,6 +99,28 @@ class Calibration:
         unknown = np.sum((rows @ estimate.covariance) * rows, axis=(1, 2))
         return np.sqrt(unknown + 3 * estimate.noise[0] ** 2)
 
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """What is known of each parameter that is not held at nominal, by name."""
+        every = zip(parameters_of(self.model, self.estimate), self.model.deviations, strict=True)
+        return {its.name: its for its, before in every if before > HELD}
+
+    def summary(self) -> str:
+        """A page of text: how it was found, and the parameters that are surely not zero."""
+        estimate, (position, *orientation) = self.estimate, self.estimate.noise
+        noise = [f"{1e3 * position:.3g} mm", *(f"{np.degrees(x):.3g} deg" for x in orientation)]
+        doubted = int(np.sum(estimate.weights < DOUBTFUL))
+        return "\n".join(
+            [
+                f"observations: {len(estimate.weights)}, of which {doubted} are doubted",
+                f"noise along an axis: {', '.join(noise)}",
+                f"residuals: noise{' and a pattern, which is predicted' if self.pattern else ''}",
+                f"converged: {'yes' if estimate.converged else 'no'}",
+                "",
+                table_of(self.parameters.values()),
+            ]
+        )
+
     @cached_property
     def frames(self) -> Frames:
         """Where the instrument stands and where the targets sit."""
@@ -160,10 +183,11 @@ def angles_for(
         start: (run, n, joints) rad, m nearby.
     """
 
-    def kinematics(runs, angles):
+    def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         pairs = zip(runs, angles, strict=True)
         found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
-        return tuple(map(np.stack, zip(*found, strict=True)))
+        poses, jacobians = map(np.stack, zip(*found, strict=True))
+        return poses, jacobians
 
     return solve_groups(kinematics, poses, start, TOLERANCE, STEPS)[0]
 
@@ -192,11 +216,13 @@ def calibrate(
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
-    best = _most_probable(arm, candidates, observations, frames, last and last.estimate, weights)
-    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(observations))
-    if not (search or last.pattern):
+    start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
+    best = _most_probable(arm, candidates, observations, frames, start, weights)
+    if is_time_to_search(before, len(observations)):
+        return _with_pattern(best, observations, None)
+    if last is None or last.pattern is None:
         return best
-    return _with_pattern(best, observations, None if search else last.pattern.hyperparameters)
+    return _with_pattern(best, observations, last.pattern.hyperparameters)
 
 
 def calibrate_again(
@@ -228,14 +254,17 @@ def _most_probable(
     weights: np.ndarray | None,
 ) -> Calibration:
     """The calibration of the error model that is chosen; see `calibrate`."""
-    best = None
-    for terms in candidates:
+
+    def identified(terms: JointTerms) -> Calibration:
         model = ErrorModel(arm, terms, frames)
-        estimate = identify(model, observations, start, weights)
-        if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(
-            best.model, model
-        ):
-            best = Calibration(model, estimate)
+        return Calibration(model, identify(model, observations, start, weights))
+
+    best = identified(candidates[0])
+    for terms in candidates[1:]:
+        richer = identified(terms)
+        gain = richer.estimate.log_evidence - best.estimate.log_evidence
+        if gain > _chance(best.model, richer.model):
+            best = richer
     return best
 
 

@@ -43,8 +43,8 @@ def solutions(
         base: (4, 4) m in the frame of the instrument, where it is known.
         target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
     """
-    if observations.measured is None:
-        yield _by_sockets(tool, observations, target)
+    if observations.sockets is not None:
+        yield _by_sockets(tool, observations, observations.sockets, target)
     elif base is not None and target is not None:
         yield Frames(base, np.tile(target, (observations.targets.max() + 1, 1, 1)))
     elif target is not None:
@@ -61,7 +61,7 @@ def turns_by_poses(tool: np.ndarray, observations: Observations) -> list[np.ndar
     """The rotation (3, 3) of X, from the target that is measured most often; none if open."""
     rows = observations.targets == np.bincount(observations.targets).argmax()
     # of X R_i = Y_i Z' in the least squares sense, with the rows of each matrix in one vector
-    products = np.einsum("nij,nkl->ikjl", observations.measured[rows, :3, :3], tool[rows, :3, :3])
+    products = np.einsum("nij,nkl->ikjl", observations.rotations[rows], tool[rows, :3, :3])
     left, values, _ = np.linalg.svd(products.reshape(9, 9))
     if values[1] >= UNDECIDED * values[0]:
         return []
@@ -86,7 +86,7 @@ def _aligned(target_poses: np.ndarray, observations: Observations, target: np.nd
     points = target_poses[:, :3, 3]
     across = _across(observations.positions, points)
     if observations.kinds == 2:
-        turned = observations.measured[:, :3, :3] @ target_poses[:, :3, :3].swapaxes(1, 2)
+        turned = observations.rotations @ target_poses[:, :3, :3].swapaxes(1, 2)
         across = across + LEVER**2 * turned.sum(axis=0)
     base = np.eye(4)
     base[:3, :3] = nearest_rotation(across)
@@ -112,7 +112,7 @@ def _placed(
     targets = np.tile(np.eye(4), (len(points), 1, 1))
     targets[:, :3, 3] = points
     if observations.kinds == 2:
-        between = turned.swapaxes(1, 2) @ observations.measured[:, :3, :3]
+        between = turned.swapaxes(1, 2) @ observations.rotations
         for number, own in enumerate(targets):
             turns = Rotation.from_matrix(between[observations.targets == number])
             own[:3, :3] = turns.mean().as_matrix()
@@ -126,13 +126,15 @@ def _placed(
     )
 
 
-def _by_sockets(tool: np.ndarray, observations: Observations, target: np.ndarray | None) -> Frames:
+def _by_sockets(
+    tool: np.ndarray, observations: Observations, numbers: np.ndarray, target: np.ndarray | None
+) -> Frames:
     """The frames of balls, and the centres of sockets in the arm's base: c_s - R_i z_k = t_i."""
     unit = np.tile(np.eye(3), (len(observations), 1, 1))
     targets = np.tile(
         np.eye(4) if target is None else target, (observations.targets.max() + 1, 1, 1)
     )
-    centres = _by_number(unit, observations.sockets)
+    centres = _by_number(unit, numbers)
     if target is not None:
         sockets = _least_squares(centres, (tool @ target)[:, :3, 3]).reshape(-1, 3)
         return Frames(np.eye(4), targets, sockets, (HELD, HELD), LINK, base_unknown=True)

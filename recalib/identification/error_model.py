@@ -15,7 +15,7 @@ share directions where joint axes are parallel or meet. No measurement tells suc
 the prior keeps them small.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import reduce
 from operator import or_
@@ -29,7 +29,7 @@ from recalib.nominal.kinematics import Arm, tool_frame
 # By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
 # for each joint (n, joints), and the standard deviation of its coefficients before anything is
 # known, of all joints or of each.
-JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
+JointTerms = dict[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
 
 
 def held(terms: JointTerms, joints: np.ndarray) -> JointTerms:
@@ -252,7 +252,7 @@ class ErrorModel:
         return poses, jacobians
 
 
-def _by_target(targets: np.ndarray | None, count: int):
+def _by_target(targets: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
     """Each target that is measured, with its rows."""
     if targets is None or not np.any(targets):
         return [(0, slice(count))]

@@ -91,11 +91,12 @@ def identify(
     weights = np.ones(len(observations)) if weights is None else weights
     limit = chdtri(3 * kinds, 1 - GOOD)
     terms = model.terms(observations.joints)
-    sparse, diagonal, linear = ~model.free, np.diag_indices(len(scale)), None
+    sparse, diagonal = ~model.free, np.diag_indices(len(scale))
     precision = np.empty((len(scale),) * 2)
+    linear = Linearisation(model, parameters, observations, terms)
     for iteration in range(STEPS):
-        if linear is None or not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
-            linear = None  # there is no room for two
+        if not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
+            del linear  # there is no room for two
             linear = Linearisation(model, parameters, observations, terms)
         if iteration > 0:
             weights = limit / np.maximum(_squares(linear.residuals, noise), limit)
@@ -154,7 +155,7 @@ def _posterior(
     """
     factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
     step = scipy.linalg.cho_solve((factor, False), gradient)
-    step_norm, volume = np.linalg.norm(factor @ step), -np.log(np.diag(factor)).sum()
+    step_norm, volume = float(np.linalg.norm(factor @ step)), -np.log(np.diag(factor)).sum()
     upper, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
     covariance = upper + upper.T
     np.fill_diagonal(covariance, np.diag(upper))

@@ -5,6 +5,7 @@ then links. Where what the data say of it, with all before it left to vary, is l
 believed beforehand, it is open; the parameters that make up for it are its partners.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -90,18 +91,16 @@ def _anywhere(calibration: Calibration, observations: Observations) -> Observati
         np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
     )
     joints = rng.uniform(low, high, (POSTURES, len(low)))
-    if observations.measured is None:
-        return _seated(calibration, joints, observations)
+    if observations.sockets is not None:
+        pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
+        return _seated(calibration, joints, pairs)
     targets = np.arange(POSTURES) % (observations.targets.max() + 1)
     poses = calibration.model.predict(calibration.estimate.parameters, joints, targets)
     return Observations(joints, poses if observations.kinds == 2 else poses[:, :3, 3], targets)
 
 
-def _seated(
-    calibration: Calibration, joints: np.ndarray, observations: Observations
-) -> Observations:
-    """Each ball in its sockets, in postures near the given ones (n, joints) that reach them."""
-    pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
+def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> Observations:
+    """Balls in sockets, pairs (2, p), in postures near the given ones (n, joints) that reach."""
     targets, sockets = pairs[:, np.arange(len(joints)) % pairs.shape[1]]
     goals = calibration.frames.sockets[sockets]
     found, errors = joints.copy(), np.empty(len(joints))
@@ -109,7 +108,9 @@ def _seated(
         rows = np.flatnonzero(targets == target)
         arm = calibration.model.arm(calibration.estimate.parameters, target)
 
-        def kinematics(_, postures: np.ndarray, arm: Arm = arm) -> tuple[np.ndarray, np.ndarray]:
+        def kinematics(
+            _: np.ndarray, postures: np.ndarray, arm: Arm = arm
+        ) -> tuple[np.ndarray, np.ndarray]:
             poses, jacobians = arm.forward_and_jacobian(postures[:, 0])
             return poses[:, None], jacobians[:, None]
 
@@ -119,7 +120,7 @@ def _seated(
     return Observations(found[reached], None, targets[reached], sockets[reached])
 
 
-def _dependent(information: np.ndarray, least: np.ndarray):
+def _dependent(information: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:
     """Each row (p,) that those before it leave less than `least` of, with its partners."""
     accepted: list[int] = []
     for number in range(len(information)):

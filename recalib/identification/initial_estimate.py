@@ -34,7 +34,7 @@ class NoInitialEstimate(RecalibError):
 def fewest(observations: Observations) -> int:
     """How many rows an initial estimate needs, if each of them is of use."""
     targets = int(np.max(observations.targets, initial=0)) + 1
-    if observations.measured is None:
+    if observations.sockets is not None:
         return targets + int(np.max(observations.sockets, initial=0)) + 2
     return (2 if observations.kinds == 2 else 5) + targets
 

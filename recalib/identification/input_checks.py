@@ -15,7 +15,10 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
     count, joints = len(observations), len(model.nominal.slides)
     if count == 0:
         raise BadMeasurement("the number of observations", [0], "one or more")
-    sizes = {"joints": [(count, joints)], "targets": [(count,)]}
+    sizes: dict[str, list[tuple[int, ...]]] = {
+        "joints": [(count, joints)],
+        "targets": [(count,)],
+    }
     if observations.measured is None:
         sizes["sockets"] = [(count,)]
     else:

@@ -37,30 +37,44 @@ class Observations:
 
     joints: np.ndarray
     measured: np.ndarray | None = None
-    targets: np.ndarray = None
+    targets: np.ndarray = None  # type: ignore[assignment]  # __post_init__ puts zeros there
     sockets: np.ndarray | None = None
     distances: Sequence[Distance] = field(default=())
     times: np.ndarray | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.targets is None:
             object.__setattr__(self, "targets", np.zeros(len(self.joints), dtype=int))
 
     def __len__(self) -> int:
         return len(self.joints)
 
-    def __getitem__(self, rows: np.ndarray) -> "Observations":
-        """Some of the rows, by their numbers or by a mask."""
-        parts = {"joints": self.joints[rows], "targets": self.targets[rows]}
-        for name in ("measured", "sockets", "times"):
-            if getattr(self, name) is not None:
-                parts[name] = getattr(self, name)[rows]
-        return replace(self, **parts)
+    def __getitem__(self, rows: np.ndarray | slice) -> "Observations":
+        """Some of the rows, by their numbers, by a mask or by a slice."""
+
+        def some(its: np.ndarray | None) -> np.ndarray | None:
+            return None if its is None else its[rows]
+
+        return replace(
+            self,
+            joints=self.joints[rows],
+            measured=some(self.measured),
+            targets=self.targets[rows],
+            sockets=some(self.sockets),
+            times=some(self.times),
+        )
 
     @property
     def positions(self) -> np.ndarray:
-        """What was measured (n, 3) [m], without orientations."""
+        """What was measured (n, 3) [m], without orientations; not of balls in sockets."""
+        assert self.measured is not None
         return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
+
+    @property
+    def rotations(self) -> np.ndarray:
+        """Orientations (n, 3, 3) that were measured, where kinds are 2."""
+        assert self.measured is not None
+        return self.measured[:, :3, :3]
 
     def reached(self, sockets: np.ndarray) -> np.ndarray:
         """Where the targets were, as `measured`; in sockets, by their centres (socket, 3) [m]."""

@@ -118,7 +118,8 @@ def validate(
     weights = counted.astype(float)
     full = {}
     for kind in (NOTHING, GEOMETRIC):
-        model = ErrorModel(arm, *candidates[kind], frames)
+        (terms,) = candidates[kind]
+        model = ErrorModel(arm, terms, frames)
         full[kind] = Calibration(model, identify(model, observations, weights=weights))
     on_progress("what is no geometry")
     hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
@@ -137,8 +138,9 @@ def validate(
             kind: hold_out(fit, observations, weights, folds) for kind, fit in fits.items()
         }
     chosen = _choice(held_out, counted, postures)
-    for kinds in (full, *held_out.values()):
-        kinds.setdefault(HYBRID, kinds[GEOMETRIC])  # there was nothing but geometry
+    full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
+    for errors in held_out.values():
+        errors.setdefault(HYBRID, errors[GEOMETRIC])
     return Validation(held_out, postures, counted, chosen, full, unsettled)
 
 

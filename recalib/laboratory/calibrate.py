@@ -138,9 +138,9 @@ class Calibrated:
 
 
 def calibrate_arm(
-    urdf: str | PathLike,
-    table: str | PathLike,
-    description: str | PathLike | Description | None = None,
+    urdf: str | PathLike[str],
+    table: str | PathLike[str],
+    description: str | PathLike[str] | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
@@ -169,9 +169,9 @@ def calibrate_arm(
     on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
     beside = None
     if rows.nominal is not None:
-        base = None if given.instrument is None else np.linalg.inv(given.instrument)
+        stand = None if given.instrument is None else np.linalg.inv(given.instrument)
         point = None if given.target is None else given.target[:3, 3]
-        beside = check_nominal(arm, rows.coordinates, rows.nominal, base, point)
+        beside = check_nominal(arm, rows.joints, rows.nominal, stand, point)
     observations, targets, sockets = _observations(rows, given, Path(table))
     on_progress("where instrument and target are, about")
     frames = checked_frames(arm, observations, given.instrument, given.target)
@@ -187,7 +187,7 @@ def _observations(
 ) -> tuple[Observations, tuple[str, ...], tuple[str, ...]]:
     """What was measured, with the names of targets and of sockets."""
     targets, numbers = _numbered(rows.targets, len(rows))
-    observations = Observations(rows.coordinates, rows.measured, numbers, times=rows.times)
+    observations = Observations(rows.joints, rows.measured, numbers, times=rows.times)
     if rows.sockets is None:
         if given.distances:
             raise InvalidFile(
@@ -206,7 +206,8 @@ def _observations(
                     f"its description names socket {socket!r}; the table has {', '.join(sockets)}",
                 )
     distances = [
-        Distance(*map(sockets.index, pair), length) for pair, length in given.distances.items()
+        Distance(sockets.index(one), sockets.index(other), length)
+        for (one, other), length in given.distances.items()
     ]
     return replace(observations, sockets=where, distances=distances), targets, sockets
 

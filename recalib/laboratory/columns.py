@@ -93,7 +93,7 @@ class Table:
                 raise InvalidFile(self.path, f"unknown column {column!r}; {instead(column, valid)}")
 
 
-def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -> Table:
+def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:
     """The table at `path`: UTF-8, commas between cells, a header, a row for each measurement.
 
     Args:
@@ -120,12 +120,14 @@ def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -
         raise InvalidFile(
             path, f"its description names column {unknown[0]!r}; it has {', '.join(headings)}"
         )
-    for row, cells in enumerate(rows[1:], 1):
-        if len(cells) != len(headings):
+    for row, line in enumerate(rows[1:], 1):
+        if len(line) != len(headings):
             raise InvalidFile(
-                path, f"row {row} has {len(cells)} cells; valid: {len(headings)}, as in the header"
+                path, f"row {row} has {len(line)} cells; valid: {len(headings)}, as in the header"
             )
-    units, cells, shown = {}, {}, {}
+    units: dict[str, str] = {}
+    cells: dict[str, list[str]] = {}
+    shown: dict[str, str] = {}
     for index, heading in enumerate(headings):
         meant = columns.get(heading, heading)
         if meant == IGNORED:

@@ -1,10 +1,10 @@
 """The command line: `recalib calibrate`, `correct`, `next` and `urdf`; docs/own_arm.md."""
 
 import argparse
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from recalib.errors import RecalibError
@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    with suppress(AttributeError):  # where Python's own was replaced
+    if isinstance(sys.stdout, io.TextIOWrapper):  # and nothing in its place
         sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
     try:
         check_new(given.out, given.makes_folder)
@@ -44,7 +44,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    def add(name: str, command: Callable[[argparse.Namespace], int], text: str):
+    def add(
+        name: str, command: Callable[[argparse.Namespace], int], text: str
+    ) -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
         own.set_defaults(command=command, makes_folder=command is _calibrate)
         return own

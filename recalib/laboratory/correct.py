@@ -93,7 +93,9 @@ def solve(
     is reached within the arm's limits (n,).
     """
     arm, joints = correction.arm, desired.coordinates
-    goals = arm.forward(joints) if desired.positions is None else desired.measured
+    goals = desired.measured
+    if goals is None:
+        goals = arm.forward(desired.joints)
     if len(arm.joints) < 6 and goals.ndim == 3:
         goals = goals[:, :3, 3]
     starts = [joints] if joints is not None else _nearest(correction, goals, targets)
@@ -189,4 +191,4 @@ def _refuse(
         )
         names = (name for name, out in zip(correction.arm.joints, outside, strict=True) if out)
         reason = f"only beyond the limits of {', '.join(names)}"
-    raise NotReached(rows + 1, reason)
+    raise NotReached((rows + 1).tolist(), reason)

@@ -36,7 +36,7 @@ class Description:
     distances: Mapping[tuple[str, str], float] = field(default_factory=dict)
 
 
-def read_description(path: str | PathLike) -> Description:
+def read_description(path: str | PathLike[str]) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
     try:
         parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
@@ -87,7 +87,7 @@ def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
 def _distances(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
-    distances = {}
+    distances: dict[tuple[str, str], float] = {}
     for pair, length in map(_distance, given):
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
@@ -100,12 +100,14 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
     if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
         raise InvalidSetting("distance", given, "sockets and length")
     between = given["sockets"]
-    if not isinstance(between, list) or len({*map(str, between)}) != 2:
+    pair = [str(name) for name in between] if isinstance(between, list) else []
+    if len(pair) != 2 or pair[0] == pair[1]:
         raise InvalidSetting("distance.sockets", between, "the names of two sockets")
+    one, other = sorted(pair)
     length = _read("distance.length", given["length"], LENGTH)
     if length <= 0:
         raise InvalidSetting("distance.length", given["length"], "more than zero")
-    return tuple(sorted(map(str, between))), length
+    return (one, other), length
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:

@@ -59,8 +59,9 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     for title, sides in (("from the side", (0, 2)), ("from above", (0, 1))):
         axes = [Axis(f"{'xyz'[side]} [m]", drawn[:, side]) for side in sides]
         panel = Panel((WIDTH / 2, 420), axes, title, alike=True)
-        panel.line(*skeleton[:, sides].T, GREY, 5)
-        panel.dots(*skeleton[:, sides].T, GREY, 10)
+        across, up = skeleton[:, sides].T
+        panel.line(across, up, GREY, 5)
+        panel.dots(across, up, GREY, 10)
         for name, end in ends.items():
             panel.spikes(positions[:, sides], end[:, sides], COLOURS[name])
         panels.append(panel)

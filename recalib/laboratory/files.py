@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -33,7 +34,7 @@ PLACE = (  # the columns of frames.csv that are numbers
 
 def write_files(
     result: Calibrated,
-    folder: str | PathLike,
+    folder: str | PathLike[str],
     further: Sequence[tuple[str, Callable[[Path, Calibrated], None]]] = (),
 ) -> list[str]:
     """Write what is known into a new folder, and say which files there are. They appear together.
@@ -65,7 +66,7 @@ def optional_outputs() -> tuple[list[tuple[str, Callable[[Path, Calibrated], Non
         try:
             writers.append((name, getattr(import_module(module), function)))
         except ModuleNotFoundError as error:
-            package = error.name.partition(".")[0]
+            package = (error.name or module).partition(".")[0]
             missing.append(f"No {name}: {package} is missing; pip install 'recalib[laboratory]'")
     return writers, missing
 
@@ -89,8 +90,8 @@ def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) 
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
-    geometry, (text, tool) = result.geometry, result.corrected
-    (folder / "arm.urdf").write_bytes(text)
+    geometry, (urdf, tool) = result.geometry, result.corrected
+    (folder / "arm.urdf").write_bytes(urdf)
     if (kinematics := kinematics_yaml(geometry)) is not None:
         (folder / "kinematics.yaml").write_text(kinematics, encoding="utf-8")
     result.correction.save(folder / CORRECTION)
@@ -116,7 +117,7 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
     (folder / "parameters.json").write_text(text, encoding="utf-8")
 
 
-def _frames(result: Calibrated) -> Iterator[dict]:
+def _frames(result: Calibrated) -> Iterator[dict[str, Any]]:
     """Each place that was found; what is not known of it is empty."""
     for place in result.places:
         numbers = [*1e3 * place.pose[:3, 3], *np.degrees(angles_of(place.pose))]
@@ -130,7 +131,7 @@ def _frames(result: Calibrated) -> Iterator[dict]:
         yield {"frame": place.name, "in": place.link} | known | {"fit": fit}
 
 
-def _rows(result: Calibrated) -> Iterable[dict]:
+def _rows(result: Calibrated) -> Iterable[dict[str, Any]]:
     """For each row how far off it is, before and after, and how much it counted."""
     validation, weights = result.validation, result.geometry.estimate.weights
     before, after = (
@@ -146,7 +147,7 @@ def _rows(result: Calibrated) -> Iterable[dict]:
         }
 
 
-def _write_table(path: Path, rows: Iterable[dict]) -> None:
+def _write_table(path: Path, rows: Iterable[dict[str, Any]]) -> None:
     rows = list(rows)
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, fieldnames=rows[0], lineterminator="\n")

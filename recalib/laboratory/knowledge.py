@@ -48,9 +48,9 @@ def checked_frames(
     Raises WrongKnowledge: without one of them that is given, the measurements are explained.
     NoInitialEstimate: nothing explains them.
     """
-    base = None if instrument is None else np.linalg.inv(instrument)
-    given = {"base": base, "target": target}
-    given = {name: pose for name, pose in given.items() if pose is not None}
+    described = {"base": instrument, "target": target}
+    told = {name: pose for name, pose in described.items() if pose is not None}
+    given = {name: np.linalg.inv(pose) if name == "base" else pose for name, pose in told.items()}
     try:
         return initial_frames(arm, observations, **given)
     except NoInitialEstimate as error:
@@ -66,13 +66,11 @@ def checked_frames(
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
     found = without[wrong]
-    gaps = {
-        "base": ("[instrument]", instrument, np.linalg.inv(found.base)),
-        "target": ("[target]", target, found.targets[0]),
-    }
+    parts = {"base": "[instrument]", "target": "[target]"}
+    there = {"base": np.linalg.inv(found.base), "target": found.targets[0]}
     raise WrongKnowledge(
-        " and ".join(gaps[name][0] for name in wrong),
-        " and ".join(_gap(*gaps[name][1:]) for name in wrong)
+        " and ".join(parts[name] for name in wrong),
+        " and ".join(_gap(told[name], there[name]) for name in wrong)
         + "; what is left out of the description is found",
     )
 

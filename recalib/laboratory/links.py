@@ -19,7 +19,7 @@ PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
 KINDS = "revolute", "prismatic"
 
 
-def read_rows(path: str | PathLike) -> list[Row]:
+def read_rows(path: str | PathLike[str]) -> list[Row]:
     """The rows of the table at `path`, from the base to the tool.
 
     Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, where
@@ -65,7 +65,7 @@ def urdf_of(arm: Arm) -> str:
         ElementTree.SubElement(joint, "axis", xyz=written(axis))
         if slides:  # which a URDF must bound
             bounds = {"lower": str(-UNBOUNDED), "upper": str(UNBOUNDED)}
-            ElementTree.SubElement(joint, "limit", **bounds, effort="0", velocity="0")
+            ElementTree.SubElement(joint, "limit", bounds, effort="0", velocity="0")
         parent = child
     tool = model.frames[tool_frame(model, arm.tool)].placement
     _add(robot, MOUNT, "fixed", parent, TOOL, tool)

@@ -7,6 +7,7 @@ forgotten. Each mistake is tried, alone and then in pairs; the one that explains
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 
 import numpy as np
@@ -147,18 +148,23 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
     yield "positions in metres that say mm", lambda q, p: (q, p * 1e3)
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
-        yield f"the sign of {name}", lambda q, p, signs=signs: (q * signs, p)
+        yield f"the sign of {name}", _of_joints(partial(np.multiply, signs))
     for joint, name in enumerate(arm.joints):
         for degrees in () if arm.slides[joint] else QUARTERS:
             shift = np.where(np.arange(count) == joint, np.radians(degrees), 0.0)
             words = f"the zero of {name}, off by {-degrees} deg"
-            yield words, lambda q, p, shift=shift: (q + shift, p)
+            yield words, _of_joints(partial(np.add, shift))
     for one, other in combinations(range(count), 2):
         order = np.arange(count)
         order[[one, other]] = other, one
         names = f"{arm.joints[one]} and {arm.joints[other]}"
-        yield f"the columns of {names} exchanged", lambda q, p, order=order: (q[:, order], p)
+        exchanged = partial(np.take, indices=order, axis=1)
+        yield f"the columns of {names} exchanged", _of_joints(exchanged)
     yield "the joint columns in reverse order", lambda q, p: (q[:, ::-1], p)
+
+
+def _of_joints(change: Callable[[np.ndarray], np.ndarray]) -> Try:
+    return lambda q, p: (change(q), p)
 
 
 def _gaps(

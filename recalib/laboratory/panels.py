@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from html import escape
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 LEFT, RIGHT, TOP, BOTTOM = 56, 12, 24, 44  # about the field of a panel, for numbers and labels
 MARGIN = 0.04  # of an axis beyond its numbers
@@ -24,7 +25,7 @@ class Axis:
         ends: the first and the last place on it.
     """
 
-    def __init__(self, label: str, numbers: np.ndarray, least: float | None = None):
+    def __init__(self, label: str, numbers: ArrayLike, least: float | None = None):
         self.label, self._least = label, least
         low, high = self.places(np.array([np.min(numbers), np.max(numbers)]))
         margin = MARGIN * (high - low) or 0.5

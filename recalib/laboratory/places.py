@@ -102,5 +102,8 @@ def _slopes(model: ErrorModel, parameters: np.ndarray, free: np.ndarray) -> np.n
 
 
 def _deviations(covariance: np.ndarray) -> tuple[float, float]:
-    parts = covariance[:3, :3], covariance[3:, 3:]
-    return tuple(float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1]))) for part in parts)
+    position, orientation = (
+        float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1])))
+        for part in (covariance[:3, :3], covariance[3:, 3:])
+    )
+    return position, orientation

@@ -1,6 +1,7 @@
 """What a person reads first: what the calibration is worth, what is known, what to doubt."""
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +30,7 @@ NUMBERS = "mean", "95 %", "largest"  # of errors
 MOST = 12  # doubted rows that are listed
 
 
-def errors_table(result: Calibrated) -> list[dict]:
+def errors_table(result: Calibrated) -> list[dict[str, Any]]:
     """For each way of folding, quantity and what is done: mean, 95 % and largest error."""
     rows = []
     for way in WAYS:
@@ -130,7 +131,8 @@ def _notes(result: Calibrated) -> Iterator[str]:
         f"95 % of positions should lie within {_radius(result):.3g} mm, also in places away from"
         f" those measured (held out: {covered:.0f} %)"
     )
-    lasting, passing = [], []
+    lasting: list[str] = []
+    passing: list[str] = []
     for words, other_postures_tell in unidentifiable_directions(result):
         (passing if other_postures_tell else lasting).append(words)
     for words in passing[:MOST]:
@@ -164,7 +166,7 @@ def _places(result: Calibrated) -> Iterator[str]:
         yield f"{words}, deviation {known}; beside the machine's own {place.link}, {real}"
 
 
-def _in_units(numbers: Sequence[float], digits: int) -> str:
+def _in_units(numbers: Sequence[float] | np.ndarray, digits: int) -> str:
     """A length [m] and, if there is one, an angle [rad] as people read them."""
     pairs = zip(UNITS, numbers, strict=False)
     return ", ".join(f"{scale * number:.{digits}g} {unit}" for (scale, unit), number in pairs)

@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.nominal.descriptions import MOST, find_urdf, parsed
+from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.storage import read_file
 
@@ -104,7 +104,7 @@ class _Tree:
         except (ValueError, RecursionError):  # what is wrong, urdfdom has written to stderr
             raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from None
         self._name = path.name
-        self._joints = {_link(joint, "child"): joint for joint in robot.iterfind("joint")}
+        self._joints = {link_of(joint, "child"): joint for joint in robot.iterfind("joint")}
         # of links in a circle, which hang on nothing, Pinocchio knows nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
@@ -118,7 +118,7 @@ class _Tree:
 
     def only_end(self, base: str) -> str:
         """The link above which there are joints that move, up to the base, and below it nothing."""
-        carrying = {_link(joint, "parent") for joint in self._joints.values()}
+        carrying = {link_of(joint, "parent") for joint in self._joints.values()}
         ends = [
             link
             for link in self._links
@@ -151,19 +151,14 @@ class _Tree:
 
     def _way_up(self, link: str) -> list[str]:
         """The link and all that carry it."""
-        return [link, *(_link(joint, "parent") for joint in self._joints_up(link, self.root))]
+        return [link, *(link_of(joint, "parent") for joint in self._joints_up(link, self.root))]
 
     def _joints_up(self, link: str, base: str) -> list[ElementTree.Element]:
         joints = []
         while link != base:
             joints.append(self._joints[link])
-            link = _link(joints[-1], "parent")
+            link = link_of(joints[-1], "parent")
         return joints
-
-
-def _link(joint: ElementTree.Element, role: str) -> str:
-    """Name of the parent or child link of a joint that Pinocchio has accepted."""
-    return joint.findall(role)[0].attrib["link"]
 
 
 def _bound(joint: ElementTree.Element) -> None:

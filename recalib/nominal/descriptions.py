@@ -96,3 +96,8 @@ def parsed(source: bytes, path: Path) -> ElementTree.Element:
     if (count := len(robot.findall("joint"))) > MOST_JOINTS:
         raise UnsuitableRobot(f"{path} has {count} joints; expected: at most {MOST_JOINTS}")
     return robot
+
+
+def link_of(joint: ElementTree.Element, role: str) -> str:
+    """Name of the parent or child link of a joint that Pinocchio has accepted."""
+    return joint.findall(role)[0].attrib["link"]

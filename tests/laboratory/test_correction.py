@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
@@ -82,6 +82,11 @@ def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correct
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - correction.arm.forward(HOME[None])).max() < 1e-7
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
+
+
+def test_nothing_that_is_desired_is_refused_by_what_is_missing(correction):
+    with pytest.raises(InvalidSetting, match="joint coordinates is missing"):
+        correct(correction, Measurements(1))
 
 
 def test_a_pose_alone_is_reached_from_what_was_learned(correction):

@@ -271,6 +271,10 @@ WRONG = {
         '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
         "distance.sockets is ['a', 'a']; valid: the names of two sockets",
     ),
+    "a socket twice": (
+        '[[distance]]\nsockets = ["a", "b", "a"]\nlength = "1 m"\n',
+        "distance.sockets is ['a', 'b', 'a']; valid: the names of two sockets",
+    ),
     "a distance twice": (
         '[[distance]]\nsockets = ["a", "b"]\nlength = "254.95 mm"\n'
         '[[distance]]\nsockets = ["b", "a"]\nlength = "900 mm"\n',
