@@ -7,6 +7,7 @@ import numpy as np
 
 from recalib.identification.frames import HELD
 from recalib.laboratory.calibrate import Calibrated
+from recalib.spelling import listed
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 
@@ -54,11 +55,10 @@ def unidentifiable_directions(result: Calibrated) -> list[tuple[str, bool]]:
     Each is a parameter and those that would explain the same.
     """
     names = [name for name, *_ in _names(result)]
-    told = []
-    for one in result.unidentifiable:
-        *others, last = (names[number] for number in (one.parameter, *one.partners))
-        told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
-    return told
+    alike = [
+        (one, [names[n] for n in (one.parameter, *one.partners)]) for one in result.unidentifiable
+    ]
+    return [(listed(words, "or"), not one.lasting) for one, words in alike]
 
 
 def _names(result: Calibrated) -> Iterator[tuple[str, str, float]]:
