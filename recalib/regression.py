@@ -57,7 +57,7 @@ class Process:
             )
         self.hyperparameters = hyperparameters
         self._points = inputs
-        self._weights, likelihood, _ = _fitted(inputs, outputs, hyperparameters)
+        self._weights, likelihood, *_ = _fitted(inputs, outputs, hyperparameters)
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
         chance = len(hyperparameters) / 2 * np.log(outputs.size)
         self.gain = likelihood - white - chance
@@ -96,8 +96,11 @@ def covariance_parts(
 
 def _fitted(
     inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
-) -> tuple[np.ndarray, float, np.ndarray]:
-    """Weights (n, k) of the points, the logarithm of the marginal likelihood, Cholesky's factor."""
+) -> tuple[np.ndarray, float, np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """Weights (n, k) of the points, and the logarithm of the marginal likelihood.
+
+    And the lower factor of the covariances, and their parts.
+    """
     linear, bell = covariance_parts(hyperparameters, inputs, inputs)
     covariances = linear + bell
     diagonal = np.diag_indices_from(covariances)
@@ -108,7 +111,7 @@ def _fitted(
     by_output = -np.einsum("ik,ik->k", outputs, weights) / 2
     by_output -= np.log(np.diag(factor)).sum()
     by_output -= len(inputs) / 2 * np.log(2 * np.pi)
-    return weights, by_output.sum(), factor
+    return weights, by_output.sum(), factor, (linear, bell)
 
 
 def likelihood_and_slope(
@@ -119,11 +122,10 @@ def likelihood_and_slope(
     Minus infinity where rounding leaves a singular matrix.
     """
     try:
-        weights, likelihood, factor = _fitted(inputs, outputs, hyperparameters)
+        weights, likelihood, factor, parts = _fitted(inputs, outputs, hyperparameters)
     except np.linalg.LinAlgError:
         return -np.inf, np.zeros_like(hyperparameters)
-    linear, bell = covariance_parts(hyperparameters, inputs, inputs)
-    _, _, *lengths, noise = np.exp(hyperparameters)
+    (linear, bell), (_, _, *lengths, noise) = parts, np.exp(hyperparameters)
     by_length = bell[..., None] * np.square((inputs[:, None] - inputs) / lengths)
     slopes = np.dstack([linear, bell, by_length, noise * np.eye(len(inputs))])
     inner = np.einsum("ik,jk->ijk", weights, weights)

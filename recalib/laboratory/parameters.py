@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from recalib.identification.frames import HELD
 from recalib.identification.parameters import Parameter, parameters_of
 from recalib.laboratory.calibrate import Calibrated
+from recalib.spelling import listed
 
 
 @dataclass(frozen=True)
@@ -35,11 +36,10 @@ def unidentifiable_directions(result: Calibrated) -> list[tuple[str, bool]]:
     Each is a parameter and those that would explain the same.
     """
     names = [its.name for its in _parameters(result)]
-    told = []
-    for one in result.unidentifiable:
-        *others, last = (names[number] for number in (one.parameter, *one.partners))
-        told.append((f"{', '.join(others)} or {last}" if others else last, not one.lasting))
-    return told
+    alike = [
+        (one, [names[n] for n in (one.parameter, *one.partners)]) for one in result.unidentifiable
+    ]
+    return [(listed(words, "or"), not one.lasting) for one, words in alike]
 
 
 def _parameters(result: Calibrated) -> list[Parameter]:

@@ -51,7 +51,7 @@ def found_places(
     """All that were not given.
 
     Args:
-        left_open: parameters that `openness.open_parameters` finds.
+        unidentifiable: see `unidentifiable_parameters`.
         targets, sockets: their names, in the order of their numbers.
         tool: the link that is the tool of the calibrated arm.
     """
@@ -64,9 +64,8 @@ def found_places(
     what += [(f"socket {name}", base, False) for name in sockets]
     if not what:
         return []
-    chosen = np.setdiff1d([one.parameter for one in unidentifiable if one.lasting], free).astype(
-        int
-    )
+    lasting = np.array([one.parameter for one in unidentifiable if one.lasting], dtype=int)
+    chosen = np.setdiff1d(lasting, free)
     real = estimate.covariance[np.ix_(free, free)]
     across = estimate.covariance[np.ix_(free, chosen)]
     among = estimate.covariance[np.ix_(chosen, chosen)]

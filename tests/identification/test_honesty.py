@@ -10,7 +10,7 @@ from tests.identification.honesty import Session, other_half, three_targets
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "seed"), [("UR10", 3), ("UR10", 6), ("Panda", 2)])
+@pytest.mark.parametrize(("name", "seed"), [("UR10", 6), ("Panda", 2)])
 def test_what_is_said_holds_where_a_posture_has_three_targets(name, seed):
     for said, true in three_targets(load_arm(*ARMS[name]), seed).values():
         assert said == pytest.approx(true, rel=0.2)
