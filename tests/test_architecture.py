@@ -104,9 +104,9 @@ def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
 
 
 def test_calibrating_an_arm_loads_no_tables_and_compiles_nothing():
-    """Each takes a tenth of a second or more, and geometry alone needs none of them."""
-    heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic"}
-    calibrating = "import recalib.laboratory.calibrate, recalib.laboratory.files"
+    """Each takes a tenth of a second or more, and neither a calibration nor its page needs it."""
+    heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic", "matplotlib"}
+    calibrating = "import recalib.laboratory.files, recalib.laboratory.page, recalib.regression"
     assert loaded_with(calibrating, heavy) == set()
 
 

@@ -124,19 +124,17 @@ def _correct(given: argparse.Namespace) -> int:
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
     ends = untold(correction)
     if ends and not in_instrument:
-        print(
-            f"recalib: warning: {ends} could not be told from errors of the arm: in the base,"
-            " commands are off by those. To the instrument they are right. Try: --frame"
-            " instrument, or say in the description where both are",
-            file=sys.stderr,
+        _warn(
+            f"{ends} could not be told from errors of the arm: in the base, commands are off by"
+            " those. To the instrument they are right. Try: --frame instrument, or say in the"
+            " description where both are"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
         names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
-        print(
-            f"recalib: warning: {len(rows)} of {len(commands.joints)} commands, first in row"
-            f" {rows[0] + 1}, leave the range that was learned from: {', '.join(names)}",
-            file=sys.stderr,
+        _warn(
+            f"{len(rows)} of {len(commands.joints)} commands, first in row {rows[0] + 1}, leave the"
+            f" range that was learned from: {', '.join(names)}"
         )
     print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
@@ -173,6 +171,10 @@ def _urdf(given: argparse.Namespace) -> int:
         made.write_text(urdf_of(arm), encoding="utf-8")
     print(f"{given.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
     return DONE
+
+
+def _warn(text: str) -> None:
+    print(f"recalib: warning: {text}", file=sys.stderr)
 
 
 def _print_progress(line: str) -> None:

@@ -26,11 +26,7 @@ STRETCHED = 0.2  # of a distance: so much longer or shorter than its description
 
 
 class WrongKnowledge(RecalibError):
-    """What a description says is not what the measurements say. Attributes: part, of it."""
-
-    def __init__(self, part: str, reason: str):
-        self.part = part
-        super().__init__(f"the description's {part} {reason}")
+    """A description does not say what the measurements say."""
 
 
 def checked_frames(
@@ -66,12 +62,11 @@ def checked_frames(
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
     found = without[wrong]
-    parts = {"base": "[instrument]", "target": "[target]"}
     there = {"base": np.linalg.inv(found.base), "target": found.targets[0]}
+    parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
+    where = " and ".join(_gap(told[name], there[name]) for name in wrong)
     raise WrongKnowledge(
-        " and ".join(parts[name] for name in wrong),
-        " and ".join(_gap(told[name], there[name]) for name in wrong)
-        + "; what is left out of the description is found",
+        f"the description's {parts} {where}; what is left out of the description is found"
     )
 
 
@@ -89,10 +84,10 @@ def check_distances(
         nominal = np.linalg.norm(frames.sockets[one] - frames.sockets[other])
         if abs(length - nominal) > STRETCHED * nominal + median_error(frames, tool, observations):
             raise WrongKnowledge(
-                f"distance between {names[one]} and {names[other]}",
-                f"is {1e3 * length:.5g} mm; by the arm's description they are"
+                f"the description's distance between {names[one]} and {names[other]}"
+                f" is {1e3 * length:.5g} mm; by the arm's description they are"
                 f" {1e3 * nominal:.5g} mm apart; expected that, but for"
-                f" {100 * STRETCHED:.0f} percent",
+                f" {100 * STRETCHED:.0f} percent"
             )
 
 

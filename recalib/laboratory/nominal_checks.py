@@ -30,21 +30,16 @@ Try = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 class WrongNominal(RecalibError):
     """Nominal positions that are not those of the nominal arm.
 
-    Attributes:
+    Args:
         gap: m, the largest difference.
         mistake: the likely one, in words; None where none explains it.
     """
 
     def __init__(self, gap: float, mistake: str | None):
-        self.gap, self.mistake = gap, mistake
-        likely = (
-            f"likely: {mistake}"
-            if mistake
-            else "no single mistake of zero, sign, order or unit explains it: is it another arm?"
-        )
+        unlikely = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
         super().__init__(
             f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
-            f" the tool; {likely}"
+            f" the tool; {f'likely: {mistake}' if mistake else unlikely}"
         )
 
 
