@@ -81,4 +81,4 @@ def check_pose(measured: np.ndarray, near: np.ndarray) -> None:
 
 def _is_rotation(pose: np.ndarray) -> bool:
     turn = pose[:3, :3]
-    return np.abs(turn @ turn.T - np.eye(3)).max() < SKEW and np.linalg.det(turn) > 0
+    return bool(np.abs(turn @ turn.T - np.eye(3)).max() < SKEW and np.linalg.det(turn) > 0)

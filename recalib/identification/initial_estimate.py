@@ -109,7 +109,7 @@ def _is_open(tool: np.ndarray, observations: Observations, target: np.ndarray | 
     if observations.kinds == 2 and (target is not None or turns_by_poses(tool, observations)):
         return False
     points = observations.positions - observations.positions.mean(axis=0)
-    return np.linalg.svd(points / np.sqrt(len(points)), compute_uv=False)[1] < THIN
+    return bool(np.linalg.svd(points / np.sqrt(len(points)), compute_uv=False)[1] < THIN)
 
 
 def median_error(frames: Frames, tool: np.ndarray, observations: Observations) -> float:

@@ -75,7 +75,7 @@ class Linearisation:
 
     def is_good_at(self, parameters: np.ndarray, negligible: float) -> bool:
         """Whether no parameter alone has moved a target by more than the root of `negligible`."""
-        return np.max(np.abs(parameters - self._origin) * self.reach) ** 2 <= negligible
+        return bool(np.max(np.abs(parameters - self._origin) * self.reach) ** 2 <= negligible)
 
     def move(self, step: np.ndarray) -> None:
         """Move the parameters by a step (P,), over their deviations."""

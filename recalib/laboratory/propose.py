@@ -38,7 +38,7 @@ class Proposal:
     @property
     def worthwhile(self) -> bool:
         """Whether measuring all of them would make predictions noticeably better."""
-        return self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0]
+        return bool(self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0])
 
 
 def propose(correction: Correction, count: int, candidates: Measurements | None = None) -> Proposal:
