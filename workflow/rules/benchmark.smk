@@ -1,14 +1,20 @@
 """What should one use today? No part of the default run."""
 
 
+def sample_of_entrant(wildcards):
+    """The sample for a learner of the paper; today's need none."""
+    papers = plan(wildcards).benchmark(wildcards.learner, wildcards.batch).learner
+    return [sample(wildcards, wildcards.learner)] if papers else []
+
+
 rule benchmark_run:
     input:
         scenarios=lambda w: [layout(w).scenario(name) for name in plan(w).batches()[w.batch]],
-        sample=lambda w: sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else [],
+        samples=sample_of_entrant,
     output:
         LAYOUT.benchmark_batch("{learner}", "{batch}"),
     params:
-        code=made_from("benchmark.py"),
+        code=made_from("benchmark.py", reads=sample_of_entrant),
         job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     threads: 1
     resources:
@@ -63,7 +69,7 @@ rule real_run:
     output:
         LAYOUT.real_run("{learner}"),
     params:
-        code=made_from("real_run.py"),
+        code=made_from("real_run.py", reads=lambda w: [study(w).real.description]),
         job=lambda w: as_text(plan(w).real_run(w.learner)),
     threads: 1
     resources:
@@ -82,7 +88,9 @@ rule real_twin:
     output:
         LAYOUT.real_twin("{learner}"),
     params:
-        code=made_from("real_twin.py"),
+        code=made_from(
+            "real_twin.py", reads=lambda w: [study(w).real.description, sample(w, w.learner)]
+        ),
         job=lambda w: as_text(plan(w).real_twin(w.learner)),
     threads: 1
     resources:

@@ -36,13 +36,17 @@ rule summary:
         "../scripts/summarise.py"
 
 
+def judged_by(wildcards):
+    return judging(request(wildcards.root)).inputs
+
+
 rule claims:
     input:
-        evidence=lambda w: judging(request(w.root)).inputs,
+        evidence=judged_by,
     output:
         LAYOUT.claims,
     params:
-        code=made_from("claims.py"),
+        code=made_from("claims.py", reads=judged_by),
         job=lambda w: as_text(judging(request(w.root))),
     threads: 1
     resources:
@@ -63,7 +67,7 @@ rule outcome:
     output:
         LAYOUT.outcome,
     params:
-        code=made_from("outcome.py"),
+        code=made_from("outcome.py", reads=lambda w: outcome_needs(w).inputs),
         job=lambda w: as_text(outcome_needs(w)),
     localrule: True
     message:
@@ -83,7 +87,9 @@ rule page:
     output:
         LAYOUT.page("{page}"),
     params:
-        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
+        code=made_from(
+            "page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_needs(w).inputs]
+        ),
         job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),

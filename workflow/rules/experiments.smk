@@ -9,7 +9,7 @@ rule train:
         history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
         learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
     params:
-        code=made_from("train.py"),
+        code=made_from("train.py", reads=lambda w: [sample(w, w.learner)]),
         job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     threads: 1
     resources:
@@ -52,7 +52,7 @@ rule ensemble_chunk:
     output:
         LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
     params:
-        code=made_from("ensemble.py"),
+        code=made_from("ensemble.py", reads=lambda w: [sample(w, w.learner)]),
         job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     threads: 1
     resources:
@@ -87,7 +87,7 @@ rule bench:
     output:
         LAYOUT.bench,
     params:
-        code=made_from("bench.py"),
+        code=made_from("bench.py", reads=lambda w: [sample(w, name) for name in MEASURED]),
         job=lambda w: as_text(plan(w).speed(MEASURED)),
     threads: 1
     resources:

@@ -14,7 +14,9 @@ rule figure:
         LAYOUT.figure("{figure}"),
         LAYOUT.figure("{figure}", ".png"),
     params:
-        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
+        code=lambda w: made_from(
+            "figure.py", FIGURES[w.figure].home, reads=lambda w: figure_needs(w).inputs
+        )(w),
         job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),

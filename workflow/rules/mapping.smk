@@ -43,7 +43,7 @@ rule study_replay:
     output:
         LAYOUT.mapping("replay"),
     params:
-        code=made_from("study_replay.py"),
+        code=made_from("study_replay.py", reads=lambda w: [sample(w, "improved")]),
         job=lambda w: as_text(plan(w).replay()),
     threads: 1
     resources:

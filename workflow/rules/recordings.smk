@@ -11,17 +11,21 @@ def recorded(wildcards):
     return recording_of(wildcards.root, wildcards.recording)
 
 
+def samples_of_recorded(wildcards):
+    return [sample(wildcards, name) for name in recorded(wildcards).papers()]
+
+
 rule recording:
     input:
         scenario=lambda w: layout(w).scenario(recorded(w).scenario),
-        samples=lambda w: [sample(w, name) for name in recorded(w).papers()],
+        samples=samples_of_recorded,
         histories=lambda w: [
             layout(w).history(recorded(w).scenario, name) for name in recorded(w).papers()
         ],
     output:
         LAYOUT.recording("{recording}"),
     params:
-        code=made_from("record.py"),
+        code=made_from("record.py", reads=samples_of_recorded),
         job=lambda w: as_text(recorded(w)),
     threads: 1
     resources:

@@ -167,7 +167,7 @@ rule efforts_of:
     output:
         LAYOUT.campaign_chunk("efforts", "{training}"),
     params:
-        code=made_from("efforts.py"),
+        code=made_from("efforts.py", reads=lambda w: [sample_at(w.root, w.training)]),
         job=lambda w: as_text(plan(w).efforts(w.training)),
     threads: 1
     resources:
