@@ -45,9 +45,10 @@ test: lint ## the linters and all tests but whole workflows, examples, sites and
 test-all: lint ## the linters and all tests
 	.venv/bin/python -m pytest
 
-lint: setup ## the linters
+lint: setup ## the linters and the types of the library
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
+	.venv/bin/mypy
 
 slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
 	.venv/bin/python -m pytest -n0 -rs tests/slurm

@@ -1,14 +1,11 @@
 """Calibrate a seven-jointed arm without an instrument: a ball at its hand, set into two sockets."""
 
+import math
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib import Observations, calibrate
-from recalib.identification.error_model import OFFSETS
-from recalib.identification.first_guess import guess_frames
-from recalib.identification.observations import Distance
-from recalib.nominal.arms import load_arm
-from recalib.nominal.chain import Chain
+from recalib import OFFSETS, Chain, Distance, Observations, calibrate, initial_frames, load_arm
 
 rng = np.random.default_rng(1996)
 arm, home = load_arm("panda.urdf", "panda_hand_tcp"), np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
@@ -18,9 +15,9 @@ joints, number = home + rng.uniform(-0.7, 0.7, (80, 7)), np.repeat([0, 1], 40)
 poses = arm.forward(joints)
 poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in its socket
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
-apart = Distance(0, 1, np.linalg.norm(sockets[1] - sockets[0]))  # that is measured
-seen = Observations(joints, sockets=number, distances=[apart])
-calibration = calibrate(arm, [OFFSETS], seen, guess_frames(arm, seen))
+apart = Distance(0, 1, math.dist(*sockets))  # that is measured
+observations = Observations(joints, sockets=number, distances=[apart])
+calibration = calibrate(arm, [OFFSETS], observations, initial_frames(arm, observations))
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
 # about their mean: where the arm stands, no socket tells

@@ -3,14 +3,12 @@
 import numpy as np
 from ur10 import robot
 
-from recalib import Controller, Observations, calibrate
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.identification.design import information_gains
-from recalib.identification.error_model import OFFSETS
-from recalib.nominal.poses import position_error
+import recalib
+from recalib import EncoderShift, LinkShortening, Observations, position_error
 
 rng = np.random.default_rng(1996)
-arm = apply(robot, [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.07)])
+damages = [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.07)]
+arm = recalib.apply(robot, damages)
 
 
 def measure(angles):
@@ -19,12 +17,12 @@ def measure(angles):
 
 
 poses = robot.workspace.to_poses(robot.workspace.sample(rng, 300))
-candidates, tests = np.split(Controller(robot).inverse(poses), [200])
+candidates, tests = np.split(recalib.Controller(robot).inverse(poses), [200])
 angles, measured = candidates[:1], measure(candidates[:1])
 for _ in range(12):
-    calibration = calibrate(robot.arm, [OFFSETS], Observations(angles, measured))
+    calibration = recalib.calibrate(robot.arm, [recalib.OFFSETS], Observations(angles, measured))
     missed = position_error(calibration.forward(tests), arm.forward(tests)).mean()
     print(f"{len(angles):2} positions: predictions miss by {1e3 * missed:.2f} mm")
-    best = information_gains(calibration, candidates).argmax()
+    best = recalib.information_gains(calibration, candidates).argmax()
     angles = np.vstack([angles, candidates[best]])
     measured = np.vstack([measured, measure(candidates[[best]])])

@@ -10,42 +10,11 @@ def _():
     import marimo as mo
     import matplotlib.pyplot as plt
     import numpy as np
-    import pinocchio as pin
     from ur10 import robot
 
-    from recalib import (
-        IMPROVED,
-        Controller,
-        GeometricLearner,
-        HierarchicalLearner,
-        Plant,
-        Schedule,
-        train,
-    )
-    from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-    from recalib.damaged.disturbances import Disturbances, Noise
-    from recalib.nominal.poses import position_error
+    import recalib
 
-    return (
-        IMPROVED,
-        Controller,
-        Disturbances,
-        EncoderShift,
-        GeometricLearner,
-        HierarchicalLearner,
-        LinkShortening,
-        Noise,
-        Plant,
-        Schedule,
-        apply,
-        mo,
-        np,
-        pin,
-        plt,
-        position_error,
-        robot,
-        train,
-    )
+    return mo, np, plt, recalib, robot
 
 
 @app.cell
@@ -80,94 +49,72 @@ def _(mo):
 
 
 @app.cell
-def _(
-    Controller,
-    Disturbances,
-    EncoderShift,
-    LinkShortening,
-    Noise,
-    Plant,
-    apply,
-    damage,
-    np,
-    robot,
-):
+def _(damage, np, recalib, robot):
     _its = damage.value
-    controller = Controller(robot)
-    damaged = apply(
+    controller = recalib.Controller(robot)
+    damaged = recalib.apply(
         robot,
         [
-            LinkShortening("forearm_link", _its["forearm"] / 100),
-            LinkShortening("wrist_2_link", _its["wrist"] / 100),
-            EncoderShift("shoulder_lift_joint", np.radians(_its["shoulder"])),
-            EncoderShift("elbow_joint", np.radians(_its["elbow"])),
+            recalib.LinkShortening("forearm_link", _its["forearm"] / 100),
+            recalib.LinkShortening("wrist_2_link", _its["wrist"] / 100),
+            recalib.EncoderShift("shoulder_lift_joint", np.radians(_its["shoulder"])),
+            recalib.EncoderShift("elbow_joint", np.radians(_its["elbow"])),
         ],
     )
-    _instrument = Disturbances(noise=Noise(1e-4, np.radians(0.01)))  # m, rad
+    _noise = recalib.Noise(1e-4, np.radians(0.01))  # m, rad
+    _instrument = recalib.Disturbances(noise=_noise)
 
     def new_plant():
         """The damaged arm behind its controller, of which no move was asked yet."""
-        return Plant(controller, [damaged], _instrument, [np.random.default_rng(7)])
+        return recalib.Plant(controller, damaged, _instrument, [np.random.default_rng(7)])
 
     return controller, damaged, new_plant
 
 
 @app.cell
-def _(
-    GeometricLearner,
-    HierarchicalLearner,
-    IMPROVED,
-    Schedule,
-    controller,
-    np,
-    new_plant,
-    robot,
-    train,
-):
+def _(controller, new_plant, np, recalib, robot):
     _rng = np.random.default_rng(1996)
-    _desired, tests = (robot.workspace.sample(_rng, 1, count) for count in (200, 100))
+    _desired, tests = (robot.workspace.sample(_rng, count) for count in (200, 100))
     _widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
-    learned = HierarchicalLearner(1, IMPROVED, Schedule(4.0, _widths, 0.8, 0.4))
-    identified = GeometricLearner(1, controller)
+    _schedule = recalib.Schedule(4.0, _widths, 0.8, 0.4)
+    learned = recalib.HierarchicalLearner(recalib.IMPROVED, _schedule)
+    identified = recalib.GeometricLearner(controller)
     histories = {
-        "the paper's map": train(new_plant(), learned, _desired, tests, range(0, 201, 10)),
-        "identification": train(new_plant(), identified, _desired[:, :5], tests, range(6)),
+        "the paper's map": recalib.train(new_plant(), learned, _desired, tests, range(0, 201, 10)),
+        "identification": recalib.train(new_plant(), identified, _desired[:5], tests, range(6)),
     }
     return histories, identified, learned, tests
 
 
 @app.cell
-def _(controller, damaged, identified, learned, new_plant, np, pin, position_error, robot, tests):
-    pose = tests[:, :1]  # one of those that nobody learned from
-    commands = {
-        "as desired": pose,
-        "corrected by the map": learned.command(pose),
-        "corrected by the identified model": identified.command(pose),
+def _(controller, damaged, identified, learned, recalib, robot, tests):
+    wanted = robot.workspace.to_poses(tests[:1])  # one of those that nobody learned from
+    _angles = {
+        name: controller.inverse(command)
+        for name, command in {
+            "as desired": wanted,
+            "corrected by the map": recalib.corrected(learned, robot.workspace, wanted),
+            "corrected by the identified model": recalib.corrected(
+                identified, robot.workspace, wanted
+            ),
+        }.items()
     }
-    wanted = robot.workspace.to_poses(pose)
     misses = {
-        name: 100 * position_error(new_plant().achieve(command)[0], wanted).item()
-        for name, command in commands.items()
+        name: 100 * recalib.position_error(damaged.forward(angles), wanted).item()
+        for name, angles in _angles.items()
     }
 
     def joints(arm, angles):
         """Where the joints and the tool of an arm are, seen from the side [m]."""
-        _data = arm.model.createData()
-        pin.forwardKinematics(arm.model, _data, angles[0])
-        _points = [placement.translation for placement in list(_data.oMi)[1:]]
-        return np.array([*_points, arm.forward(angles)[0, :3, 3]])[:, [0, 2]]
+        return arm.skeleton(angles)[0][1:, [0, 2]]
 
-    _angles = {
-        name: controller.inverse(robot.workspace.to_poses(command[0]))
-        for name, command in commands.items()
-    }
     believed = joints(robot.arm, _angles["as desired"])
     real = {name: joints(damaged.arm, damaged.standing(angles)) for name, angles in _angles.items()}
     return believed, misses, real, wanted
 
 
 @app.cell
-def _(believed, histories, misses, np, plt, real):
+def _(believed, histories, misses, plt, real):
     figure, (_side, _errors) = plt.subplots(1, 2, figsize=(10, 4.4), layout="constrained")
     _colours = dict(zip(real, ("#D55E00", "#0072B2", "#009E73"), strict=True))
     _side.plot(*believed.T, "o--", color="0.6", label="what the controller believes")
@@ -181,7 +128,7 @@ def _(believed, histories, misses, np, plt, real):
     for (_name, _history), _colour in zip(
         histories.items(), list(_colours.values())[1:], strict=True
     ):
-        _means = 100 * _history.position[0, :, 0]
+        _means = 100 * _history.position_error
         _errors.plot(_history.moves, _means, "o-", color=_colour, label=_name, markersize=3)
     _errors.set(xlabel="moves", ylabel="mean error on 100 other poses [cm]")
     _errors.set(yscale="log", title="How it learns")
@@ -191,14 +138,14 @@ def _(believed, histories, misses, np, plt, real):
     _errors.set_xticks([0, 1, 2, 5, 10, 100, 400], ["0", "1", "2", "5", "10", "100", "400"])
     _errors.legend(frameon=False)
     _errors.grid(color=(0.9,) * 3)
-    final = {name: 100 * np.ravel(each.position[0, -1])[0] for name, each in histories.items()}
+    final = {name: 100 * each.position_error[-1] for name, each in histories.items()}
     figure  # noqa: B018 the notebook shows it
     return figure, final
 
 
 @app.cell
 def _(final, histories, mo):
-    _before = 100 * histories["identification"].position[0, 0, 0]
+    _before = 100 * histories["identification"].position_error[0]
     mo.md(f"""
     Before, the arm misses by **{_before:.2f} cm** on average. The map of the paper leaves
     **{final["the paper's map"]:.2f} cm** after 200 iterations, which are 400 moves, and knows

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from recalib import ExternalRobot, Workspace, train
-from recalib.learners.polynomial import PolynomialLearner
+from recalib import ExternalRobot, PolynomialLearner, Workspace, train
 
 
 class MyRobot:
@@ -24,7 +23,7 @@ centre[:3, 3] = 0.8, 0.2, 0.3  # m
 workspace = Workspace(centre, half_ranges=np.array([0.25, 0.3, 0.25, 0.35, 0.35, 0.35]))
 
 robot, rng = ExternalRobot(workspace, MyRobot().move), np.random.default_rng(1996)
-desired, tests = workspace.sample(rng, 1, 60), workspace.sample(rng, 1, 50)
-history = train(robot, PolynomialLearner(1, degree=2), desired, tests, measure_at=[0, 10, 30, 60])
-for moves, error in zip(history.moves, history.position[0, :, 0], strict=True):
+desired, tests = workspace.sample(rng, 60), workspace.sample(rng, 50)
+history = train(robot, PolynomialLearner(degree=2), desired, tests, measure_at=[0, 10, 30, 60])
+for moves, error in zip(history.moves, history.position_error, strict=True):
     print(f"after {moves:2} moves: {1e3 * error:.2f} mm")

@@ -2,27 +2,26 @@
 
 import numpy as np
 
-from recalib import IMPROVED, Controller, HierarchicalLearner, Plant, Schedule, load_robot, train
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.learners.hybrid import HybridLearner
+import recalib
+from recalib import EncoderShift, LinkShortening
 
 home = {f"panda_joint{i}": np.radians(a) for i, a in enumerate([0, -45, 0, -120, 0, 75, 45], 1)}
-box = {"position_range": [0.2, 0.24, 0.2], "orientation_range": np.radians([40, 40, 40])}
-robot = load_robot("panda.urdf", "panda_link8", home, **box)
+box = [0.2, 0.24, 0.2], np.radians([40, 40, 40])  # m, rad
+robot = recalib.load_robot("panda.urdf", "panda_link8", home, *box)
 damages = [LinkShortening("panda_link4", 0.03), EncoderShift("panda_joint3", np.radians(4))]
 
 # Of the postures for a pose, the controller always takes the same one, near that of home.
-controller = Controller(robot)
-plant = Plant(controller, [apply(robot, damages)])
+controller = recalib.Controller(robot)
+plant = recalib.Plant(controller, recalib.apply(robot, damages))
 widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
-learners = (
-    HierarchicalLearner(1, IMPROVED, Schedule(4.0, widths, 0.8, 0.4)),
-    HybridLearner(1, controller),
-)
+learners: list[recalib.Learner] = [
+    recalib.HierarchicalLearner(recalib.IMPROVED, recalib.Schedule(4.0, widths, 0.8, 0.4)),
+    recalib.HybridLearner(controller),
+]
 
 for learner, iterations in zip(learners, (200, 8), strict=True):
     rng = np.random.default_rng(1996)
-    desired, tests = robot.workspace.sample(rng, 1, iterations), robot.workspace.sample(rng, 1, 100)
-    history = train(plant, learner, desired, tests, measure_at=[0, iterations])
-    first, last = 1e3 * history.position[0, :, 0]
-    print(f"{learner.kind}: {first:.3g} mm, after {iterations} iterations {last:.6f} mm")
+    desired, tests = robot.workspace.sample(rng, iterations), robot.workspace.sample(rng, 100)
+    history = recalib.train(plant, learner, desired, tests, measure_at=[0, iterations])
+    first, last = 1e3 * history.position_error
+    print(f"{type(learner).__name__}: {first:.3g} mm, after {iterations} iterations {last:.6f} mm")

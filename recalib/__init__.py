@@ -1,40 +1,38 @@
 """Automatic recalibration of damaged robots: Ruiz de Angulo and Torras (1996), and what came since.
 
 The library knows of arms, damages and learners; `recalib.study` replicates the paper with it. What
-a reader needs first can be imported from here; the examples show how it fits together.
+a user needs can be imported from here; the examples show how it fits together.
 """
 
+from functools import cache
 from importlib import import_module
+from typing import Any
 
 __version__ = "0.1.0"
 
-# Where each name is at home. It is imported when it is asked for: Pinocchio, SciPy and scikit-learn
-# take seconds, and nobody needs all of them.
-_HOMES = {
-    "Controller": "recalib.nominal.controller",
-    "ExternalRobot": "recalib.external",
-    "GeometricLearner": "recalib.learners.geometric",
-    "HierarchicalLearner": "recalib.learners.hierarchical",
-    "IMPROVED": "recalib.learners.rules",
-    "Observations": "recalib.identification.observations",
-    "Plant": "recalib.damaged.plant",
-    "Schedule": "recalib.learners.schedules",
-    "Workspace": "recalib.nominal.poses",
-    "calibrate": "recalib.identification.calibration",
-    "guess_frames": "recalib.identification.first_guess",
-    "load": "recalib.loading",
-    "load_robot": "recalib.nominal.robots",
-    "save": "recalib.learned",
-    "train": "recalib.training",
-}
-__all__ = [*_HOMES]
+
+@cache
+def _homes() -> dict[str, str]:
+    """The module of each public name, from the stub that type checkers and editors read.
+
+    A name is imported when it is asked for: Pinocchio, Numba and SciPy take a second, and nobody
+    needs all of them.
+    """
+    import ast
+    from pathlib import Path
+
+    tree = ast.parse(Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    imports = [node for node in tree.body if isinstance(node, ast.ImportFrom)]
+    return {alias.name: node.module or "" for node in imports for alias in node.names}
 
 
-def __getattr__(name: str):
-    if name not in _HOMES:
+def __getattr__(name: str) -> Any:
+    if name == "__all__":
+        return sorted(_homes())
+    if name not in _homes():
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)
+    return getattr(import_module(_homes()[name]), name)
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *_HOMES]
+    return [*globals(), *_homes()]

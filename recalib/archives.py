@@ -19,7 +19,7 @@ MOST = 256_000_000  # bytes, also of what is packed
 
 
 @contextmanager
-def refused(path: str | PathLike, writer: str) -> Iterator[None]:
+def refused(path: str | PathLike[str], writer: str) -> Iterator[None]:
     """Take whatever is raised while a file is read for its fault: it may hold anything.
 
     Raises InvalidFile, or what was raised on purpose.
@@ -32,7 +32,7 @@ def refused(path: str | PathLike, writer: str) -> Iterator[None]:
         raise InvalidFile(path, f"it is not whole, or not written by {writer}") from None
 
 
-def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State) -> None:
+def write_archive(path: str | PathLike[str], header: Mapping[str, Any], groups: State) -> None:
     """Write arrays, named by their groups as in position/theta.
 
     Args:
@@ -41,11 +41,12 @@ def write_archive(path: str | PathLike, header: Mapping[str, Any], groups: State
     arrays = flat(groups)
     sealed = {**header, "sha256": _digest(header, arrays)}
     with whole(path) as temporary:
-        np.savez(temporary, header=json.dumps(sealed), **arrays)
+        members: dict[str, Any] = {"header": json.dumps(sealed), **arrays}
+        np.savez(temporary, **members)
 
 
 def read_archive(
-    path: str | PathLike, kind: tuple[str, int], writer: str
+    path: str | PathLike[str], kind: tuple[str, int], writer: str
 ) -> tuple[dict[str, Any], State]:
     """Header and groups of an archive.
 
@@ -86,7 +87,7 @@ def _digest(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> str:
 
 def flat(state: State, prefix: str = "") -> dict[str, np.ndarray]:
     """The arrays of a state by their paths, such as position/theta."""
-    arrays = {}
+    arrays: dict[str, np.ndarray] = {}
     for name, value in state.items():
         if isinstance(value, Mapping):
             arrays |= flat(value, f"{prefix}{name}/")

@@ -8,11 +8,15 @@ the words of an error that no call here can raise.
 """
 
 from collections.abc import Callable
+from typing import ParamSpec, TypeVar
 
 from numba import njit
 
+Arguments = ParamSpec("Arguments")
+Result = TypeVar("Result")
 
-def compiled(function: Callable) -> Callable:
+
+def compiled(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
     """The function, compiled when it is first called, and kept in a file for the next process.
 
     Where no folder can be written to it is not kept. A division by zero gives infinity, as in

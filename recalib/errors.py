@@ -2,8 +2,12 @@
 
 from collections.abc import Iterable
 from os import PathLike, fspath
+from typing import TYPE_CHECKING
 
 from recalib.spelling import instead
+
+if TYPE_CHECKING:  # names are checked without it
+    import numpy as np
 
 
 class RecalibError(Exception):
@@ -11,7 +15,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """A name that is not among the valid ones."""
+    """A name that is not among the valid ones, of which the nearest is told."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -30,7 +34,7 @@ class InvalidQuantity(RecalibError):
 
 
 class InvalidSetting(RecalibError):
-    """A value outside of what its key allows."""
+    """A value outside of what its key allows; the message says what that is."""
 
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
@@ -63,7 +67,7 @@ class Unreachable(RecalibError):
         reason: why.
     """
 
-    def __init__(self, pose, residual: float, reason: str):
+    def __init__(self, pose: "np.ndarray", residual: float, reason: str):
         self.position, self.rotation = pose[:3, 3].copy(), pose[:3, :3].copy()
         self.residual, self.reason = float(residual), reason
         place = ", ".join(f"{x:.3f}" for x in self.position)
@@ -77,7 +81,7 @@ class Unreachable(RecalibError):
 class InvalidFile(RecalibError):
     """A file that is damaged or holds something else than expected."""
 
-    def __init__(self, path: str | PathLike, reason: str):
+    def __init__(self, path: str | PathLike[str], reason: str):
         self.path, self.reason = fspath(path), reason
         super().__init__(f"cannot use {self.path}: {reason}")
 
@@ -88,7 +92,7 @@ class OtherRobot(RecalibError):
     Attributes: path, and differences, a sentence for each.
     """
 
-    def __init__(self, path: str | PathLike, differences: Iterable[str]):
+    def __init__(self, path: str | PathLike[str], differences: Iterable[str]):
         self.path, self.differences = fspath(path), [*differences]
         super().__init__(f"{self.path} is of another robot: {'; '.join(self.differences)}")
 

@@ -26,7 +26,8 @@ class ExternalRobot:
 
     def __init__(self, workspace: Workspace, move: Callable[[np.ndarray], np.ndarray | None]):
         self.workspace, self._move = workspace, move
-        self.moves = self.refused = 0
+        self.moves = 0
+        self.refused: np.ndarray | int = 0
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and take what the robot measures.
@@ -49,7 +50,9 @@ class ExternalRobot:
         for index in np.ndindex(executed.shape):
             measured = self._move(poses[index])
             executed[index] = measured is not None
-            if executed[index]:
+            if measured is None:
+                measured = self.workspace.centre
+            else:
                 check_pose(measured, self.workspace.centre)
-            poses[index] = measured if executed[index] else self.workspace.centre
+            poses[index] = measured
         return poses, executed

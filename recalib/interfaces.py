@@ -5,12 +5,13 @@ axis is always the run: an experiment trains many runs side by side.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, runtime_checkable
 
 import numpy as np
 
 if TYPE_CHECKING:
     from recalib.nominal.poses import Workspace
+    from recalib.nominal.robots import Robot
 
 
 class Outcome(NamedTuple):
@@ -54,13 +55,12 @@ State = Mapping[str, Any]
 
 
 class Savable(Learner, Protocol):
-    """A learner that `recalib.learned` can save.
+    """A learner that `recalib.learned` can save; its class is named in `recalib.learners.kinds`."""
 
-    Attributes:
-        kind: by which the file tells what to build.
-    """
-
-    kind: str
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        ...
 
     def settings(self) -> dict[str, Any]:
         """What it was made with, in the types of JSON; a list, `by_run`, of what runs differ in."""
@@ -76,17 +76,22 @@ class Savable(Learner, Protocol):
 
 
 class Commandable(Protocol):
-    """What an experiment asks of its robots, one for each run: to take pose commands.
+    """What an experiment asks of its robots, one for each run: to take pose commands."""
 
-    Attributes:
-        workspace: in whose coordinates poses are given.
-        moves: how many moves were commanded in each run.
-        refused: (run,) how many of them were not carried out; 0 before the first.
-    """
+    @property
+    def workspace(self) -> "Workspace":
+        """The workspace in whose coordinates poses are given."""
+        ...
 
-    workspace: "Workspace"
-    moves: int
-    refused: np.ndarray | int
+    @property
+    def moves(self) -> int:
+        """How many moves were commanded in each run."""
+        ...
+
+    @property
+    def refused(self) -> np.ndarray | int:
+        """(run,) how many of them were not carried out; 0 before the first."""
+        ...
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what is achieved."""
@@ -101,8 +106,9 @@ class Commandable(Protocol):
         ...
 
 
+@runtime_checkable
 class ForwardKinematics(Protocol):
-    """What a simulated robot asks of its arm."""
+    """What a simulated robot asks of its arm: where it takes the tool."""
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].

@@ -13,19 +13,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from recalib.archives import read_archive, refused, write_archive
-from recalib.errors import InvalidFile, UnknownName
+from recalib.errors import InvalidFile
 from recalib.interfaces import Savable, State
+from recalib.learners.kinds import kind_of
 
 if TYPE_CHECKING:  # to join files takes no robot
     from recalib.nominal.robots import Robot
 
 FORMAT, VERSION = "recalib learner", 6
-KINDS = "hierarchical", "polynomial", "gaussian_process", "geometric", "hybrid"
 WRITER = "recalib.save"
 ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
 PROBES = 8  # joint angles at which the kinematics of two robots are compared
 
-Path = str | PathLike
+Path = str | PathLike[str]
 
 
 def save(path: Path, learner: Savable, robot: "Robot") -> None:
@@ -33,13 +33,10 @@ def save(path: Path, learner: Savable, robot: "Robot") -> None:
 
     Raises UnknownName (a learner of no known kind).
     """
-    kind = getattr(learner, "kind", type(learner).__name__)
-    if kind not in KINDS:
-        raise UnknownName("kind of learner to save", kind, KINDS)
     header = {
         "format": FORMAT,
         "version": VERSION,
-        "kind": kind,
+        "kind": kind_of(learner),
         "settings": learner.settings(),
         "robot": identity(robot),
     }
@@ -51,7 +48,9 @@ def join(path: Path, parts: Iterable[Path]) -> None:
 
     Raises InvalidFile.
     """
-    header, states, by_run = None, [], []
+    header: dict[str, Any] = {}
+    states: list[State] = []
+    by_run: list[Any] = []
     for part in parts:
         its_header, its_states = read(part)
         by_run += its_header["settings"].pop("by_run", [])

@@ -45,16 +45,18 @@ def check_moves(
             f" {allowed[run, move]:.3g} for such a command"
         )
         raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    moves = commands, achieved, executed
     if last is not None:
-        moves = tuple(np.concatenate(parts, axis=1) for parts in zip(last, moves, strict=True))
-    sent, came = (np.abs(np.diff(poses, axis=1)).max(axis=-1) for poses in moves[:2])
-    stuck = (sent > MOVED) & (came < STUCK) & moves[2][:, 1:] & moves[2][:, :-1]
+        commands, achieved, executed = (
+            np.concatenate(parts, axis=1)
+            for parts in zip(last, (commands, achieved, executed), strict=True)
+        )
+    sent, came = (np.abs(np.diff(poses, axis=1)).max(axis=-1) for poses in (commands, achieved))
+    stuck = (sent > MOVED) & (came < STUCK) & executed[:, 1:] & executed[:, :-1]
     for run, move in np.argwhere(stuck)[:1]:
         which = f"move {move + (last is None)} of run {run}"
         valid = "another pose than the move before it, whose command was another one"
-        raise BadMeasurement(which, moves[1][run, move + 1], valid)
-    return tuple(part[:, -1:] for part in moves)
+        raise BadMeasurement(which, achieved[run, move + 1], valid)
+    return commands[:, -1:], achieved[:, -1:], executed[:, -1:]
 
 
 def check_pose(measured: np.ndarray, near: np.ndarray) -> None:
@@ -79,4 +81,4 @@ def check_pose(measured: np.ndarray, near: np.ndarray) -> None:
 
 def _is_rotation(pose: np.ndarray) -> bool:
     turn = pose[:3, :3]
-    return np.abs(turn @ turn.T - np.eye(3)).max() < SKEW and np.linalg.det(turn) > 0
+    return bool(np.abs(turn @ turn.T - np.eye(3)).max() < SKEW and np.linalg.det(turn) > 0)

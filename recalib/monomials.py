@@ -32,7 +32,7 @@ def _factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @compiled
-def _products(points, shorter, last):
+def _products(points: np.ndarray, shorter: np.ndarray, last: np.ndarray) -> np.ndarray:
     products = np.empty((len(points), len(shorter)))
     for row in range(len(points)):
         products[row, 0] = 1
@@ -42,7 +42,7 @@ def _products(points, shorter, last):
 
 
 @compiled
-def _sums(products, weights):
+def _sums(products: np.ndarray, weights: np.ndarray) -> np.ndarray:
     sums = np.zeros((len(products), weights.shape[1]))
     for row in range(len(products)):
         for index in range(len(weights)):

@@ -44,3 +44,4 @@ _DEGREE = math.pi / 180
 LENGTH = Quantity("a length", {"mm": 1e-3, "cm": 1e-2, "m": 1.0})
 ANGLE = Quantity("an angle", {"deg": _DEGREE, "rad": 1.0})
 COMPLIANCE = Quantity("a compliance", {"deg/Nm": _DEGREE, "rad/Nm": 1.0})
+TIME = Quantity("a time", {"ms": 1e-3, "s": 1.0, "min": 60.0})

@@ -10,7 +10,7 @@ def nearest(word: str, valid: Iterable[str]) -> str | None:
     """The valid word that is the fewest edits away, if those are at most a third of the word."""
     near = [other for other in valid if 3 * abs(len(word) - len(other)) <= len(word)]
     edits = {other: _edits(word, other) for other in near}
-    best = min(edits, key=edits.get, default=None)
+    best = min(edits, key=lambda other: edits[other], default=None)
     return best if best is not None and 3 * edits[best] <= len(word) else None
 
 

@@ -11,7 +11,7 @@ from recalib.errors import InvalidFile
 IN_THE_MAKING = ".part"
 
 
-def read_file(path: str | os.PathLike, most: int) -> bytes:
+def read_file(path: str | os.PathLike[str], most: int) -> bytes:
     """The bytes of a file.
 
     Args:
@@ -36,7 +36,7 @@ def read_file(path: str | os.PathLike, most: int) -> bytes:
 
 
 @contextmanager
-def whole(path: str | Path) -> Iterator[Path]:
+def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path beside `path`, with its suffix.
 
     It takes the place of `path` when the block ends without an error.

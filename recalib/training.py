@@ -1,14 +1,18 @@
-"""The trial loop: a learner drives robots, pose after pose, and is measured on other poses."""
+"""The trial loop: a learner drives robots, pose after pose, and is measured on other poses.
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+Afterwards its commands are `corrected`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
 from recalib.interfaces import Commandable, Learner
-from recalib.nominal.poses import pose_errors
+from recalib.nominal.poses import Workspace, pose_errors
 
-SUMMARIES = {
+SUMMARIES: Mapping[str, Callable[[np.ndarray], np.ndarray]] = {
     "": lambda errors: errors.mean(axis=-1),
     "_p95": lambda errors: np.percentile(errors, 95, axis=-1),
     "_max": lambda errors: errors.max(axis=-1),
@@ -17,7 +21,7 @@ SUMMARIES = {
 
 @dataclass(frozen=True)
 class History:
-    """What was measured, and when.
+    """What was measured, and when; where one robot was trained by itself, without the run axis.
 
     Attributes:
         iterations, moves: (measurement,) done before each measurement, in each run.
@@ -33,9 +37,24 @@ class History:
     position: np.ndarray
     orientation: np.ndarray
 
+    @property
+    def position_error(self) -> np.ndarray:
+        """Mean position errors (run, measurement) in m."""
+        return self.position[..., 0]
+
+    @property
+    def orientation_error(self) -> np.ndarray:
+        """Mean orientation errors (run, measurement) in rad."""
+        return self.orientation[..., 0]
+
+    def of_run(self, run: int) -> Self:
+        """That of one of several runs."""
+        parts = {name: getattr(self, name)[run] for name in ("refused", "position", "orientation")}
+        return replace(self, **parts)
+
     def columns(self) -> dict[str, np.ndarray]:
         """A table by its columns, a row for each run and measurement; errors in cm and degrees."""
-        runs = len(self.position)
+        runs = self.refused.size // len(self.iterations)
         table = {
             "run": np.repeat(np.arange(runs), len(self.iterations)),
             "iteration": np.tile(self.iterations, runs),
@@ -62,9 +81,10 @@ def measure(
     """
     achieved, _ = plant.achieve(learner.command(tests))
     errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
-    return tuple(
+    position, orientation = (
         np.stack([summary(its) for summary in SUMMARIES.values()], axis=-1) for its in errors
     )
+    return position, orientation
 
 
 def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:
@@ -92,14 +112,17 @@ def train(
     Args:
         plant: the robots.
         learner: that drives them.
-        desired: (run, iteration, 6) poses to learn from.
-        tests: (run, pose, 6) poses to measure on.
+        desired: (run, iteration, 6) poses to learn from; for one robot, (iteration, 6).
+        tests: (run, pose, 6) poses to measure on; for one robot, (pose, 6).
         measure_at: numbers of iterations after which learning is interrupted for a measurement; 0
             is before the first.
         progress: called after each measurement with the iteration and the mean errors over runs in
             cm and degrees.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
     """
+    if desired.ndim == 2:
+        poses = desired[None], tests[None]
+        return train(plant, learner, *poses, measure_at, progress, error).of_run(0)
     iterations = desired.shape[1]
     position, orientation, moves, refused = [], [], [], []
     for iteration in range(iterations + 1):
@@ -114,3 +137,13 @@ def train(
             learner.learn(desired[:, iteration], plant.execute, iteration / iterations)
     by_run = (np.stack(measured, axis=1) for measured in (refused, position, orientation))
     return History(np.array(sorted(measure_at)), np.array(moves), *by_run)
+
+
+def corrected(learner: Learner, workspace: Workspace, poses: np.ndarray) -> np.ndarray:
+    """Pose commands (n, 4, 4) [m] that take the tool of one robot to desired poses (n, 4, 4) [m].
+
+    Args:
+        learner: that learned on this robot, in one run.
+        workspace: of the robot.
+    """
+    return workspace.to_poses(learner.command(workspace.to_coordinates(poses)[None])[0])

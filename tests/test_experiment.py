@@ -8,13 +8,14 @@ from recalib.interfaces import Outcome
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED
 from recalib.learners.schedules import Schedule
-from recalib.training import SUMMARIES, measuring_grid, train
+from recalib.nominal.poses import position_error
+from recalib.training import SUMMARIES, corrected, measuring_grid, train
 
 WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
 
 
 def learner(runs):
-    return HierarchicalLearner(runs, IMPROVED, Schedule(4.0, WIDTHS, 0.8, 0.4))
+    return HierarchicalLearner(IMPROVED, Schedule(4.0, WIDTHS, 0.8, 0.4), runs=runs)
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +26,7 @@ def poses():
 
 @pytest.fixture(scope="module")
 def history(controller, damaged, poses):
-    return train(Plant(controller, [damaged]), learner(3), *poses, measuring_grid(60, 4, 200, 50))
+    return train(Plant(controller, damaged), learner(3), *poses, measuring_grid(60, 4, 200, 50))
 
 
 def test_learning_reduces_both_errors_of_every_run(history):
@@ -93,12 +94,27 @@ def test_the_first_measurement_is_of_the_uncorrected_robot(history, controller, 
 
 
 def test_a_run_does_not_depend_on_the_runs_beside_it(history, controller, damaged, poses):
-    alone = train(Plant(controller, [damaged]), learner(1), poses[0][2:], poses[1][2:], [60])
+    alone = train(Plant(controller, damaged), learner(1), poses[0][2:], poses[1][2:], [60])
     assert np.allclose(alone.position[0, -1], history.position[2, -1], rtol=1e-9)
 
 
+def test_one_robot_has_no_run_axis(history, controller, damaged, poses):
+    plant, alone = Plant(controller, damaged), learner(1)
+    of_one = train(plant, alone, poses[0][2], poses[1][2], history.iterations)
+    among = history.of_run(2)
+    assert np.allclose(of_one.position, among.position, rtol=1e-9)
+    assert of_one.refused.shape == of_one.position_error.shape == (len(history.iterations),)
+    assert np.array_equal(of_one.position_error, of_one.position[:, 0])
+    assert np.array_equal(of_one.orientation_error, of_one.orientation[:, 0])
+    assert len(pd.DataFrame(of_one.columns())) == len(history.iterations)
+    workspace = controller.robot.workspace
+    desired = workspace.to_poses(poses[1][2])
+    reached = damaged.forward(controller.inverse(corrected(alone, workspace, desired)))
+    assert position_error(reached, desired).mean() == pytest.approx(of_one.position_error[-1])
+
+
 def test_measuring_teaches_nothing(history, controller, damaged, poses):
-    seldom = train(Plant(controller, [damaged]), learner(3), *poses, [60])
+    seldom = train(Plant(controller, damaged), learner(3), *poses, [60])
     assert np.allclose(seldom.position[:, -1], history.position[:, -1], rtol=1e-12)
 
 
@@ -110,14 +126,14 @@ def test_runs_may_have_robots_of_their_own(controller, robot, damaged, poses):
 def test_refused_moves_are_counted_and_the_run_goes_on(controller, damaged, poses):
     desired = poses[0].copy()
     desired[1, 5, :3] = 20  # five metres away
-    plant = Plant(controller, [damaged])
+    plant = Plant(controller, damaged)
     history = train(plant, learner(3), desired, poses[1], [0, 5, 6, 60])
     assert history.refused[1].tolist() == [0, 0, 2, 2] and not history.refused[[0, 2]].any()
     assert history.position[1, -1, 0] < 0.3 * history.position[1, 0, 0]
 
 
 def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
-    plant = Plant(controller, [damaged])
+    plant = Plant(controller, damaged)
     achieved, executed = plant.achieve(np.array([[[20.0, 0, 0, 0, 0, 0]]]))
     assert not executed.any()
     assert np.allclose(achieved[0, 0], damaged.forward(controller.robot.home[None])[0])

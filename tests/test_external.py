@@ -37,7 +37,7 @@ def test_refused_moves_are_counted_and_leave_the_robot_at_home(robot):
 def test_it_takes_the_place_of_a_plant(robot):
     rng = np.random.default_rng(2)
     desired, tests = WORKSPACE.sample(rng, 2, 30), 0.4 * WORKSPACE.sample(rng, 2, 20)
-    history = train(robot, PolynomialLearner(2, degree=1), desired, tests, [0, 30])
+    history = train(robot, PolynomialLearner(degree=1, runs=2), desired, tests, [0, 30])
     assert history.position[:, 0, 0] == pytest.approx(np.hypot(0.01, 0.02))
     assert history.position[:, 1, 2].max() < 1e-4
     assert history.moves.tolist() == [0, 30] and (history.refused[:, 1] > 0).all()

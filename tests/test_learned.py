@@ -17,11 +17,12 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
 from recalib.interfaces import Outcome
-from recalib.learned import KINDS, VERSION, join, read, save
+from recalib.learned import VERSION, join, read, save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner
+from recalib.learners.kinds import KINDS
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
@@ -52,7 +53,7 @@ def makers(controller) -> dict:
 @pytest.fixture(scope="module")
 def plant(controller, robot) -> Plant:
     """A robot with something for a Gaussian process, too."""
-    return Plant(controller, [apply(robot, [EccentricGear("elbow_joint", 0.02)])])
+    return Plant(controller, apply(robot, [EccentricGear("elbow_joint", 0.02)]))
 
 
 def train(learner, plant, moves, first=0, run=slice(None)):
@@ -64,7 +65,7 @@ def train(learner, plant, moves, first=0, run=slice(None)):
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("moves", [0, 19])
 def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_path):
-    learner = train(makers[kind](RUNS), plant, moves)
+    learner = train(makers[kind](runs=RUNS), plant, moves)
     save(tmp_path / "a.npz", learner, robot)
     loaded = load(tmp_path / "a.npz", robot)
     assert type(loaded) is type(learner)
@@ -79,7 +80,7 @@ def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_
 def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
     paths = [tmp_path / f"{run}.npz" for run in range(RUNS)]
     for run, path in enumerate(paths):
-        save(path, train(makers[kind](1), plant, 5 + run, run=[run]), robot)
+        save(path, train(makers[kind](), plant, 5 + run, run=[run]), robot)
     join(tmp_path / "both.npz", paths)
     for run, path in enumerate(paths):
         alone, taken = load(path, robot), load(tmp_path / "both.npz", robot, run)
@@ -90,7 +91,7 @@ def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
 
 def test_a_run_that_learned_nothing_is_kept_as_it_is(makers, plant, robot, tmp_path):
     for kind in ("gaussian_process", "hybrid"):
-        learner = makers[kind](RUNS)
+        learner = makers[kind](runs=RUNS)
 
         def refuse_the_first(commands):
             outcome = plant.execute(commands)
@@ -105,7 +106,7 @@ def test_a_run_that_learned_nothing_is_kept_as_it_is(makers, plant, robot, tmp_p
 
 def test_the_file_of_another_learner_cannot_be_joined(makers, robot, tmp_path):
     for degree in (1, 2):
-        save(tmp_path / f"{degree}.npz", PolynomialLearner(1, degree), robot)
+        save(tmp_path / f"{degree}.npz", PolynomialLearner(degree), robot)
     with pytest.raises(InvalidFile, match=r"2\.npz: it is of another learner"):
         join(tmp_path / "both.npz", [tmp_path / "1.npz", tmp_path / "2.npz"])
     assert not (tmp_path / "both.npz").exists()
@@ -145,21 +146,21 @@ def otherwise(robot, change):
     ],
 )
 def test_another_robot_is_refused_with_what_differs(change, robot, tmp_path):
-    save(tmp_path / "a.npz", PolynomialLearner(1, 1), robot)
+    save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     other, message = otherwise(robot, change)
     with pytest.raises(OtherRobot, match=rf"a\.npz is of another robot: its {message}"):
         load(tmp_path / "a.npz", other)
 
 
 def test_another_name_is_no_other_robot(robot, tmp_path):
-    save(tmp_path / "a.npz", PolynomialLearner(1, 1), robot)
+    save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))
 
 
 @pytest.mark.parametrize("left", [0.0, 0.01, 0.5, 0.99, 0.9999])
 def test_a_truncated_file_is_refused_by_its_name(left, robot, tmp_path):
     path = tmp_path / "a.npz"
-    save(path, PolynomialLearner(3, 2), robot)
+    save(path, PolynomialLearner(2, runs=3), robot)
     path.write_bytes(path.read_bytes()[: int(left * path.stat().st_size)])
     with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole"):
         load(path, robot)
@@ -183,7 +184,7 @@ def test_a_file_of_something_else_is_refused_by_its_name(robot, tmp_path):
 
 def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     path = tmp_path / "a.npz"
-    save(path, PolynomialLearner(1, 1), robot)
+    save(path, PolynomialLearner(1), robot)
     arrays = dict(np.load(path))
     header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
@@ -196,7 +197,7 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
 @pytest.fixture(scope="module", params=KINDS)
 def written(request, makers, plant, robot, tmp_path_factory):
     path = tmp_path_factory.mktemp("written") / "a.npz"
-    save(path, train(makers[request.param](RUNS), plant, 7), robot)
+    save(path, train(makers[request.param](runs=RUNS), plant, 7), robot)
     return path
 
 
@@ -242,12 +243,12 @@ def test_runs_keep_the_schedules_of_their_own_and_the_rules_that_they_share(robo
             learner.learn(desired[runs, move], bend, move / 10)
         return learner
 
-    together = go_on(HierarchicalLearner(3, rules, own), [0, 1, 2], range(5))
+    together = go_on(HierarchicalLearner(rules, own, runs=3), [0, 1, 2], range(5))
     save(tmp_path / "together.npz", together, robot)
     paths = [tmp_path / "first.npz", tmp_path / "others.npz"]
     for path, runs in zip(paths, ([0], [1, 2]), strict=True):
         parts = [together.schedule.of_run(run) for run in runs]
-        learner = HierarchicalLearner(len(runs), rules, Schedule.of_runs(parts))
+        learner = HierarchicalLearner(rules, Schedule.of_runs(parts), runs=len(runs))
         save(path, go_on(learner, runs, range(5)), robot)
     join(tmp_path / "all.npz", paths)
     joined = load(tmp_path / "all.npz", robot)

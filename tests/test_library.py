@@ -1,5 +1,6 @@
 """The library by itself: its public names, its examples, and its wheel where nothing else is."""
 
+import ast
 import importlib
 import importlib.metadata
 import inspect
@@ -36,6 +37,48 @@ def test_a_public_name_has_a_home_and_says_what_it_is(name):
 def test_an_unknown_name_is_no_attribute():
     with pytest.raises(ImportError, match="cannot import name 'trian'"):
         from recalib import trian  # noqa: F401
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "examples").glob("*.py")), ids=lambda its: its.stem)
+def test_an_example_needs_the_public_names_alone(path):
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            modules = {alias.name for alias in node.names}
+        else:
+            modules = {node.module} if isinstance(node, ast.ImportFrom) else set()
+        assert not {module for module in modules if module.startswith("recalib.")}
+        if modules == {"recalib"} and isinstance(node, ast.ImportFrom):
+            assert {alias.name for alias in node.names} <= {*recalib.__all__}
+        if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "recalib":
+            assert node.attr in recalib.__all__
+
+
+MISUSE = """
+import recalib
+from recalib.damaged.fleet import Fleet
+
+def robots(one: recalib.Plant, several: Fleet, own: recalib.ExternalRobot) -> None:
+    taken: list[recalib.Commandable] = [one, several, own]
+
+recalib.Controller(3, nonsense=4)
+recalib.load_robott("ur10_robot.urdf")
+"""
+
+
+@pytest.mark.slow
+def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examples(tmp_path):
+    pytest.importorskip("mypy", reason="needs mypy, of the extra dev")
+    (tmp_path / "misuse.py").write_text(MISUSE)
+    ran = subprocess.run(
+        [sys.executable, "-m", "mypy", "examples", tmp_path / "misuse.py"],
+        cwd=ROOT,
+        text=True,
+        capture_output=True,
+    )
+    faults = [line.split(":")[:2] for line in ran.stdout.splitlines() if ": error:" in line]
+    misuse = str(tmp_path / "misuse.py")
+    assert faults == [[misuse, "8"], [misuse, "8"], [misuse, "9"]], ran.stdout
+    assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
 
 
 def test_the_packages_come_with_the_names_that_need_them():

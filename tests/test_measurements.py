@@ -57,7 +57,7 @@ LEARNERS = "maps", "affine", "quadratic", "gaussian_process", "geometric", "hybr
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e7])
 @pytest.mark.parametrize("name", LEARNERS)
 def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, executed, makers):
-    learner = makers[name](RUNS)
+    learner = makers[name](runs=RUNS)
     before = learner.command(TESTS)
 
     def execute(commands):
@@ -84,7 +84,7 @@ SPOILT = {
 @pytest.mark.parametrize("spoil", SPOILT.values(), ids=SPOILT)
 @pytest.mark.parametrize("name", LEARNERS)
 def test_no_learner_takes_what_no_damage_explains(name, spoil, makers):
-    learner, poses = makers[name](RUNS), np.random.default_rng(4).uniform(-1, 1, (8, RUNS, 6))
+    learner, poses = makers[name](runs=RUNS), np.random.default_rng(4).uniform(-1, 1, (8, RUNS, 6))
 
     def learn():
         for step, desired in enumerate(poses):
@@ -112,7 +112,7 @@ def test_what_the_study_does_is_taken():
 
 @pytest.mark.parametrize("name", LEARNERS)
 def test_a_learner_survives_equal_poses(name, makers):
-    learner = makers[name](RUNS)
+    learner = makers[name](runs=RUNS)
     for step in range(20):
         learner.learn(
             DESIRED,

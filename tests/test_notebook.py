@@ -40,7 +40,7 @@ def test_five_moves_are_compared_with_two_hundred_iterations(cells):
 
 
 def test_what_is_drawn_ends_where_the_tool_arrives(cells):
-    wanted = cells["wanted"][0, 0, [0, 2], 3]
+    wanted = cells["wanted"][0, [0, 2], 3]
     ends = {name: np.linalg.norm(points[-1] - wanted) for name, points in cells["real"].items()}
     assert np.allclose(cells["believed"][-1], wanted, atol=1e-5)
     assert all(100 * ends[name] <= miss + 1e-6 for name, miss in cells["misses"].items())
@@ -55,4 +55,4 @@ def test_at_the_ends_of_the_sliders_the_arm_learns_as_well(notebook, cells, end)
     assert moved["damaged"].offsets.any() and moved["misses"] != cells["misses"]
     for history in moved["histories"].values():
         assert not history.refused.any()
-        assert history.position[0, -1, 0] < 0.15 * history.position[0, 0, 0]
+        assert history.position_error[-1] < 0.15 * history.position_error[0]

@@ -6,7 +6,7 @@ These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Literal, Self, get_args
 
 import numpy as np
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from recalib.nominal.robots import Robot
 
 
-ALONG = "line", "axis"  # in which a link is shortened
+Along = Literal["line", "axis"]  # in which a link is shortened
 
 
 @dataclass
@@ -71,6 +71,7 @@ class DamagedArm:
         return sum((deflection(shifted, torques) for deflection in self.deflections), start=shifted)
 
 
+@dataclass(frozen=True)
 class Damage(Described):
     """Anything that can happen to an arm. A new one is a class like these, listed in `kinds`."""
 
@@ -126,16 +127,16 @@ class LinkShortening(Damage):
 
     link: str = said("link", "A link of the robot.")
     length: float = said("shorten", "Length taken off.", LENGTH)
-    along: Literal[ALONG] = said(
+    along: Along = said(  # noqa: RUF009  # that makes a field
         "along",
         "The straight line between its joints, or the axis of its frame along which it is longest.",
         default="line",
     )
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
-        if self.along not in ALONG:
-            raise UnknownName("direction in which a link is shortened", self.along, ALONG)
+        if self.along not in get_args(Along):
+            raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
 
     def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
         from recalib.nominal.robots import link_end

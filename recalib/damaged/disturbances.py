@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from recalib.quantities import ANGLE, LENGTH
 
 @dataclass(frozen=True)
 class Noise(Described):
-    """Standard deviations of each measurement."""
+    """Standard deviations of each measurement of a pose."""
 
     under = "noise"
     position: float = said("position", "Along each axis.", LENGTH)
@@ -36,7 +37,7 @@ class Outliers(Described):
     share: float = said("share", "Of all measurements.")
     size: float = said("size", "By how much they miss the true position.", LENGTH)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
         if self.share > 1:
             raise InvalidSetting("Outliers.share", self.share, "from 0 to 1")
@@ -53,7 +54,8 @@ class Disturbances:
     @classmethod
     def of(cls, parts: Iterable[Noise | Repeatability | Outliers]) -> "Disturbances":
         """Those that are among the parts, one of a kind."""
-        return cls(**{type(part).__name__.lower(): part for part in parts})
+        by_name: dict[str, Any] = {type(part).__name__.lower(): part for part in parts}
+        return cls(**by_name)  # of what kind each is, its name says
 
     def of_joints(
         self, generators: Sequence[np.random.Generator], shape: tuple[int, int]

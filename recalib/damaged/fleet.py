@@ -7,6 +7,7 @@ import numpy as np
 from recalib.damaged.plant import Plant
 from recalib.interfaces import Outcome
 from recalib.nominal.controller import Controller, Targets
+from recalib.nominal.poses import Workspace
 
 
 class Fleet:
@@ -23,7 +24,7 @@ class Fleet:
         self._controller, self._plants = controller, plants
 
     @property
-    def workspace(self):
+    def workspace(self) -> Workspace:
         """The workspace in whose coordinates commands and achieved poses are given."""
         return self._controller.robot.workspace
 

@@ -1,6 +1,6 @@
 """Damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from recalib.damaged.disturbances import Disturbances
 from recalib.interfaces import ForwardKinematics, Outcome
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
+from recalib.nominal.poses import Workspace
 
 
 class Plant:
@@ -16,8 +17,8 @@ class Plant:
 
     Args:
         controller: the nominal controller, which knows of no damage.
-        arms: a damaged one for each run, or a single one for all runs, which may be the twin of a
-            real one.
+        arms: a damaged one for each run, or a single one for all runs, which may be anything that
+            moves, such as the twin of a real one.
         disturbances: of the executed moves; none unless given.
         generators: their randomness, one for each run.
 
@@ -29,19 +30,20 @@ class Plant:
     def __init__(
         self,
         controller: Controller,
-        arms: Sequence[DamagedArm] | Sequence[ForwardKinematics],
+        arms: ForwardKinematics | Sequence[DamagedArm],
         disturbances: Disturbances | None = None,
         generators: Sequence[np.random.Generator] = (),
     ):
-        self._controller, self._arms = controller, arms
+        self._controller = controller
         self._disturbances, self._generators = disturbances, generators
-        alone = len(arms) == 1
-        self._together = None if alone else Chain.side_by_side([arm.chain for arm in arms])
-        self._home = [arm.forward(controller.robot.home[None])[0] for arm in arms]
-        self.moves = self.refused = 0
+        self._forward = _forward(arms)
+        different = 1 if isinstance(arms, ForwardKinematics) else len(arms)
+        self._home = self._forward(np.tile(controller.robot.home, (different, 1, 1)))
+        self.moves = 0
+        self.refused: np.ndarray | int = 0
 
     @property
-    def workspace(self):
+    def workspace(self) -> Workspace:
         """The workspace in whose coordinates commands and achieved poses are given."""
         return self._controller.robot.workspace
 
@@ -71,15 +73,22 @@ class Plant:
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
         """As `achieve`, for commands that the controller has turned into joint angles."""
         angles, executed = targets
-        runs, moves, _ = angles.shape
-        if self._together is None:
-            poses = (
-                self._arms[0].forward(angles.reshape(runs * moves, -1)).reshape(runs, moves, 4, 4)
-            )
-        else:
-            standing = [arm.standing(own) for arm, own in zip(self._arms, angles, strict=True)]
-            poses = self._together.forward(np.stack(standing))
+        poses = self._forward(angles)
         if not executed.all():
-            homes = np.broadcast_to(np.stack(self._home)[:, None], poses.shape)
+            homes = np.broadcast_to(self._home, poses.shape)
             poses[~executed] = homes[~executed]
         return poses, executed
+
+
+def _forward(
+    arms: ForwardKinematics | Sequence[DamagedArm],
+) -> Callable[[np.ndarray], np.ndarray]:
+    """From joint angles (run, move, joint) [rad] to poses (run, move, 4, 4) [m]."""
+    if isinstance(arms, ForwardKinematics):
+        return lambda angles: arms.forward(angles.reshape(-1, angles.shape[-1])).reshape(
+            *angles.shape[:-1], 4, 4
+        )
+    chain = Chain.side_by_side([arm.chain for arm in arms])
+    return lambda angles: chain.forward(
+        np.stack([arm.standing(own) for arm, own in zip(arms, angles, strict=True)])
+    )

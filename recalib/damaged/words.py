@@ -46,6 +46,7 @@ def said(
     return dataclasses.field(default=default, metadata={"word": word})
 
 
+@dataclass(frozen=True)
 class Described:
     """Base of frozen dataclasses whose fields are `said`: words and SI units.
 
@@ -57,7 +58,7 @@ class Described:
 
     under: ClassVar[str | None] = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name, word in words(type(self)).items():
             for amount in _numbers(getattr(self, name)):
                 if not math.isfinite(amount) or (amount < 0 and not word.signed):

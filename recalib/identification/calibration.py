@@ -9,9 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
-from recalib.identification.frames import Frames
-from recalib.identification.linearised import displacements
+from recalib.identification.frames import HELD, Frames
+from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
+from recalib.identification.parameters import Parameter, parameters_of, table_of
 from recalib.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
@@ -20,7 +21,7 @@ from recalib.regression import Process, is_time_to_search
 
 STEPS = 10
 TOLERANCE = 1e-9  # m, rad
-FEWEST = 16  # measurements to see a pattern in what a model leaves
+FEWEST = 16  # measurements to see a pattern in residuals
 MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
 # A gain in log evidence, over the root of the number of further parameters, that is no chance.
 CONVINCING = 2.5
@@ -28,18 +29,18 @@ CONVINCING = 2.5
 
 @dataclass(frozen=True)
 class Calibration:
-    """An error model with its parameters identified, and a Gaussian process of what it leaves.
+    """An error model with its parameters identified, and a Gaussian process of its residuals.
 
     Attributes:
         model: the error model.
         estimate: what is known of its parameters.
-        residual: from joint angles [rad] to displacements over the estimate's noise; None where
-            nothing is left but noise.
+        pattern: from joint angles [rad] to residuals over the estimate's noise; None where these
+            are noise.
     """
 
     model: ErrorModel
     estimate: Estimate
-    residual: Process | None = None
+    pattern: Process | None = None
 
     def forward(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].
@@ -54,12 +55,12 @@ class Calibration:
     def forward_and_jacobian(self, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, joints) of the arm standing there.
 
-        They leave out that joint errors and the residual change with the joints, too: slowly.
+        They leave out that joint errors and the pattern change with the joints, too: slowly.
         """
         poses, jacobians = self._arm.forward_and_jacobian(self._standing(joints))
         return self._moved(poses, joints), jacobians
 
-    def seen(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
+    def predict(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
         """Poses (n, 4, 4) of targets in the frame of the instrument [m]: what it should measure.
 
         Args:
@@ -68,27 +69,22 @@ class Calibration:
         """
         return self._shifted(self.model.predict(self.estimate.parameters, joints, targets), joints)
 
-    def seen_and_jacobian(
+    def predict_and_jacobian(
         self, joints: np.ndarray, targets: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Poses (n, 4, 4) as `seen`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
+        """Poses (n, 4, 4) as `predict`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
         standing = self._standing(joints)
         jacobians = np.empty((len(joints), 6, joints.shape[1]))
         for target in np.unique(targets):
             rows = targets == target
             arm = self.model.arm(self.estimate.parameters, target)
             _, jacobians[rows] = arm.forward_and_jacobian(standing[rows])
-        return self.seen(joints, targets), jacobians
+        return self.predict(joints, targets), jacobians
 
-    def misses(self, seen: Observations) -> np.ndarray:
-        """What takes what it predicts to what was seen: (n, 3) m, or (n, 6) m and rad.
-
-        Along the axes of the instrument.
-        """
-        measured = seen.measured
-        if measured is None:
-            measured = self.frames.sockets[seen.sockets]
-        return displacements(self.seen(seen.joints, seen.targets), measured)
+    def residuals(self, observations: Observations) -> np.ndarray:
+        """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
+        predicted = self.predict(observations.joints, observations.targets)
+        return displacements(predicted, observations.reached(self.frames.sockets))
 
     def spreads(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
         """How far off (n,) [m] what is measured of positions should be, root mean square.
@@ -103,6 +99,28 @@ class Calibration:
         unknown = np.sum((rows @ estimate.covariance) * rows, axis=(1, 2))
         return np.sqrt(unknown + 3 * estimate.noise[0] ** 2)
 
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """What is known of each parameter that is not held at nominal, by name."""
+        every = zip(parameters_of(self.model, self.estimate), self.model.deviations, strict=True)
+        return {its.name: its for its, before in every if before > HELD}
+
+    def summary(self) -> str:
+        """A page of text: how it was found, and the parameters that are surely not zero."""
+        estimate, (position, *orientation) = self.estimate, self.estimate.noise
+        noise = [f"{1e3 * position:.3g} mm", *(f"{np.degrees(x):.3g} deg" for x in orientation)]
+        doubted = int(np.sum(estimate.weights < DOUBTFUL))
+        return "\n".join(
+            [
+                f"observations: {len(estimate.weights)}, of which {doubted} are doubted",
+                f"noise along an axis: {', '.join(noise)}",
+                f"residuals: noise{' and a pattern, which is predicted' if self.pattern else ''}",
+                f"converged: {'yes' if estimate.converged else 'no'}",
+                "",
+                table_of(self.parameters.values()),
+            ]
+        )
+
     @cached_property
     def frames(self) -> Frames:
         """Where the instrument stands and where the targets sit."""
@@ -116,17 +134,17 @@ class Calibration:
         return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
 
     def _moved(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
-        """By what is left of the first target, as the instrument would see it."""
-        if self.residual is None:
+        """By the pattern of the first target, as the instrument would see it."""
+        if self.pattern is None:
             return poses
         base, target = self.frames.base, self.frames.targets[0]
         shifted = self._shifted(base @ poses @ target, joints)
         return np.linalg.inv(base) @ shifted @ np.linalg.inv(target)
 
     def _shifted(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
-        if self.residual is None:
+        if self.pattern is None:
             return poses
-        by = self.residual.predict(joints) * np.repeat(self.estimate.noise, 3)
+        by = self.pattern.predict(joints) * np.repeat(self.estimate.noise, 3)
         moved = poses.copy()
         moved[:, :3, 3] += by[:, :3]
         if by.shape[1] == 6:
@@ -139,16 +157,16 @@ class Calibration:
             "terms": np.array(self.model.names),
             "frames": vars(self.model.frames),
             "estimate": vars(self.estimate),
-            "residual": self.residual and self.residual.state(),
+            "residual": self.pattern and self.pattern.state(),
         }
 
     @classmethod
     def restore(cls, arm: Arm, state: State) -> "Calibration":
         """What `state` returned, for the same nominal arm."""
         terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
-        estimate, residual = Estimate(**state["estimate"]), state.get("residual")
+        estimate, pattern = Estimate(**state["estimate"]), state.get("residual")
         model = ErrorModel(arm, terms, Frames(**state["frames"]))
-        return cls(model, estimate, residual and Process(**residual))
+        return cls(model, estimate, pattern and Process(**pattern))
 
 
 def angles_for(
@@ -165,20 +183,19 @@ def angles_for(
         start: (run, n, joints) rad, m nearby.
     """
 
-    def look(runs, angles):
-        each = (
-            calibrations[run].forward_and_jacobian(own)
-            for run, own in zip(runs, angles, strict=True)
-        )
-        return tuple(map(np.stack, zip(*each, strict=True)))
+    def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pairs = zip(runs, angles, strict=True)
+        found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
+        poses, jacobians = map(np.stack, zip(*found, strict=True))
+        return poses, jacobians
 
-    return solve_groups(look, poses, start, TOLERANCE, STEPS)[0]
+    return solve_groups(kinematics, poses, start, TOLERANCE, STEPS)[0]
 
 
 def calibrate(
     arm: Arm,
     candidates: Sequence[JointTerms],
-    seen: Observations,
+    observations: Observations,
     frames: Frames | None = None,
     last: Calibration | None = None,
     weights: np.ndarray | None = None,
@@ -186,31 +203,32 @@ def calibrate(
     """The calibration of a nominal arm by the most probable of several error models.
 
     A model with more terms has to be far more probable: where geometry is all that is wrong, only
-    geometry is used. What the model leaves goes to a Gaussian process if that is more probable than
-    noise.
+    geometry is used. Its residuals go to a Gaussian process if that is more probable than noise.
 
     Args:
         candidates: joint terms of the error models, the simplest first.
-        seen: what is known of it.
+        observations: of it.
         frames: at both ends of the arm; the instrument's is that of its base, and the target its
             tool, unless given.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
             process are kept until the number of measurements has doubled.
-        weights: (n,) of what was seen, in the first step; see `identify`.
+        weights: (n,) of the observations, in the first step; see `identify`.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
-    best = _most_probable(arm, candidates, seen, frames, last and last.estimate, weights)
-    search = is_time_to_search(0 if last is None else len(last.estimate.weights), len(seen))
-    if not (search or last.residual):
+    start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
+    best = _most_probable(arm, candidates, observations, frames, start, weights)
+    if is_time_to_search(before, len(observations)):
+        return _with_pattern(best, observations, None)
+    if last is None or last.pattern is None:
         return best
-    return _with_residual(best, seen, None if search else last.residual.hyperparameters)
+    return _with_pattern(best, observations, last.pattern.hyperparameters)
 
 
 def calibrate_again(
     whole: Calibration,
     candidates: Sequence[JointTerms],
-    seen: Observations,
+    observations: Observations,
     weights: np.ndarray | None = None,
 ) -> Calibration:
     """A calibration as another, from other observations; both choices are made anew.
@@ -221,29 +239,32 @@ def calibrate_again(
     Raises BadMeasurement, as `calibrate`.
     """
     model = whole.model
-    found = _most_probable(model.nominal, candidates, seen, model.frames, None, weights)
-    if whole.residual is None:
+    found = _most_probable(model.nominal, candidates, observations, model.frames, None, weights)
+    if whole.pattern is None:
         return found
-    return _with_residual(found, seen, whole.residual.hyperparameters)
+    return _with_pattern(found, observations, whole.pattern.hyperparameters)
 
 
 def _most_probable(
     arm: Arm,
     candidates: Sequence[JointTerms],
-    seen: Observations,
+    observations: Observations,
     frames: Frames | None,
     start: Estimate | None,
     weights: np.ndarray | None,
 ) -> Calibration:
     """The calibration of the error model that is chosen; see `calibrate`."""
-    best = None
-    for terms in candidates:
+
+    def identified(terms: JointTerms) -> Calibration:
         model = ErrorModel(arm, terms, frames)
-        estimate = identify(model, seen, start, weights)
-        if best is None or estimate.log_evidence - best.estimate.log_evidence > _chance(
-            best.model, model
-        ):
-            best = Calibration(model, estimate)
+        return Calibration(model, identify(model, observations, start, weights))
+
+    best = identified(candidates[0])
+    for terms in candidates[1:]:
+        richer = identified(terms)
+        gain = richer.estimate.log_evidence - best.estimate.log_evidence
+        if gain > _chance(best.model, richer.model):
+            best = richer
     return best
 
 
@@ -255,22 +276,16 @@ def _chance(poorer: ErrorModel, richer: ErrorModel) -> float:
     return CONVINCING * np.sqrt(richer.size - poorer.size)
 
 
-def _with_residual(
-    calibration: Calibration, seen: Observations, hyperparameters: np.ndarray | None
+def _with_pattern(
+    calibration: Calibration, observations: Observations, hyperparameters: np.ndarray | None
 ) -> Calibration:
-    """With a process of what it leaves, if there is enough of it and it is no noise."""
+    """With a process of its residuals, if there are enough of them and they are no noise."""
     estimate = calibration.estimate
-    if np.sum(estimate.weights > DOUBTFUL) < FEWEST or np.all(estimate.noise <= LEAST_NOISE):
+    noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)
+    if len(good) < FEWEST or np.all(noise <= LEAST_NOISE):
         return calibration
-    process = _process(calibration, seen, hyperparameters)
-    return replace(calibration, residual=process) if process.gain > 0 else calibration
-
-
-def _process(
-    calibration: Calibration, seen: Observations, hyperparameters: np.ndarray | None
-) -> Process:
-    good = np.flatnonzero(calibration.estimate.weights > DOUBTFUL)
     if len(good) > MOST:
         good = np.sort(generator(0, "residual").permutation(good)[:MOST])
-    misses = calibration.misses(seen[good]) / np.repeat(calibration.estimate.noise, 3)
-    return Process(seen.joints[good], misses, hyperparameters)
+    residuals = calibration.residuals(observations[good]) / np.repeat(noise, 3)
+    process = Process(observations.joints[good], residuals, hyperparameters)
+    return replace(calibration, pattern=process) if process.gain > 0 else calibration

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.frames import BASE, HELD, LINK, UNKNOWN, Frames, nearest_rotation
-from recalib.identification.linearised import LEVER
+from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
 
 OPEN = 1e-2  # a singular value so small, over the largest, leaves a direction open
@@ -31,7 +31,7 @@ GUESSED = UNKNOWN[0], HELD  # of a point: it has no turn
 
 def solutions(
     tool: np.ndarray,
-    seen: Observations,
+    observations: Observations,
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> Iterator[Frames]:
@@ -39,27 +39,29 @@ def solutions(
 
     Args:
         tool: (n, 4, 4) m, nominal poses.
-        seen: what was seen there.
+        observations: what was measured there.
         base: (4, 4) m in the frame of the instrument, where it is known.
         target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
     """
-    if seen.measured is None:
-        yield _by_sockets(tool, seen, target)
+    if observations.sockets is not None:
+        yield _by_sockets(tool, observations, observations.sockets, target)
+    elif base is not None and target is not None:
+        yield Frames(base, np.tile(target, (observations.targets.max() + 1, 1, 1)))
     elif target is not None:
-        yield _aligned(tool @ target, seen, target)
+        yield _aligned(tool @ target, observations, target)
     elif base is not None:
-        yield _placed(base[:3, :3], tool, seen, base)
+        yield _placed(base[:3, :3], tool, observations, base)
     else:
-        by_poses = turns_by_poses(tool, seen) if seen.kinds == 2 else []
-        for turn in by_poses or _turns_by_positions(tool, seen):
-            yield _placed(turn, tool, seen, None)
+        by_poses = turns_by_poses(tool, observations) if observations.kinds == 2 else []
+        for turn in by_poses or _turns_by_positions(tool, observations):
+            yield _placed(turn, tool, observations, None)
 
 
-def turns_by_poses(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
-    """The rotation (3, 3) of X, from the target that was seen most often; none if it is open."""
-    rows = seen.targets == np.bincount(seen.targets).argmax()
+def turns_by_poses(tool: np.ndarray, observations: Observations) -> list[np.ndarray]:
+    """The rotation (3, 3) of X, from the target that is measured most often; none if open."""
+    rows = observations.targets == np.bincount(observations.targets).argmax()
     # of X R_i = Y_i Z' in the least squares sense, with the rows of each matrix in one vector
-    products = np.einsum("nij,nkl->ikjl", seen.measured[rows, :3, :3], tool[rows, :3, :3])
+    products = np.einsum("nij,nkl->ikjl", observations.rotations[rows], tool[rows, :3, :3])
     left, values, _ = np.linalg.svd(products.reshape(9, 9))
     if values[1] >= UNDECIDED * values[0]:
         return []
@@ -67,41 +69,41 @@ def turns_by_poses(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
     return [nearest_rotation(turn * np.sign(np.linalg.det(turn)))]
 
 
-def _turns_by_positions(tool: np.ndarray, seen: Observations) -> list[np.ndarray]:
+def _turns_by_positions(tool: np.ndarray, observations: Observations) -> list[np.ndarray]:
     """Rotations (3, 3) of X from positions: as if z_k were zero, and as if it were any matrix."""
-    turns, points, count = tool[:, :3, :3], tool[:, :3, 3], len(seen)
-    measured = seen.positions
+    turns, points, count = tool[:, :3, :3], tool[:, :3, 3], len(observations)
+    measured = observations.positions
     # X' y - R_i z_k + b = t_i
     matrix = np.kron(np.eye(3), measured[:, None]).reshape(count, 3, 9)
     unit = np.tile(np.eye(3), (count, 1, 1))
-    system = np.concatenate([matrix, unit, _by_number(-turns, seen.targets)], axis=-1)
+    system = np.concatenate([matrix, unit, _by_number(-turns, observations.targets)], axis=-1)
     back = _least_squares(system, points)[:9].reshape(3, 3)
     return [nearest_rotation(_across(measured, points)), nearest_rotation(back).T]
 
 
-def _aligned(target_poses: np.ndarray, seen: Observations, target: np.ndarray) -> Frames:
+def _aligned(target_poses: np.ndarray, observations: Observations, target: np.ndarray) -> Frames:
     """By the nominal poses (n, 4, 4) of a target whose place on the tool is known."""
     points = target_poses[:, :3, 3]
-    across = _across(seen.positions, points)
-    if seen.kinds == 2:
-        turned = seen.measured[:, :3, :3] @ target_poses[:, :3, :3].swapaxes(1, 2)
+    across = _across(observations.positions, points)
+    if observations.kinds == 2:
+        turned = observations.rotations @ target_poses[:, :3, :3].swapaxes(1, 2)
         across = across + LEVER**2 * turned.sum(axis=0)
     base = np.eye(4)
     base[:3, :3] = nearest_rotation(across)
-    base[:3, 3] = (seen.positions - points @ base[:3, :3].T).mean(axis=0)
-    targets = np.tile(target, (seen.targets.max() + 1, 1, 1))
+    base[:3, 3] = (observations.positions - points @ base[:3, :3].T).mean(axis=0)
+    targets = np.tile(target, (observations.targets.max() + 1, 1, 1))
     return Frames(base, targets, base_deviations=UNKNOWN, base_unknown=True)
 
 
 def _placed(
-    turn: np.ndarray, tool: np.ndarray, seen: Observations, known: np.ndarray | None
+    turn: np.ndarray, tool: np.ndarray, observations: Observations, known: np.ndarray | None
 ) -> Frames:
     """By the rotation (3, 3) of X, or all of it: y_i - X t_i = x + X R_i z_k."""
     turned = turn @ tool[:, :3, :3]
-    goal = seen.positions - tool[:, :3, 3] @ turn.T
-    system = _by_number(turned, seen.targets)
+    goal = observations.positions - tool[:, :3, 3] @ turn.T
+    system = _by_number(turned, observations.targets)
     if known is None:
-        unit = np.tile(np.eye(3), (len(seen), 1, 1))
+        unit = np.tile(np.eye(3), (len(observations), 1, 1))
         found = _least_squares(np.concatenate([unit, system], axis=-1), goal).reshape(-1, 3)
         base, points = np.eye(4), found[1:]
         base[:3, :3], base[:3, 3] = turn, found[0]
@@ -109,30 +111,34 @@ def _placed(
         base, points = known, _least_squares(system, goal - known[:3, 3]).reshape(-1, 3)
     targets = np.tile(np.eye(4), (len(points), 1, 1))
     targets[:, :3, 3] = points
-    if seen.kinds == 2:
-        between = turned.swapaxes(1, 2) @ seen.measured[:, :3, :3]
+    if observations.kinds == 2:
+        between = turned.swapaxes(1, 2) @ observations.rotations
         for number, own in enumerate(targets):
-            turns = Rotation.from_matrix(between[seen.targets == number])
+            turns = Rotation.from_matrix(between[observations.targets == number])
             own[:3, :3] = turns.mean().as_matrix()
     return Frames(
         base,
         targets,
         base_deviations=UNKNOWN if known is None else BASE,
-        target_deviations=UNKNOWN if seen.kinds == 2 else GUESSED,
+        target_deviations=UNKNOWN if observations.kinds == 2 else GUESSED,
         base_unknown=known is None,
         targets_unknown=True,
     )
 
 
-def _by_sockets(tool: np.ndarray, seen: Observations, target: np.ndarray | None) -> Frames:
+def _by_sockets(
+    tool: np.ndarray, observations: Observations, numbers: np.ndarray, target: np.ndarray | None
+) -> Frames:
     """The frames of balls, and the centres of sockets in the arm's base: c_s - R_i z_k = t_i."""
-    unit = np.tile(np.eye(3), (len(seen), 1, 1))
-    targets = np.tile(np.eye(4) if target is None else target, (seen.targets.max() + 1, 1, 1))
-    centres = _by_number(unit, seen.sockets)
+    unit = np.tile(np.eye(3), (len(observations), 1, 1))
+    targets = np.tile(
+        np.eye(4) if target is None else target, (observations.targets.max() + 1, 1, 1)
+    )
+    centres = _by_number(unit, numbers)
     if target is not None:
         sockets = _least_squares(centres, (tool @ target)[:, :3, 3]).reshape(-1, 3)
         return Frames(np.eye(4), targets, sockets, (HELD, HELD), LINK, base_unknown=True)
-    system = np.concatenate([_by_number(-tool[:, :3, :3], seen.targets), centres], axis=-1)
+    system = np.concatenate([_by_number(-tool[:, :3, :3], observations.targets), centres], axis=-1)
     found = _least_squares(system, tool[:, :3, 3]).reshape(-1, 3)
     targets[:, :3, 3], sockets = found[: len(targets)], found[len(targets) :]
     return Frames(np.eye(4), targets, sockets, (HELD, HELD), GUESSED, True, True)

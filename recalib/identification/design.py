@@ -32,11 +32,11 @@ def most_telling(
     Yields each one's number, and the covariance (P, P) of the parameters once it is measured.
     """
     rows, covariance = _rows(calibration, joints), calibration.estimate.covariance
-    left = np.ones(len(rows), dtype=bool)
+    unused = np.ones(len(rows), dtype=bool)
     for _ in range(min(count, len(rows))):
         spreads = _spreads(rows, covariance)
-        best = int(np.where(left, _gains(spreads), -np.inf).argmax())
-        left[best] = False
+        best = int(np.where(unused, _gains(spreads), -np.inf).argmax())
+        unused[best] = False
         told = rows[best] @ covariance
         covariance = covariance - told.T @ np.linalg.solve(spreads[best], told)  # Woodbury
         yield best, covariance

@@ -6,7 +6,7 @@ The parameters are small and zero for the nominal arm. In their order:
   link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
   is the only target where frames are known.
-- centres (socket, 3): by how much [m] the sockets are beside their first guess.
+- centres (socket, 3): by how much [m] the sockets are beside their initial estimate.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -15,7 +15,7 @@ share directions where joint axes are parallel or meet. No measurement tells suc
 the prior keeps them small.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import reduce
 from operator import or_
@@ -29,7 +29,7 @@ from recalib.nominal.kinematics import Arm, tool_frame
 # By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
 # for each joint (n, joints), and the standard deviation of its coefficients before anything is
 # known, of all joints or of each.
-JointTerms = Mapping[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
+JointTerms = dict[str, tuple[Callable[[Arm, np.ndarray], np.ndarray], float | np.ndarray]]
 
 
 def held(terms: JointTerms, joints: np.ndarray) -> JointTerms:
@@ -181,7 +181,7 @@ class ErrorModel:
         if found.targets_unknown:
             ends = zip(twists[self._joints :], self._placements[self._joints :], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
-            found = replace(found, targets=np.array([each.homogeneous for each in targets]))
+            found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
@@ -252,8 +252,8 @@ class ErrorModel:
         return poses, jacobians
 
 
-def _by_target(targets: np.ndarray | None, count: int):
-    """Each target that is seen, with its rows."""
+def _by_target(targets: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
+    """Each target that is measured, with its rows."""
     if targets is None or not np.any(targets):
         return [(0, slice(count))]
     return [(target, np.flatnonzero(targets == target)) for target in np.unique(targets)]

@@ -22,9 +22,9 @@ import scipy.linalg
 from scipy.special import chdtri
 
 from recalib.errors import BadMeasurement
-from recalib.identification.checks import check_observations
 from recalib.identification.error_model import ErrorModel
-from recalib.identification.linearised import Linearised
+from recalib.identification.input_checks import check_observations
+from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
@@ -71,11 +71,11 @@ class Estimate:
 
 def identify(
     model: ErrorModel,
-    seen: Observations,
+    observations: Observations,
     start: Estimate | None = None,
     weights: np.ndarray | None = None,
 ) -> Estimate:
-    """The parameters of the model that explain what was seen.
+    """The parameters of the model that explain the observations.
 
     Args:
         start: an estimate to start from, for speed; the nominal arm unless given. It may be that
@@ -84,52 +84,51 @@ def identify(
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
-    check_observations(seen, model)
-    scale, kinds = model.deviations, seen.kinds
+    check_observations(observations, model)
+    scale, kinds = model.deviations, observations.kinds
     parameters, variances = _initial(model, start)
     noise = np.full(kinds, FIRST_NOISE)
-    weights = np.ones(len(seen)) if weights is None else weights
+    weights = np.ones(len(observations)) if weights is None else weights
     limit = chdtri(3 * kinds, 1 - GOOD)
-    terms = model.terms(seen.joints)
-    sparse, diagonal, near = ~model.free, np.diag_indices(len(scale)), None
+    terms = model.terms(observations.joints)
+    sparse, diagonal = ~model.free, np.diag_indices(len(scale))
     precision = np.empty((len(scale),) * 2)
-    for step in range(STEPS):
-        if near is None or not near.is_good_at(parameters, NEGLIGIBLE * noise.min()):
-            near = None  # of two there is no room for
-            near = Linearised(model, parameters, seen, terms)
-        if step > 0:
-            weights = limit / np.maximum(_squares(near.residuals, noise), limit)
+    linear = Linearisation(model, parameters, observations, terms)
+    for iteration in range(STEPS):
+        if not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
+            del linear  # there is no room for two
+            linear = Linearisation(model, parameters, observations, terms)
+        if iteration > 0:
+            weights = limit / np.maximum(_squares(linear.residuals, noise), limit)
         # The most probable parameters, given noise, weights and variances ...
-        information, pull = near.normal_equations(weights)
+        information, gradient = linear.normal_equations(weights)
         np.einsum("k,kpq->pq", noise**-2, information, out=precision)
-        pull = noise**-2 @ pull - parameters / variances
-        if seen.distances:
-            known, stretch = _distances(model, parameters, seen)
+        gradient = noise**-2 @ gradient - parameters / variances
+        if observations.distances:
+            known, stretch = _distances(model, parameters, observations)
             precision += known
-            pull += stretch
+            gradient += stretch
         precision[diagonal] += 1 / variances
         try:
-            change, length, covariance, volume = _posterior(precision, pull)
+            step, step_norm, covariance, volume = _posterior(precision, gradient)
         except ValueError:  # what is far off has led to where nothing can be told any more
             row = weights.argmin()
             valid = "what the same arm explains as the others"
-            numbers = seen.joints[row] if seen.measured is None else np.ravel(seen.measured[row])
-            raise BadMeasurement(f"measurement {row}", numbers, valid) from None
-        parameters = parameters + change
-        near.move(change)
+            values = observations.joints if observations.measured is None else observations.measured
+            raise BadMeasurement(f"measurement {row}", np.ravel(values[row]), valid) from None
+        parameters = parameters + step
+        linear.move(step)
         # ... and then noise and variances, given the parameters.
-        taken = np.einsum("pq,kpq->k", covariance, information) / noise**2
-        last_noise, noise = (
-            noise,
-            _noise(near.residuals, weights, taken, robust=step < ROBUST_STEPS),
-        )
+        effective_dof = np.einsum("pq,kpq->k", covariance, information) / noise**2
+        last_noise, robust = noise, iteration < ROBUST_STEPS
+        noise = _noise(linear.residuals, weights, effective_dof, robust)
         common = (COMMON + sparse.sum()) / (COMMON + np.sum(1 / variances[sparse]))
         variances = _variances(model, parameters, np.diag(covariance), common)
-        settled = length < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
-        if converged := settled and step >= ROBUST_STEPS:
+        settled = step_norm < CONVERGED and np.allclose(noise, last_noise, rtol=CONVERGED, atol=0)
+        if converged := settled and not robust:
             break
     log_evidence = (
-        _log_likelihood(near.residuals, noise, limit)
+        _log_likelihood(linear.residuals, noise, limit)
         + _log_prior(parameters, variances, sparse, common)
         + volume
     )
@@ -144,23 +143,23 @@ def identify(
 
 
 def _posterior(
-    precision: np.ndarray, pull: np.ndarray
+    precision: np.ndarray, gradient: np.ndarray
 ) -> tuple[np.ndarray, float, np.ndarray, float]:
-    """The change of the parameters (P,) for a pull (P,), and what is left unknown of them.
+    """The step of the parameters (P,) for a gradient (P,), and what is left unknown of them.
 
     The precision (P, P) is overwritten: to find room for large matrices takes as long as to fill
     them.
 
-    Returns the change, its length in posterior deviations, the covariance (P, P), and the logarithm
-    of the volume that the posterior leaves.
+    Returns the step, its norm in posterior deviations, the covariance (P, P), and the logarithm of
+    the volume that the posterior leaves.
     """
     factor = scipy.linalg.cholesky(precision.T, overwrite_a=True)
-    change = scipy.linalg.cho_solve((factor, False), pull)
-    length, volume = np.linalg.norm(factor @ change), -np.log(np.diag(factor)).sum()
+    step = scipy.linalg.cho_solve((factor, False), gradient)
+    step_norm, volume = float(np.linalg.norm(factor @ step)), -np.log(np.diag(factor)).sum()
     upper, _ = scipy.linalg.lapack.dpotri(factor, overwrite_c=True)
     covariance = upper + upper.T
     np.fill_diagonal(covariance, np.diag(upper))
-    return change, length, covariance, volume
+    return step, step_norm, covariance, volume
 
 
 def _initial(model: ErrorModel, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
@@ -185,12 +184,12 @@ def _variances(
 
 
 def _distances(
-    model: ErrorModel, parameters: np.ndarray, seen: Observations
+    model: ErrorModel, parameters: np.ndarray, observations: Observations
 ) -> tuple[np.ndarray, np.ndarray]:
     """What known distances between sockets add to the normal equations: (P, P) and (P,)."""
-    information, pull = np.zeros((len(parameters),) * 2), np.zeros(len(parameters))
+    information, gradient = np.zeros((len(parameters),) * 2), np.zeros(len(parameters))
     centres = model.sockets(parameters * model.deviations)
-    for one, other, length, deviation in seen.distances:
+    for one, other, length, deviation in observations.distances:
         between = centres[one] - centres[other]
         apart = np.linalg.norm(between)
         slope = np.zeros_like(parameters)
@@ -198,8 +197,8 @@ def _distances(
         by_centre[one], by_centre[other] = between / apart, -between / apart
         slope *= model.deviations
         information += np.outer(slope, slope) / deviation**2
-        pull += slope * (length - apart) / deviation**2
-    return information, pull
+        gradient += slope * (length - apart) / deviation**2
+    return information, gradient
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
@@ -227,14 +226,14 @@ def _log_prior(
 
 
 def _noise(
-    residuals: np.ndarray, weights: np.ndarray, taken: np.ndarray, robust: bool
+    residuals: np.ndarray, weights: np.ndarray, effective_dof: np.ndarray, robust: bool
 ) -> np.ndarray:
     """Standard deviations (kind,) of the noise along an axis.
 
     Args:
         residuals: (kind, n, 3) m and rad.
         weights: (n,) of the measurements; their squares leave nothing of a gross outlier.
-        taken: (kind,) degrees of freedom that the parameters use.
+        effective_dof: (kind,) degrees of freedom that the parameters use.
         robust: to go by medians, which outliers do not move.
     """
     squares = np.square(residuals).sum(axis=-1)
@@ -244,7 +243,7 @@ def _noise(
     else:
         count = 3 * np.sum(weights**2)
         total = squares @ weights**2
-    free = np.maximum(count - taken, 1e-3 * count)
+    free = np.maximum(count - effective_dof, 1e-3 * count)
     return np.maximum(
         np.sqrt((total + SHARED * total.sum() / free.sum()) / (free + SHARED)), LEAST_NOISE
     )

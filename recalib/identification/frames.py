@@ -8,7 +8,7 @@ import numpy as np
 # do to the base of an arm and to a link.
 BASE = 0.05, np.radians(5)  # m, rad
 LINK = 0.02, np.radians(0.5)
-UNKNOWN = 0.5, np.radians(30)  # of what nobody knows, around a first guess
+UNKNOWN = 0.5, np.radians(30)  # of what nobody knows, around an initial estimate
 HELD = 1e-9  # of what no observation can tell: it stays as it is
 
 
@@ -17,17 +17,17 @@ class Frames:
     """The frames at both ends of the arm, as they are before anything is identified.
 
     Where one is known, what the arm's base or its last link is found to be beside it is an error of
-    the arm. Where it is not, that is a better guess of it, and the arm's own base or last link
+    the arm. Where it is not, that is a better estimate of it, and the arm's own base or last link
     stays nominal: nobody could tell.
 
     Attributes:
         base: (4, 4) m, the pose of the arm's base in the frame of the instrument.
         targets: (target, 4, 4) m, their poses in the frame of the tool.
-        sockets: (socket, 3) m, guesses of their centres in the frame of the instrument, which is
+        sockets: (socket, 3) m, estimates of their centres in the frame of the instrument, which is
             the arm's base there.
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
-        base_unknown, targets_unknown: whether they are guesses.
+        base_unknown, targets_unknown: whether they are estimates.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))

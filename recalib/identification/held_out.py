@@ -1,4 +1,4 @@
-"""What an identification misses on rows that it was not made from.
+"""Cross-validation: the errors of an identification on rows that it was not made from.
 
 Each row is held out in two ways: in a random part of all postures, and with those that are near it
 in joint space, where what was learned has to reach farther. A posture is held out as a whole, with
@@ -12,7 +12,7 @@ import numpy as np
 from scipy.cluster.vq import kmeans, vq
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.linearised import LEVER
+from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
 from recalib.identification.postures import Postures
 from recalib.randomness import generator
@@ -26,25 +26,25 @@ Fit = Callable[[Observations, np.ndarray], Calibration]
 
 @dataclass(frozen=True)
 class HeldOut:
-    """What was missed at each row by an identification without it.
+    """The residuals of each row, of an identification without it.
 
     Attributes:
-        misses: (n, 3) m, or (n, 6) m and rad, along the axes of the instrument.
-        spreads: (n,) m, by how much it should have missed; see `Calibration.spreads`.
+        residuals: (n, 3) m, or (n, 6) m and rad, along the axes of the instrument.
+        spreads: (n,) m, how far off it should be; see `Calibration.spreads`.
         folds: (n,) the number of the part in which a row was held out.
     """
 
-    misses: np.ndarray
+    residuals: np.ndarray
     spreads: np.ndarray
     folds: np.ndarray
 
     def __getitem__(self, rows: np.ndarray) -> "HeldOut":
-        return HeldOut(self.misses[rows], self.spreads[rows], self.folds[rows])
+        return HeldOut(self.residuals[rows], self.spreads[rows], self.folds[rows])
 
     @property
     def errors(self) -> np.ndarray:
         """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
-        return np.linalg.norm(self.misses.reshape(len(self.misses), -1, 3), axis=2)
+        return np.linalg.norm(self.residuals.reshape(len(self.residuals), -1, 3), axis=2)
 
     @property
     def losses(self) -> np.ndarray:
@@ -55,7 +55,7 @@ class HeldOut:
         """The radius that covers 95 % of measured positions in each part, over their spreads.
 
         The spreads know of noise and of what data left open, not of what no parameter can hold:
-        that is in what was missed (split conformal prediction, Lei et al. 2018). Where parts lie
+        that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
         apart, that differs from one to the next, and a new place may be as bad as the worst.
         """
         ratios = self.errors[:, 0] / self.spreads
@@ -76,43 +76,43 @@ def _covering(ratios: np.ndarray) -> float:
     return float(np.sort(ratios)[rank - 1])
 
 
-def random_folds(seen: Observations, postures: Postures) -> np.ndarray:
+def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
     """The number (n,) of the part that each row is in, with each target or socket in all of them.
 
     As far as it can be: of a posture, all rows are in one part.
     """
-    random, shown = generator(0, "folds"), seen.groups[postures.first]
+    rng, shown = generator(0, "folds"), observations.groups[postures.first]
 
     def deal(some: np.ndarray) -> np.ndarray:
-        order, parts = random.permutation(len(some)), np.empty(len(some), dtype=int)
+        order, parts = rng.permutation(len(some)), np.empty(len(some), dtype=int)
         by_target = order[np.argsort(shown[some[order]], kind="stable")]
         parts[by_target] = np.arange(len(some)) % FOLDS
         return parts
 
-    return _divided(seen, postures, deal)
+    return _divided(observations, postures, deal)
 
 
-def blocks(seen: Observations, postures: Postures) -> np.ndarray:
+def blocks(observations: Observations, postures: Postures) -> np.ndarray:
     """Likewise, of parts that lie together in joint space."""
-    random, joints = generator(0, "blocks"), seen.joints[postures.first]
+    rng, joints = generator(0, "blocks"), observations.joints[postures.first]
     scaled = joints / np.where(postures.still, np.inf, joints.std(axis=0))
 
     def cluster(some: np.ndarray) -> np.ndarray:
-        centres, _ = kmeans(scaled[some], min(FOLDS, len(some)), rng=random)
+        centres, _ = kmeans(scaled[some], min(FOLDS, len(some)), rng=rng)
         return vq(scaled[some], centres)[0]
 
-    return _divided(seen, postures, cluster)
+    return _divided(observations, postures, cluster)
 
 
 def _divided(
-    seen: Observations, postures: Postures, divide: Callable[[np.ndarray], np.ndarray]
+    observations: Observations, postures: Postures, divide: Callable[[np.ndarray], np.ndarray]
 ) -> np.ndarray:
     """The part (n,) of each row, by what divides postures (their numbers) into parts.
 
     A target or a socket of which all would be in one part is divided by itself: without any row,
     nobody knows where it is.
     """
-    parts, groups = divide(np.arange(len(postures))), seen.groups
+    parts, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):
         its = np.unique(postures.numbers[groups == group])
         if np.ptp(parts[its]) == 0:
@@ -120,12 +120,15 @@ def _divided(
     return parts[postures.numbers]
 
 
-def hold_out(fit: Fit, seen: Observations, weights: np.ndarray, folds: np.ndarray) -> HeldOut:
-    """Identify without each fold in turn, and look at what is missed there."""
-    misses, spreads = np.empty((len(seen), 3 * seen.kinds)), np.empty(len(seen))
+def hold_out(
+    fit: Fit, observations: Observations, weights: np.ndarray, folds: np.ndarray
+) -> HeldOut:
+    """Identify without each fold in turn, and predict it."""
+    count = len(observations)
+    residuals, spreads = np.empty((count, 3 * observations.kinds)), np.empty(count)
     for fold in np.unique(folds):
         held = folds == fold
-        calibration, asked = fit(seen[~held], weights[~held]), seen[held]
-        misses[held] = calibration.misses(asked)
+        calibration, asked = fit(observations[~held], weights[~held]), observations[held]
+        residuals[held] = calibration.residuals(asked)
         spreads[held] = calibration.spreads(asked.joints, asked.targets)
-    return HeldOut(misses, spreads, folds)
+    return HeldOut(residuals, spreads, folds)

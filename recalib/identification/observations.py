@@ -1,4 +1,4 @@
-"""What was seen of an arm: the joint coordinates in which its controller believed, and the rest.
+"""What was measured of an arm, at the joint coordinates in which its controller believed.
 
 Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
 position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which
@@ -23,46 +23,66 @@ class Distance(NamedTuple):
 
 @dataclass(frozen=True)
 class Observations:
-    """What was seen of an arm.
+    """What was measured of an arm.
 
     Attributes:
         joints: (n, joints) rad, or m where a joint slides, in which the controller believed.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None where a ball sat in sockets.
-        targets: (n,) the number of the target, or of the ball, that was seen; 0 unless given.
+        targets: (n,) the number of the target, or of the ball; 0 unless given.
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
+        times: (n,) s, which do not decrease; None where nobody wrote them down.
     """
 
     joints: np.ndarray
     measured: np.ndarray | None = None
-    targets: np.ndarray = None
+    targets: np.ndarray = None  # type: ignore[assignment]  # __post_init__ puts zeros there
     sockets: np.ndarray | None = None
     distances: Sequence[Distance] = field(default=())
+    times: np.ndarray | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.targets is None:
             object.__setattr__(self, "targets", np.zeros(len(self.joints), dtype=int))
 
     def __len__(self) -> int:
         return len(self.joints)
 
-    def __getitem__(self, rows: np.ndarray) -> "Observations":
-        """Some of the rows, by their numbers or by a mask."""
-        parts = {"joints": self.joints[rows], "targets": self.targets[rows]}
-        for name in ("measured", "sockets"):
-            if getattr(self, name) is not None:
-                parts[name] = getattr(self, name)[rows]
-        return replace(self, **parts)
+    def __getitem__(self, rows: np.ndarray | slice) -> "Observations":
+        """Some of the rows, by their numbers, by a mask or by a slice."""
+
+        def some(its: np.ndarray | None) -> np.ndarray | None:
+            return None if its is None else its[rows]
+
+        return replace(
+            self,
+            joints=self.joints[rows],
+            measured=some(self.measured),
+            targets=self.targets[rows],
+            sockets=some(self.sockets),
+            times=some(self.times),
+        )
 
     @property
     def positions(self) -> np.ndarray:
-        """What was measured (n, 3) [m], without orientations."""
+        """What was measured (n, 3) [m], without orientations; not of balls in sockets."""
+        assert self.measured is not None
         return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
 
     @property
+    def rotations(self) -> np.ndarray:
+        """Orientations (n, 3, 3) that were measured, where kinds are 2."""
+        assert self.measured is not None
+        return self.measured[:, :3, :3]
+
+    def reached(self, sockets: np.ndarray) -> np.ndarray:
+        """Where the targets were, as `measured`; in sockets, by their centres (socket, 3) [m]."""
+        return sockets[self.sockets] if self.measured is None else self.measured
+
+    @property
     def kinds(self) -> int:
-        """Of what is seen in a row: 2 for position and orientation, 1 for a position alone."""
+        """Of what is measured in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
 
     @property

@@ -1,9 +1,9 @@
 """What the order of the rows tells: poses that lag behind the joints, a drift, a jump in between.
 
-Rows that were written down one after the other show such faults in what an arm leaves of them. Each
-fault is tried as further parameters beside those of the arm: by how much of a step every pose is
-late, or how the instrument moves against the base as time goes by, or from some row on. What no arm
-could explain instead, and what is too much for chance, is named.
+Rows that were written down one after the other show such faults in their residuals. Each fault is
+tried as further parameters beside those of the arm: by how much of a step every pose is late, or
+how the instrument moves against the base as time goes by, or from some row on. What no arm could
+explain instead, and what is too much for chance, is named.
 """
 
 from dataclasses import dataclass
@@ -14,15 +14,16 @@ from scipy.special import fdtrc
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import JOINT_ERRORS, ErrorModel
-from recalib.identification.linearised import Linearised, displacements
+from recalib.identification.linearisation import Linearisation, displacements
 from recalib.identification.observations import Observations
+from recalib.identification.postures import find_postures
 
 LAG, DRIFT, JUMP = "lag", "drift", "jump"
-CHANCE = 1e-6  # with which what is named would be there by chance, were all that is left noise
-SHARE = 0.15  # of what is left of the squares; real arms leave more than noise
+CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
+SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
 MOST = 3  # faults at once
 ENDS = 10  # rows on either side of a jump
-SMALL = 1e-3  # of a step: for slopes
+SMALL = 1e-3  # of the typical step: for slopes
 
 
 @dataclass(frozen=True)
@@ -31,8 +32,9 @@ class Fault:
 
     Attributes:
         kind: lag, drift or jump.
-        size: of a lag, by how much of a step to it poses are late; otherwise m, by how much the
-            instrument moves against the base, over all rows or at once.
+        size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
+            of the step to each; otherwise m, by how much the instrument moves against the base,
+            from the first row to the last or at once.
         row: from 0, the first one after a jump.
     """
 
@@ -41,7 +43,7 @@ class Fault:
     row: int = 0
 
 
-def faults(geometry: Calibration, seen: Observations, counted: np.ndarray) -> list[Fault]:
+def faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
     """What the rows show by their order, if that is the order in which they were measured.
 
     Args:
@@ -51,50 +53,57 @@ def faults(geometry: Calibration, seen: Observations, counted: np.ndarray) -> li
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
-    near = Linearised(model, parameters / model.deviations, seen, model.terms(seen.joints))
+    terms = model.terms(observations.joints)
+    linear = Linearisation(model, parameters / model.deviations, observations, terms)
     weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
-    residuals = np.concatenate([*near.residuals], axis=1) * weights
-    arm = np.concatenate([*near.jacobians], axis=1) * weights[..., None]
-    late = _late(geometry, seen)[..., None] * weights[..., None]
-    moved = _moved(geometry, seen) * weights[..., None]
-    times = np.arange(len(seen))[:, None, None]
-    drifted = moved * times / len(seen)
+    residuals = np.concatenate([*linear.residuals], axis=1) * weights
+    arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
+    times = np.arange(len(observations)) if observations.times is None else observations.times
+    late = _late(geometry, observations, times)[..., None] * weights[..., None]
+    moved = _moved(geometry, observations) * weights[..., None]
+    drifted = moved * ((times - times[0]) / np.ptp(times))[:, None, None]
+    slides = model.nominal.slides
+    postures = find_postures(observations.joints, slides, estimate.noise[0])
+    alike = len(observations) / len(postures)
     found: list[Fault] = []
-    while len(found) < MOST:  # the plainest first, then what it leaves
-        left = _Left(residuals, arm)
+    while len(found) < MOST:  # the plainest first, then what it does not explain
+        rest = _Unexplained(residuals, arm, alike)
         tried = [
-            left.plainest(LAG, late),
-            left.plainest(DRIFT, drifted),
-            left.plainest(JUMP, moved, ENDS),
+            rest.plainest(LAG, late),
+            rest.plainest(DRIFT, drifted),
+            rest.plainest(JUMP, moved, ENDS),
         ]
         share, fault = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
         found.append(fault)
-        columns = {LAG: late, DRIFT: drifted, JUMP: moved * (times >= fault.row)}[fault.kind]
+        jumped = moved * (np.arange(len(observations)) >= fault.row)[:, None, None]
+        columns = {LAG: late, DRIFT: drifted, JUMP: jumped}[fault.kind]
         arm = np.concatenate([arm, columns], axis=2)
     return found
 
 
-class _Left:
-    """What an arm leaves of weighted rows, and what further parameters would explain of it.
+class _Unexplained:
+    """What an arm does not explain of weighted rows, and what further parameters would.
 
     Args:
         residuals: (n, k) over their noise.
         arm: (n, k, P) their slopes by parameters over their deviations.
+        alike: rows to a posture. What no model explains is the same in all of them, so they are
+            one where chance is asked for.
     """
 
-    def __init__(self, residuals: np.ndarray, arm: np.ndarray):
-        self._residuals, self._arm = residuals, arm
-        self._pull = np.einsum("nkp,nk->p", arm, residuals)
+    def __init__(self, residuals: np.ndarray, arm: np.ndarray, alike: float):
+        self._residuals, self._arm, self._alike = residuals, arm, alike
+        self._gradient = np.einsum("nkp,nk->p", arm, residuals)
         rows = arm.reshape(-1, arm.shape[-1])
         information = rows.T @ rows
         self._factor = scipy.linalg.cho_factor(information + np.eye(len(information)))
-        self._squares = np.sum(residuals**2) - self._pull @ self._solve(self._pull)
+        self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
     def plainest(self, kind: str, columns: np.ndarray, ends: int = 0) -> tuple[float, Fault]:
-        """Its share of the squares that are left, 0 where that may be chance, and the fault.
+        """Its share of the unexplained squares, 0 where that may be chance, and the fault.
 
         Args:
             columns: (n, k, c) slopes of the residuals by the fault's parameters.
@@ -109,14 +118,14 @@ class _Left:
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:
             return 0.0, Fault(kind, 0.0)
-        own, across, pull = (np.cumsum(each[::-1], axis=0)[::-1][rows] for each in products)
+        own, across, gradient = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
         own = own - absorbed @ across.swapaxes(1, 2)
-        pull = pull - absorbed @ self._pull
-        found = (np.linalg.pinv(own, hermitian=True) @ pull[..., None])[..., 0]
-        gains = np.sum(found * pull, axis=1)
+        gradient = gradient - absorbed @ self._gradient
+        found = (np.linalg.pinv(own, hermitian=True) @ gradient[..., None])[..., 0]
+        gains = np.sum(found * gradient, axis=1)
         best, count = int(gains.argmax()), columns.shape[-1]
-        gain, free = gains[best], self._free - count
+        gain, free = gains[best], (self._free - count) / self._alike
         ratio = gain / count / (self._squares - gain) * free
         size = found[best, 0] if kind == LAG else np.linalg.norm(found[best, :3])
         plain = fdtrc(count, free, ratio) * len(rows) < CHANCE
@@ -126,19 +135,23 @@ class _Left:
         return scipy.linalg.cho_solve(self._factor, pulls)
 
 
-def _late(geometry: Calibration, seen: Observations) -> np.ndarray:
-    """What takes the targets back along the step to each row, over the step (n, k) [m, rad]."""
-    steps = np.diff(seen.joints, axis=0, prepend=seen.joints[:1])
-    here = geometry.seen(seen.joints, seen.targets)
-    before = geometry.seen(seen.joints - SMALL * steps, seen.targets)
-    return displacements(here, before)[:, : 3 * seen.kinds] / SMALL
+def _late(geometry: Calibration, observations: Observations, times: np.ndarray) -> np.ndarray:
+    """How targets go back with time (n, k) [m, rad], at the speed of the step to each row."""
+    times, first, numbers = np.unique(times, return_index=True, return_inverse=True)
+    lasted = np.diff(times)  # of rows at one time all are as fast
+    speeds = np.diff(observations.joints[first], axis=0) / lasted[:, None]
+    speeds = np.concatenate([0 * speeds[:1], speeds])[numbers]
+    small = SMALL * np.median(lasted)
+    here = geometry.predict(observations.joints, observations.targets)
+    before = geometry.predict(observations.joints - small * speeds, observations.targets)
+    return displacements(here, before)[:, : 3 * observations.kinds] / small
 
 
-def _moved(geometry: Calibration, seen: Observations) -> np.ndarray:
+def _moved(geometry: Calibration, observations: Observations) -> np.ndarray:
     """What moves of the instrument by 1 m and 1 rad, about the middle, do to rows (n, k, 6)."""
-    places = geometry.seen(seen.joints, seen.targets)[:, :3, 3]
+    places = geometry.predict(observations.joints, observations.targets)[:, :3, 3]
     places = places - places.mean(axis=0)
-    columns = np.zeros((len(seen), 6, 6))
+    columns = np.zeros((len(observations), 6, 6))
     columns[:] = np.eye(6)
     columns[:, :3, 3:] = np.cross(np.eye(3), places[:, None]).swapaxes(1, 2)
-    return columns[:, : 3 * seen.kinds]
+    return columns[:, : 3 * observations.kinds]

@@ -1,4 +1,4 @@
-"""What calibrations are worth, on rows that they were not made from, and which one to use.
+"""What calibrations are worth, by cross-validation, and which one to use.
 
 A calibration's own residuals tell nothing: a Gaussian process interpolates.
 """
@@ -11,6 +11,7 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration, calibrate, calibrate_again
 from recalib.identification.consensus import identify_by_consensus
+from recalib.identification.diagnostics import check_estimate, check_postures
 from recalib.identification.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
@@ -24,7 +25,6 @@ from recalib.identification.frames import Frames
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.observations import Observations
 from recalib.identification.postures import Postures, find_postures
-from recalib.identification.soundness import check_estimate, check_postures
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
@@ -66,22 +66,18 @@ class Validation:
         """The one that is chosen."""
         return self.full[self.chosen]
 
-    @property
-    def misses(self) -> Mapping[str, Mapping[str, np.ndarray]]:
-        """By way and kind, (n, 3) m or (n, 6) m and rad along the axes of the instrument."""
-        return {
-            way: {kind: held.misses for kind, held in kinds.items()}
-            for way, kinds in self.held_out.items()
-        }
-
     def errors(self, way: str, kind: str) -> np.ndarray:
         """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
         return self.held_out[way][kind].errors
 
+    def mean_error(self, way: str, kind: str) -> float:
+        """Of position [m], over the rows that count."""
+        return float(self.errors(way, kind)[self.counted, 0].mean())
+
     def radii(self, joints: np.ndarray) -> np.ndarray:
         """Within how much (n,) [m] of its prediction 95 % of measured positions lie.
 
-        For the calibration that is chosen, also in postures away from those that were seen.
+        For the calibration that is chosen, also in postures away from those measured.
         """
         held = self.held_out[BLOCKWISE][self.chosen][self.counted]
         return held.factor() * self.calibration.spreads(joints)
@@ -93,62 +89,59 @@ class Validation:
 
 def validate(
     arm: Arm,
-    seen: Observations,
+    observations: Observations,
     frames: Frames | None = None,
-    say: Callable[[str], None] = lambda text: None,
+    on_progress: Callable[[str], None] = lambda text: None,
 ) -> Validation:
     """Calibrate an arm in several ways, and say what each is worth.
 
-    The hybrid is geometry with joint errors and a Gaussian process of what is left, as far as all
+    The hybrid is geometry with joint errors and a Gaussian process of the residuals, as far as all
     rows show any. Where rows are held out, all is identified and chosen anew but how smooth the
     process is. A joint that stood still has no errors: what holds it has them.
 
     Args:
-        frames: at both ends; see `guess_frames` for those that are unknown.
-        say: is told what is being done.
+        frames: at both ends; see `initial_frames` for those that are unknown.
+        on_progress: is told what is being done.
 
-    Raises BadMeasurement, TooFewPostures, NotConverged and Implausible.
+    Raises BadMeasurement and Untrustworthy.
     """
-    check_postures(find_postures(seen.joints, arm.slides, noise=0.0))
-    say("geometry")
-    estimate = identify_by_consensus(ErrorModel(arm, OFFSETS, frames), seen)
+    check_postures(find_postures(observations.joints, arm.slides, noise=0.0))
+    on_progress("geometry")
+    estimate = identify_by_consensus(ErrorModel(arm, OFFSETS, frames), observations)
     check_estimate(estimate)
-    postures = check_postures(find_postures(seen.joints, arm.slides, estimate.noise[0]))
+    postures = check_postures(find_postures(observations.joints, arm.slides, estimate.noise[0]))
     candidates = {
         kind: [held(terms, postures.still) for terms in options]
         for kind, options in CANDIDATES.items()
     }
-    geometry = ErrorModel(arm, *candidates[GEOMETRIC], frames)
     counted = estimate.weights >= OUTLYING
     weights = counted.astype(float)
-    say("what is no geometry")
-    hybrid = calibrate(arm, candidates[HYBRID], seen, frames, weights=weights)
+    full = {}
+    for kind in (NOTHING, GEOMETRIC):
+        (terms,) = candidates[kind]
+        model = ErrorModel(arm, terms, frames)
+        full[kind] = Calibration(model, identify(model, observations, weights=weights))
+    on_progress("what is no geometry")
+    hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, candidates[HYBRID], seen, frames, hybrid, weights)
-    richer = hybrid.residual is not None or hybrid.model.names != geometry.names
+        hybrid = calibrate(arm, candidates[HYBRID], observations, frames, hybrid, weights)
+    richer = hybrid.pattern is not None or hybrid.model.names != full[GEOMETRIC].model.names
     unsettled = richer and not hybrid.estimate.converged
-    full = {
-        NOTHING: _identified(ErrorModel(arm, NO_ERRORS, frames), seen, weights),
-        GEOMETRIC: _identified(geometry, seen, weights),
-    }
     if richer and not unsettled:
         full[HYBRID] = hybrid
     held_out = {}
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
-        folds = divide(seen, postures)
-        say(f"what is missed {way}")
+        folds = divide(observations, postures)
+        on_progress(f"errors {way}")
+        fits = {kind: partial(calibrate_again, full[kind], candidates[kind]) for kind in full}
         held_out[way] = {
-            kind: hold_out(partial(calibrate_again, whole, candidates[kind]), seen, weights, folds)
-            for kind, whole in full.items()
+            kind: hold_out(fit, observations, weights, folds) for kind, fit in fits.items()
         }
     chosen = _choice(held_out, counted, postures)
-    for kinds in (full, *held_out.values()):
-        kinds.setdefault(HYBRID, kinds[GEOMETRIC])  # there was nothing but geometry
+    full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
+    for errors in held_out.values():
+        errors.setdefault(HYBRID, errors[GEOMETRIC])
     return Validation(held_out, postures, counted, chosen, full, unsettled)
-
-
-def _identified(model: ErrorModel, seen: Observations, weights: np.ndarray) -> Calibration:
-    return Calibration(model, identify(model, seen, weights=weights))
 
 
 def _choice(
@@ -162,7 +155,7 @@ def _choice(
     }
     best, *richer = losses
     for kind in richer:
-        # rows of one posture miss alike: they are one gain
+        # rows of one posture err alike: they are one gain
         gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
         if gains.mean() > SURE * gains.std(ddof=1) / np.sqrt(len(gains)):
             best = kind

@@ -12,16 +12,16 @@ from recalib.errors import InvalidFile
 from recalib.identification.calibration import Calibration
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
+from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.observations import Distance, Observations
-from recalib.identification.openness import Open, open_parameters
 from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.knowledge import check_distances, first_frames
+from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.measurements import Measurements, read_measurements
+from recalib.laboratory.nominal_checks import Fit, check_nominal
 from recalib.laboratory.places import Place, found_places
-from recalib.laboratory.sanity import Fit, check_nominal
 from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
@@ -31,14 +31,14 @@ from recalib.storage import read_file
 
 @dataclass(frozen=True)
 class Calibrated:
-    """An arm, what was seen of it, and what follows.
+    """An arm, what was measured of it, and what follows.
 
     Attributes:
         urdf: the file that describes the arm.
         source: its bytes, as they were read.
         origin: which file it is, in words.
         table: the file with the measurements.
-        seen: what it says.
+        observations: what it says.
         targets, sockets: their names, in the order of their numbers.
         beside: frames between the nominal positions and the nominal kinematics, if they differ.
         frames: from which the identification started.
@@ -49,7 +49,7 @@ class Calibrated:
     source: bytes
     origin: str
     table: Path
-    seen: Observations
+    observations: Observations
     targets: tuple[str, ...]
     sockets: tuple[str, ...]
     beside: Fit | None
@@ -71,11 +71,6 @@ class Calibrated:
         """What a URDF can hold."""
         return self.validation.full[GEOMETRIC]
 
-    @property
-    def readable(self) -> Calibration:
-        """What all files are of that people read: geometry, as in the URDF, or the nominal arm."""
-        return self.geometry if self.worthwhile else self.calibration
-
     @cached_property
     def corrected(self) -> tuple[bytes, str]:
         """The URDF with its geometry, and the link that is the tool there."""
@@ -84,20 +79,20 @@ class Calibrated:
     @cached_property
     def places(self) -> list[Place]:
         """Where instrument, targets and sockets are, of those that were not given."""
-        left_open, tool = [], self.arm.tool
-        if self.worthwhile:
-            left_open, tool = self.left_open, self.corrected[1]
-        return found_places(self.readable, left_open, self.targets, self.sockets, tool)
+        names = self.targets, self.sockets
+        if not self.worthwhile:
+            return found_places(self.calibration, [], *names, self.arm.tool)
+        return found_places(self.geometry, self.unidentifiable, *names, self.corrected[1])
 
     @cached_property
-    def left_open(self) -> list[Open]:
+    def unidentifiable(self) -> list[Unidentifiable]:
         """The parameters of geometry that were not told apart."""
-        return open_parameters(self.geometry, self.seen)
+        return unidentifiable_parameters(self.geometry, self.observations)
 
     @cached_property
     def faults(self) -> list[Fault]:
         """What the order of the rows shows: a lag, a drift, a jump."""
-        return faults(self.geometry, self.seen, self.validation.counted)
+        return faults(self.geometry, self.observations, self.validation.counted)
 
     @property
     def calibration(self) -> Calibration:
@@ -107,7 +102,7 @@ class Calibrated:
     @property
     def correction(self) -> Correction:
         """What corrects commands, with no other file."""
-        return Correction(self.source, self.calibration, self.seen.joints, self.targets)
+        return Correction(self.source, self.calibration, self.observations.joints, self.targets)
 
     @property
     def counted(self) -> np.ndarray:
@@ -120,21 +115,35 @@ class Calibrated:
         unlikely = self.geometry.estimate.weights < DOUBTFUL
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
-    def missed(self, kind: str) -> np.ndarray:
-        """By how much the rows that count were missed, held out in blocks, if `kind` is done.
+    @property
+    def positions(self) -> np.ndarray:
+        """Where the targets should be (n, 3) [m] in the arm's base, of the rows that count."""
+        rows = self.observations[self.counted]
+        poses = self.calibration.predict(rows.joints, rows.targets)
+        return (np.linalg.inv(self.calibration.frames.base) @ poses)[:, :3, 3]
 
-        (n, 3) m or (n, 6) m and rad, along the axes of the instrument.
+    @property
+    def residuals(self) -> dict[str, np.ndarray]:
+        """Of the rows that count, before and, if it is worthwhile, after; held out in blocks.
+
+        (n, 3) m, or (n, 6) m and rad, along the axes of the arm's base.
         """
-        return self.validation.misses[BLOCKWISE][kind][self.counted]
+        kinds = {"before": NOTHING} | ({"after": self.validation.chosen} if self.worthwhile else {})
+        held_out, turn = self.validation.held_out[BLOCKWISE], self.calibration.frames.base[:3, :3]
+        rows = {name: held_out[kind][self.validation.counted] for name, kind in kinds.items()}
+        return {
+            name: (held.residuals.reshape(-1, 3) @ turn).reshape(held.residuals.shape)
+            for name, held in rows.items()
+        }
 
 
 def calibrate_arm(
-    urdf: str | PathLike,
-    table: str | PathLike,
-    description: str | PathLike | Description | None = None,
+    urdf: str | PathLike[str],
+    table: str | PathLike[str],
+    description: str | PathLike[str] | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
-    say: Callable[[str], None] = lambda line: None,
+    on_progress: Callable[[str], None] = lambda line: None,
 ) -> Calibrated:
     """Identify an arm from measurements.
 
@@ -143,7 +152,7 @@ def calibrate_arm(
         table: see docs/own_arm.md.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
-        say: is told what is being done, in a line each.
+        on_progress: is told what is being done, in a line each.
 
     Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
     another arm; frames that cannot be told, or that are not where the description has them; a fit
@@ -154,46 +163,42 @@ def calibrate_arm(
     arm = arm_of(source, path, tool, base)
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
-    said = description or Description()
-    rows = read_measurements(table, arm, said)
-    say(its := origin(urdf, source))
-    say(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
+    given = description or Description()
+    rows = read_measurements(table, arm, given)
+    on_progress(its := origin(urdf, source))
+    on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
     beside = None
-    known = None if said.instrument is None else np.linalg.inv(said.instrument)
     if rows.nominal is not None:
-        point = None if said.target is None else said.target[:3, 3]
-        beside = check_nominal(arm, rows.coordinates, rows.nominal, known, point)
-    seen, targets, sockets = _observations(rows, said, Path(table))
-    say("where instrument and target are: a first guess")
-    frames = first_frames(arm, seen, said.instrument, said.target)
-    check_distances(arm, seen, frames, sockets)
-    validation = validate(arm, seen, frames, say)
+        stand = None if given.instrument is None else np.linalg.inv(given.instrument)
+        point = None if given.target is None else given.target[:3, 3]
+        beside = check_nominal(arm, rows.joints, rows.nominal, stand, point)
+    observations, targets, sockets = _observations(rows, given, Path(table))
+    on_progress("where instrument and target are, about")
+    frames = checked_frames(arm, observations, given.instrument, given.target)
+    check_distances(arm, observations, frames, sockets)
+    validation = validate(arm, observations, frames, on_progress)
     return Calibrated(
-        path, source, its, Path(table), seen, targets, sockets, beside, frames, validation
+        path, source, its, Path(table), observations, targets, sockets, beside, frames, validation
     )
 
 
 def _observations(
-    rows: Measurements, said: Description, table: Path
+    rows: Measurements, given: Description, table: Path
 ) -> tuple[Observations, tuple[str, ...], tuple[str, ...]]:
-    """What was seen, with the names of targets and of sockets."""
+    """What was measured, with the names of targets and of sockets."""
     targets, numbers = _numbered(rows.targets, len(rows))
-    measured = rows.positions
-    if rows.rotations is not None:
-        measured = np.tile(np.eye(4), (len(rows), 1, 1))
-        measured[:, :3, :3], measured[:, :3, 3] = rows.rotations, rows.positions
-    seen = Observations(rows.coordinates, measured, numbers)
+    observations = Observations(rows.joints, rows.measured, numbers, times=rows.times)
     if rows.sockets is None:
-        if said.distances:
+        if given.distances:
             raise InvalidFile(
                 table,
                 "its description has a distance between sockets; the table has no column 'socket'",
             )
-        return seen, targets, ()
-    if said.instrument is not None:
+        return observations, targets, ()
+    if given.instrument is not None:
         raise InvalidFile(table, "its description has an instrument; a ball in sockets needs none")
     sockets, where = _numbered(rows.sockets, len(rows))
-    for pair in said.distances:
+    for pair in given.distances:
         for socket in pair:
             if socket not in sockets:
                 raise InvalidFile(
@@ -201,9 +206,10 @@ def _observations(
                     f"its description names socket {socket!r}; the table has {', '.join(sockets)}",
                 )
     distances = [
-        Distance(*map(sockets.index, pair), length) for pair, length in said.distances.items()
+        Distance(sockets.index(one), sockets.index(other), length)
+        for (one, other), length in given.distances.items()
     ]
-    return replace(seen, sockets=where, distances=distances), targets, sockets
+    return replace(observations, sockets=where, distances=distances), targets, sockets
 
 
 def _numbered(labels: np.ndarray | None, count: int) -> tuple[tuple[str, ...], np.ndarray]:

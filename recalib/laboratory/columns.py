@@ -4,9 +4,9 @@ import csv
 import io
 import math
 import re
-from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from itertools import islice
 from os import PathLike
 from pathlib import Path
@@ -33,17 +33,13 @@ class Table:
         path: of the file, for messages.
         units: of each column, empty where the header has none.
         cells: of each column, as many as there are rows.
-        headings: of columns that a description calls otherwise, as the file has them.
+        headings: what the file calls each column, if a description calls it otherwise.
     """
 
     path: Path
     units: Mapping[str, str]
     cells: Mapping[str, list[str]]
     headings: Mapping[str, str]
-
-    def shown(self, column: str) -> str:
-        """What the file calls a column."""
-        return self.headings.get(column, column)
 
     def __len__(self) -> int:
         return len(next(iter(self.cells.values())))
@@ -60,27 +56,35 @@ class Table:
         if unit not in quantity.units:
             given = f"is in {unit!r}" if unit else "names no unit"
             valid = ", ".join(
-                f"{column} [{each}]" if each else column for each in sorted(quantity.units)
+                f"{column} [{unit}]" if unit else column for unit in sorted(quantity.units)
             )
             raise InvalidFile(self.path, f"column {column!r} {given}; valid: {valid}")
-        numbers = [_number(cell) for cell in self.cells[column]]
-        for row, (number, cell) in enumerate(zip(numbers, self.cells[column], strict=True), 1):
-            if not math.isfinite(number):
-                raise InvalidFile(
-                    self.path,
-                    f"row {row} of column {self.shown(column)!r} is {cell!r}; valid: a number",
-                )
-        numbers = np.array(numbers) * quantity.units[unit]
+        numbers = np.array([_number(cell) for cell in self.cells[column]])
+        self._check(column, np.isfinite(numbers), "valid: a number")
+        numbers *= quantity.units[unit]
         most, text = FARTHEST.get(quantity, (np.inf, ""))
-        beyond = np.abs(numbers) > most
-        if beyond.any():
-            cell = self.cells[column][beyond.argmax()]
-            raise InvalidFile(
-                self.path,
-                f"row {beyond.argmax() + 1} of column {self.shown(column)!r} is {cell} {unit};"
-                f" valid: up to {text}. Is its unit right?",
-            )
+        valid = f"valid: up to {text}. Is its unit right?"
+        self._check(column, np.abs(numbers) <= most, valid, unit)
         return numbers
+
+    def dates(self, column: str) -> np.ndarray:
+        """The moments (n,) in a column, in seconds.
+
+        Raises InvalidFile: a cell that is none.
+        """
+        dates = np.array([_date(cell) for cell in self.cells[column]])
+        valid = f"expected: a date as 2026-11-23T08:15:00.5, or seconds in {column} [s]"
+        self._check(column, np.isfinite(dates), valid)
+        return dates
+
+    def _check(self, column: str, good: np.ndarray, valid: str, unit: str | None = None) -> None:
+        """Raise InvalidFile, which shows the first cell that is not good (n,)."""
+        if not good.all():
+            row = int(good.argmin())
+            cell = self.cells[column][row]
+            found = repr(cell) if unit is None else f"{cell} {unit}"
+            place = f"row {row + 1} of column {self.headings[column]!r}"
+            raise InvalidFile(self.path, f"{place} is {found}; {valid}")
 
     def check_columns(self, valid: Collection[str]) -> None:
         """Raise InvalidFile where a column is not among the valid ones."""
@@ -89,7 +93,7 @@ class Table:
                 raise InvalidFile(self.path, f"unknown column {column!r}; {instead(column, valid)}")
 
 
-def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -> Table:
+def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:
     """The table at `path`: UTF-8, commas between cells, a header, a row for each measurement.
 
     Args:
@@ -116,38 +120,37 @@ def read_table(path: str | PathLike, columns: Mapping[str, str] | None = None) -
         raise InvalidFile(
             path, f"its description names column {unknown[0]!r}; it has {', '.join(headings)}"
         )
-    for row, cells in enumerate(rows[1:], 1):
-        if len(cells) != len(headings):
+    for row, line in enumerate(rows[1:], 1):
+        if len(line) != len(headings):
             raise InvalidFile(
-                path, f"row {row} has {len(cells)} cells; valid: {len(headings)}, as in the header"
+                path, f"row {row} has {len(line)} cells; valid: {len(headings)}, as in the header"
             )
-    meant = [columns.get(heading, heading) for heading in headings]
-    kept = [index for index, heading in enumerate(meant) if heading != IGNORED]
-    if not kept:
+    units: dict[str, str] = {}
+    cells: dict[str, list[str]] = {}
+    shown: dict[str, str] = {}
+    for index, heading in enumerate(headings):
+        meant = columns.get(heading, heading)
+        if meant == IGNORED:
+            continue
+        parts = _HEADING.fullmatch(meant)
+        if not parts or not parts["name"]:
+            raise InvalidFile(path, f"heading {meant!r} is no name with a unit, as 'x [mm]' is")
+        name = parts["name"]
+        if name in cells:
+            raise InvalidFile(path, f"it has more than one column {name!r}")
+        units[name], cells[name] = parts["unit"] or "", [row[index].strip() for row in rows[1:]]
+        shown[name] = heading if heading in columns else name
+    if not cells:
         raise InvalidFile(path, "its description ignores every column")
-    parts = [_HEADING.fullmatch(meant[index]) for index in kept]
-    if (
-        wrong := next((i for i, part in enumerate(parts) if not part or not part["name"]), None)
-    ) is not None:
-        raise InvalidFile(
-            path, f"heading {meant[kept[wrong]]!r} is no name with a unit, as 'x [mm]' is"
-        )
-    names = [part["name"] for part in parts]
-    if twice := [name for name, count in Counter(names).items() if count > 1]:
-        raise InvalidFile(path, f"it has more than one column {twice[0]!r}")
-    return Table(
-        path,
-        {name: part["unit"] or "" for name, part in zip(names, parts, strict=True)},
-        {
-            name: [row[index].strip() for row in rows[1:]]
-            for name, index in zip(names, kept, strict=True)
-        },
-        {
-            name: headings[index]
-            for name, index in zip(names, kept, strict=True)
-            if headings[index] in columns
-        },
-    )
+    return Table(path, units, cells, shown)
+
+
+def _date(cell: str) -> float:
+    try:
+        date = datetime.fromisoformat(cell)
+    except ValueError:
+        return math.nan
+    return (date if date.tzinfo else date.replace(tzinfo=UTC)).timestamp()
 
 
 def _number(cell: str) -> float:

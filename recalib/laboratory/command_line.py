@@ -1,10 +1,10 @@
 """The command line: `recalib calibrate`, `correct`, `next` and `urdf`; docs/own_arm.md."""
 
 import argparse
+import io
 import os
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from pathlib import Path
 
 from recalib.errors import RecalibError
@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    with suppress(AttributeError):  # where Python's own was replaced
+    if isinstance(sys.stdout, io.TextIOWrapper):  # and nothing in its place
         sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
     try:
         check_new(given.out, given.makes_folder)
@@ -44,7 +44,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    def add(name: str, command: Callable[[argparse.Namespace], int], text: str):
+    def add(
+        name: str, command: Callable[[argparse.Namespace], int], text: str
+    ) -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
         own.set_defaults(command=command, makes_folder=command is _calibrate)
         return own
@@ -92,14 +94,14 @@ def _positive(text: str) -> int:
 
 def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.calibrate import calibrate_arm
-    from recalib.laboratory.files import looks, write_files
+    from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
     result = calibrate_arm(
-        given.urdf, given.measurements, given.description, given.tool, given.base, _tell
+        given.urdf, given.measurements, given.description, given.tool, given.base, _print_progress
     )
-    further, missing = looks()
-    _tell(f"files in {given.out}")
+    further, missing = optional_outputs()
+    _print_progress(f"files in {given.out}")
     written = write_files(result, given.out, further)
     print(summary(result), end="")
     print(f"\n{given.out}: {', '.join(written)}")
@@ -122,19 +124,17 @@ def _correct(given: argparse.Namespace) -> int:
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
     ends = untold(correction)
     if ends and not in_instrument:
-        print(
-            f"recalib: warning: {ends} could not be told from errors of the arm: in the base,"
-            " commands are off by those. To the instrument they are right. Try: --frame"
-            " instrument, or say in the description where both are",
-            file=sys.stderr,
+        _warn(
+            f"{ends} could not be told from errors of the arm: in the base, commands are off by"
+            " those. To the instrument they are right. Try: --frame instrument, or say in the"
+            " description where both are"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
         names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
-        print(
-            f"recalib: warning: {len(rows)} of {len(commands.joints)} commands, first in row"
-            f" {rows[0] + 1}, leave the range that was learned from: {', '.join(names)}",
-            file=sys.stderr,
+        _warn(
+            f"{len(rows)} of {len(commands.joints)} commands, first in row {rows[0] + 1}, leave the"
+            f" range that was learned from: {', '.join(names)}"
         )
     print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
@@ -173,5 +173,9 @@ def _urdf(given: argparse.Namespace) -> int:
     return DONE
 
 
-def _tell(line: str) -> None:
+def _warn(text: str) -> None:
+    print(f"recalib: warning: {text}", file=sys.stderr)
+
+
+def _print_progress(line: str) -> None:
     print(f"... {line}", file=sys.stderr, flush=True)

@@ -12,7 +12,7 @@ from scipy.spatial import KDTree
 
 from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
-from recalib.identification.linearised import LEVER
+from recalib.identification.linearisation import LEVER
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
 from recalib.nominal.newton import solve_groups
@@ -61,9 +61,9 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     UnknownName.
     """
     targets = _targets(correction, desired) if in_instrument else None
-    found, left, inside = solve(correction, desired, targets)
-    if not inside.all():
-        _refuse(correction, found, left, inside)
+    found, errors, reached = solve(correction, desired, targets)
+    if not reached.all():
+        _refuse(correction, found, errors, reached)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = MARGIN * (high - low)
     beyond = (found < low - margin) | (found > high + margin)
@@ -83,27 +83,36 @@ def untold(correction: Correction) -> str | None:
 def solve(
     correction: Correction, desired: Measurements, targets: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """As `correct`, whether the arm gets there or not.
+    """As `correct`, whether the arm gets there or not: from each start in turn, until it does.
 
     Args:
         targets: (n,) numbers of those that are desired in the instrument's frame; None where the
             tool link is, in the base.
 
-    Returns joint coordinates (n, joints), what is left (n,) in m or rad, and whether a desired pose
+    Returns joint coordinates (n, joints), their errors (n,) in m or rad, and whether a desired pose
     is reached within the arm's limits (n,).
     """
     arm, joints = correction.arm, desired.coordinates
-    if desired.positions is None:
-        goals = arm.forward(joints)
-    elif desired.rotations is None:
-        goals = desired.positions
-    else:
-        goals = np.tile(np.eye(4), (len(desired), 1, 1))
-        goals[:, :3, :3], goals[:, :3, 3] = desired.rotations, desired.positions
+    goals = desired.measured
+    if goals is None:
+        goals = arm.forward(desired.joints)
     if len(arm.joints) < 6 and goals.ndim == 3:
         goals = goals[:, :3, 3]
     starts = [joints] if joints is not None else _nearest(correction, goals, targets)
-    return _solve(correction, goals, targets, starts)
+    lower, upper = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
+    found, errors = starts[0].copy(), np.full(len(goals), np.inf)
+    reached = np.zeros(len(goals), dtype=bool)
+    for start in starts:
+        rows = np.flatnonzero(~reached)
+        if not len(rows):
+            break
+        its = None if targets is None else targets[rows]
+        tried, remaining = _newton(correction.calibration, goals[rows], its, start[rows])
+        within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
+        better = within | (remaining < errors[rows])
+        found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
+        reached[rows] = within
+    return found, errors, reached
 
 
 def _targets(correction: Correction, desired: Measurements) -> np.ndarray:
@@ -132,11 +141,11 @@ def _nearest(
     found = np.empty((count, len(goals), learned.shape[1]))
     for target in [None] if targets is None else np.unique(targets):
         if target is None:
-            rows, seen = slice(None), calibration.forward(learned)
+            rows, poses = slice(None), calibration.forward(learned)
         else:
             its = np.full(len(learned), target)
-            rows, seen = targets == target, calibration.seen(learned, its)
-        features = (_features(poses, goals.ndim) for poses in (seen, goals[rows]))
+            rows, poses = targets == target, calibration.predict(learned, its)
+        features = (_features(its, goals.ndim) for its in (poses, goals[rows]))
         tree, wanted = KDTree(next(features)), next(features)
         found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
     return list(found)
@@ -153,57 +162,33 @@ def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
     return np.concatenate([places, axes], axis=1)
 
 
-def _solve(
-    correction: Correction,
-    goals: np.ndarray,
-    targets: np.ndarray | None,
-    starts: Sequence[np.ndarray],
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """From each start in turn, until the goals are reached within limits; as `solve`."""
-    lower = correction.arm.model.lowerPositionLimit
-    upper = correction.arm.model.upperPositionLimit
-    found, left = starts[0].copy(), np.full(len(goals), np.inf)
-    inside = np.zeros(len(goals), dtype=bool)
-    for start in starts:
-        rows = np.flatnonzero(~inside)
-        if not len(rows):
-            break
-        its = None if targets is None else targets[rows]
-        tried, remaining = _newton(correction.calibration, goals[rows], its, start[rows])
-        within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
-        better = within | (remaining < left[rows])
-        found[rows[better]], left[rows[better]] = tried[better], remaining[better]
-        inside[rows] = within
-    return found, left, inside
-
-
 def _newton(
     calibration: Calibration, goals: np.ndarray, targets: np.ndarray | None, start: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Steps of least norm, for each goal by itself: what it leaves free stays near the start."""
 
-    def look(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def kinematics(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         if targets is None:
             poses, jacobians = calibration.forward_and_jacobian(joints[:, 0])
         else:
-            poses, jacobians = calibration.seen_and_jacobian(joints[:, 0], targets[rows])
+            poses, jacobians = calibration.predict_and_jacobian(joints[:, 0], targets[rows])
         return poses[:, None], jacobians[:, None]
 
-    found, left = solve_groups(look, goals[:, None], start[:, None], TOLERANCE, STEPS)
-    return found[:, 0], left[:, 0]
+    found, errors = solve_groups(kinematics, goals[:, None], start[:, None], TOLERANCE, STEPS)
+    return found[:, 0], errors[:, 0]
 
 
 def _refuse(
-    correction: Correction, found: np.ndarray, left: np.ndarray, inside: np.ndarray
+    correction: Correction, found: np.ndarray, errors: np.ndarray, reached: np.ndarray
 ) -> None:
-    rows = np.flatnonzero(~inside)
+    rows = np.flatnonzero(~reached)
     first, model = rows[0], correction.arm.model
-    if left[first] > TOLERANCE:
-        reason = f"the nearest posture leaves {left[first]:.2g} m or rad"
+    if errors[first] > TOLERANCE:
+        reason = f"the nearest posture leaves {errors[first]:.2g} m or rad"
     else:
         outside = (found[first] < model.lowerPositionLimit) | (
             found[first] > model.upperPositionLimit
         )
         names = (name for name, out in zip(correction.arm.joints, outside, strict=True) if out)
         reason = f"only beyond the limits of {', '.join(names)}"
-    raise NotReached(rows + 1, reason)
+    raise NotReached((rows + 1).tolist(), reason)

@@ -40,7 +40,7 @@ class Correction:
         """The nominal arm."""
         return self.calibration.model.nominal
 
-    def save(self, path: str | PathLike) -> None:
+    def save(self, path: str | PathLike[str]) -> None:
         """Write it, whole or not at all."""
         header = {
             "format": FORMAT[0],
@@ -54,7 +54,7 @@ class Correction:
         write_archive(path, header, state)
 
 
-def load_correction(path: str | PathLike) -> Correction:
+def load_correction(path: str | PathLike[str]) -> Correction:
     """What `Correction.save` wrote. Raises InvalidFile."""
     header, state = read_archive(path, FORMAT, WRITER)
     with refused(path, WRITER):
@@ -73,5 +73,5 @@ def _fits(correction: Correction) -> bool:
     poses, jacobians = calibration.forward_and_jacobian(learned[:1])
     numbers = poses, jacobians, calibration.spreads(learned[:1])
     return learned.shape[1:] == (len(correction.arm.joints),) and all(
-        each.size and np.isfinite(each).all() for each in numbers
+        array.size and np.isfinite(array).all() for array in numbers
     )

@@ -1,20 +1,4 @@
-"""What a table does not say itself, from a file beside it (TOML); every part may be absent.
-
-[columns]                    # by a heading of the table, what should have stood there
-joint_1 = "shoulder_pan_joint [deg]"
-step = "ignored"
-
-[instrument]                 # where it stands in the arm's base frame, if that is known
-position = ["0.8 m", "0 m", "120 mm"]
-roll_pitch_yaw = ["0 deg", "0 deg", "180 deg"]
-
-[target]                     # where it sits on the tool, in the tool link's frame, likewise
-position = ["0 mm", "0.07 mm", "31 mm"]
-
-[[distance]]                 # between the centres of two sockets, where that is known
-sockets = ["left", "right"]
-length = "250 mm"
-"""
+"""What a table does not say itself, from a file beside it (TOML); see docs/own_arm.md."""
 
 import tomllib
 from collections.abc import Mapping
@@ -52,7 +36,7 @@ class Description:
     distances: Mapping[tuple[str, str], float] = field(default_factory=dict)
 
 
-def read_description(path: str | PathLike) -> Description:
+def read_description(path: str | PathLike[str]) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
     try:
         parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
@@ -75,7 +59,7 @@ def read_description(path: str | PathLike) -> Description:
 
 
 def _columns(given: Any) -> dict[str, str]:
-    if not isinstance(given, dict) or not all(isinstance(each, str) for each in given.values()):
+    if not isinstance(given, dict) or not all(isinstance(name, str) for name in given.values()):
         raise InvalidSetting("columns", given, 'lines such as joint_1 = "elbow_joint [deg]"')
     return given
 
@@ -97,13 +81,13 @@ def _pose(part: str, parts: Mapping[str, Any]) -> np.ndarray | None:
 def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
     if not isinstance(given, list) or len(given) != 3:
         raise InvalidSetting(key, given, "a list of three quantities")
-    return [_read(key, each, kind) for each in given]
+    return [_read(key, text, kind) for text in given]
 
 
 def _distances(given: Any) -> dict[tuple[str, str], float]:
     if not isinstance(given, list):
         raise InvalidSetting("distance", given, "parts that begin with [[distance]]")
-    distances = {}
+    distances: dict[tuple[str, str], float] = {}
     for pair, length in map(_distance, given):
         if pair in distances:
             found = f"{1e3 * distances[pair]:g} mm and {1e3 * length:g} mm"
@@ -116,12 +100,14 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
     if not isinstance(given, dict) or given.keys() != {"sockets", "length"}:
         raise InvalidSetting("distance", given, "sockets and length")
     between = given["sockets"]
-    if not isinstance(between, list) or len({*map(str, between)}) != 2:
+    pair = [str(name) for name in between] if isinstance(between, list) else []
+    if len(pair) != 2 or pair[0] == pair[1]:
         raise InvalidSetting("distance.sockets", between, "the names of two sockets")
+    one, other = sorted(pair)
     length = _read("distance.length", given["length"], LENGTH)
     if length <= 0:
         raise InvalidSetting("distance.length", given["length"], "more than zero")
-    return tuple(sorted(map(str, between))), length
+    return (one, other), length
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
@@ -129,7 +115,7 @@ def _read(key: str, text: Any, kind: Quantity) -> float:
         number = kind.read(text)
     except InvalidQuantity:
         raise InvalidSetting(key, text, f"{kind.name} in {', '.join(kind.units)}") from None
-    most, told = FARTHEST[kind]
+    most, valid = FARTHEST[kind]
     if abs(number) > most:
-        raise InvalidSetting(key, text, f"up to {told}")
+        raise InvalidSetting(key, text, f"up to {valid}")
     return number

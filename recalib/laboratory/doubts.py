@@ -2,24 +2,23 @@
 
 from collections.abc import Iterator
 
+from recalib.identification.observations import Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
 
-CONTRADICTED = 2.0  # times the error of what is used: so much no part of it can miss
+CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
 
 def doubts(result: Calibrated) -> Iterator[str]:
     """Sentences, the gravest first; none where rows and lines agree."""
     for fault in result.faults:
-        yield f"Careful: {_sentence(fault, len(result.seen))}."
+        yield f"Careful: {_sentence(fault, result.observations)}."
     validation = result.validation
     if validation.chosen != HYBRID:
         return
-    whole, away, geometry = (
-        1e3 * validation.errors(way, kind)[validation.counted, 0].mean()
-        for way, kind in ((RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC))
-    )
+    compared = (RANDOM, HYBRID), (BLOCKWISE, HYBRID), (RANDOM, GEOMETRIC)
+    whole, away, geometry = (1e3 * validation.mean_error(*one) for one in compared)
     if min(away, geometry) > CONTRADICTED * whole:
         yield (
             f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
@@ -27,12 +26,13 @@ def doubts(result: Calibrated) -> Iterator[str]:
         )
 
 
-def _sentence(fault: Fault, rows: int) -> str:
-    size = f"{1e3 * fault.size:.2g} mm"
+def _sentence(fault: Fault, observations: Observations) -> str:
+    size, rows = f"{1e3 * fault.size:.2g} mm", len(observations)
+    late = abs(fault.size)
+    lag = f"{100 * late:.2g} % of a step" if observations.times is None else f"{1e3 * late:.2g} ms"
     return {
-        LAG: f"poses seem to be {100 * abs(fault.size):.2g} % of a step"
-        f" {'behind' if fault.size > 0 else 'ahead of'} the joints; try to measure at rest, or to"
-        " synchronise both",
+        LAG: f"poses seem to be {lag} {'behind' if fault.size > 0 else 'ahead of'} the joints; try"
+        " to measure at rest, or to synchronise both",
         DRIFT: f"the instrument seems to drift by {size} from the first row to the last; try a"
         " shorter session, or an instrument that is warm",
         JUMP: f"between rows {fault.row} and {fault.row + 1} instrument or base seem to have moved"

@@ -1,149 +1,76 @@
 """The drawings of the page of a calibration, as SVG."""
 
-import io
-
 import numpy as np
-from matplotlib.backends.backend_svg import FigureCanvasSVG
-from matplotlib.figure import Figure
 
-from recalib.identification.validation import NOTHING
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.panels import Axis, Panel, drawing
 from recalib.laboratory.summary import UNITS
 
-BEFORE = {"color": "#D55E00", "label": "before"}
-AFTER = {"color": "#0072B2", "label": "after"}
-WIDTH = 8.6  # inches
-MANY = 300  # points from which on they are drawn as a picture: the file would grow large
-LONGEST = 0.12  # of the arm's reach: so long is the largest miss drawn
+COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
+WIDTH = 960  # of a drawing, in units of which a page has about as many
+COLUMNS = 3
+LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
 LEAST = 1e-4  # mm or deg: below that nobody measures
 
 
 def draw_errors(result: Calibrated) -> str:
     """What part of the rows has at most which error, before and after."""
-    kinds = result.calibration.estimate.noise.size
-    figure = Figure((WIDTH, 3.2), layout="constrained")
-    for axes, (scale, unit), kind in zip(
-        np.atleast_1d(figure.subplots(1, kinds)), UNITS, range(kinds), strict=False
-    ):
-        for label, style in _before_and_after(result):
-            missed = result.missed(label)[:, 3 * kind : 3 * kind + 3]
-            errors = np.maximum(scale * np.linalg.norm(missed, axis=1), LEAST)
-            axes.ecdf(errors, linewidth=2, **style)
-        axes.set_xscale("log")
-        axes.set_xlabel(f"error on rows that were not learned from [{unit}]")
-        axes.xaxis.set_major_formatter("{x:g}")
-        _tidy(axes)
-    figure.axes[0].set_ylabel("part of the rows")
-    figure.axes[0].legend(frameon=False, loc="upper left")
-    return _svg(figure)
+    kinds, panels = result.calibration.estimate.noise.size, []
+    for kind, (scale, unit) in enumerate(UNITS[:kinds]):
+        errors = _errors(result, kind, scale)
+        label = f"error on rows that were not learned from [{unit}]"
+        axes = Axis(label, [*errors.values()], LEAST), Axis("part of the rows", [0, 1])
+        panel = Panel((WIDTH / kinds, 280), axes)
+        for name, numbers in errors.items():
+            parts = np.linspace(0, 1, len(numbers) + 1)
+            panel.line(np.sort(numbers).repeat(2), parts.repeat(2)[1:-1], COLOURS[name], 2)
+        panels.append(panel)
+    return drawing(panels, kinds)
 
 
 def draw_over_joints(result: Calibrated) -> str:
     """Position errors over each joint's coordinate, before and after."""
-    joints, slides = result.seen.joints[result.counted], result.arm.slides
-    columns = 3
-    rows = -(-joints.shape[1] // columns)
-    figure = Figure((WIDTH, 2.2 * rows), layout="constrained")
-    grid = np.ravel(figure.subplots(rows, columns, sharey=True, squeeze=False))
-    for axes in grid[joints.shape[1] :]:
-        axes.set_visible(False)
-    for axes, joint, column, slide in zip(grid, result.arm.joints, joints.T, slides, strict=False):
-        scale, unit = UNITS[0] if slide else UNITS[1]
-        for label, style in _before_and_after(result):
-            errors = 1e3 * np.linalg.norm(result.missed(label)[:, :3], axis=1)
-            axes.plot(
-                scale * column,
-                np.maximum(errors, LEAST),
-                ".",
-                markersize=3,
-                rasterized=len(column) > MANY,
-                **style,
-            )
-        axes.set_yscale("log")
-        axes.minorticks_off()  # on so many axes, they would be half of the work
-        axes.yaxis.set_major_formatter("{x:g}")
-        axes.set_xlabel(f"{joint} [{unit}]", fontsize=9)
-        _tidy(axes)
-    figure.supylabel("position error [mm]", fontsize=10)
-    figure.legend(
-        *grid[0].get_legend_handles_labels(),
-        loc="outside upper left",  # inside it would lie on rows
-        ncols=2,
-        frameon=False,
-        fontsize=9,
-        markerscale=3,
-        handletextpad=0.2,
-    )
-    return _svg(figure)
+    joints, arm, panels = result.observations.joints[result.counted], result.arm, []
+    errors = _errors(result, 0, 1e3)
+    up = Axis("position error [mm]", [*errors.values()], LEAST)
+    for joint, slides, column in zip(arm.joints, arm.slides, joints.T, strict=True):
+        scale, unit = UNITS[0] if slides else UNITS[1]
+        panel = Panel((WIDTH / COLUMNS, 220), [Axis(f"{joint} [{unit}]", scale * column), up])
+        for name, numbers in errors.items():
+            panel.dots(scale * column, numbers, COLOURS[name], 4)
+        panels.append(panel)
+    return drawing(panels, COLUMNS)
 
 
-def draw_arm(result: Calibrated) -> str:
-    """The arm in a middle posture, from the side and from above, with measured points and misses.
+def draw_arm(result: Calibrated) -> tuple[str, float]:
+    """The arm in a middle posture, from the side and from above, with positions and their errors.
 
-    Everything is drawn in the arm's base.
+    Everything is drawn in the arm's base. Returns by how many times errors are drawn too long.
     """
-    calibration, seen = result.calibration, result.seen[result.counted]
-    frames = calibration.frames
-    back = np.linalg.inv(frames.base)
-    places = _in_base(back, calibration.seen(seen.joints, seen.targets)[:, :3, 3])
-    middle = np.linalg.norm(seen.joints - np.median(seen.joints, axis=0), axis=1).argmin()
-    skeleton = result.arm.skeleton(seen.joints[[middle]])[0]
+    joints, positions = result.observations.joints[result.counted], result.positions
+    middle = np.linalg.norm(joints - np.median(joints, axis=0), axis=1).argmin()
+    skeleton = result.arm.skeleton(joints[[middle]])[0]
+    residuals = {name: its[:, :3] for name, its in result.residuals.items()}
     reach = np.linalg.norm(skeleton, axis=1).max()
-    figure = Figure((WIDTH, 4.4), layout="constrained")
-    grid = figure.subplots(1, 2)
-    before = result.missed(NOTHING)[:, :3]
-    longer = LONGEST * reach / np.linalg.norm(before, axis=1).max()
+    longer = LONGEST * reach / np.linalg.norm(residuals["before"], axis=1).max()
     longer = float(f"{longer:.0e}")  # a round number
-    for axes, (across, up) in zip(grid, ((0, 2), (0, 1)), strict=True):
-        axes.plot(
-            skeleton[:, across], skeleton[:, up], "-o", color="0.6", linewidth=4, markersize=6
-        )
-        for label, style in _before_and_after(result):
-            misses = longer * result.missed(label)[:, :3] @ back[:3, :3].T
-            axes.quiver(
-                places[:, across],
-                places[:, up],
-                misses[:, across],
-                misses[:, up],
-                angles="xy",
-                scale_units="xy",
-                scale=1,
-                width=0.003,
-                rasterized=len(places) > MANY,
-                **style,
-            )
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlabel(f"{'xyz'[across]} [m]")
-        axes.set_ylabel(f"{'xyz'[up]} [m]")
-        axes.margins(0.1)
-        _tidy(axes)
-    grid[0].set_title("from the side", loc="left", fontsize=10)
-    grid[1].set_title("from above", loc="left", fontsize=10)
-    grid[0].legend(
-        frameon=False, fontsize=9, title=f"misses, {longer:g} times as long", title_fontsize=9
-    )
-    return _svg(figure)
+    ends = {name: positions + longer * its for name, its in residuals.items()}
+    drawn, panels = np.concatenate([skeleton, *ends.values()]), []
+    for title, sides in (("from the side", (0, 2)), ("from above", (0, 1))):
+        axes = [Axis(f"{'xyz'[side]} [m]", drawn[:, side]) for side in sides]
+        panel = Panel((WIDTH / 2, 420), axes, title, alike=True)
+        across, up = skeleton[:, sides].T
+        panel.line(across, up, GREY, 5)
+        panel.dots(across, up, GREY, 10)
+        for name, end in ends.items():
+            panel.spikes(positions[:, sides], end[:, sides], COLOURS[name])
+        panels.append(panel)
+    return drawing(panels, 2), longer
 
 
-def _before_and_after(result: Calibrated):
-    yield NOTHING, BEFORE
-    if result.worthwhile:
-        yield result.validation.chosen, AFTER
-
-
-def _in_base(back: np.ndarray, points: np.ndarray) -> np.ndarray:
-    return points @ back[:3, :3].T + back[:3, 3]
-
-
-def _tidy(axes) -> None:
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.grid(color="0.92")
-    axes.set_axisbelow(True)
-    axes.tick_params(labelsize=9)
-
-
-def _svg(figure: Figure) -> str:
-    """The drawing as an element to stand in a page."""
-    text = io.StringIO()
-    FigureCanvasSVG(figure).print_svg(text, metadata={"Date": None})
-    return text.getvalue()[text.getvalue().index("<svg") :]
+def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:
+    """Errors (n,) before and after, of position (kind 0) or orientation (1), times a scale."""
+    part = slice(3 * kind, 3 * kind + 3)
+    return {
+        name: scale * np.linalg.norm(its[:, part], axis=1) for name, its in result.residuals.items()
+    }

@@ -2,12 +2,11 @@
 
 import csv
 import json
-import shutil
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -21,58 +20,53 @@ from recalib.laboratory.universal_robots import kinematics_yaml
 from recalib.laboratory.urdf import angles_of
 from recalib.nominal.kinematics import Arm
 
-SUMMARY, URDF, CORRECTION = "summary.txt", "arm.urdf", "correction.npz"
-FRAMES = "frames.csv"
-TABLE, VALUES, OFFSETS, ROWS = "parameters.csv", "parameters.json", "joint_offsets.csv", "rows.csv"
-KINEMATICS, PAGE, RECORDING = "kinematics.yaml", "page.html", "recording.rrd"
-NAMES = (
-    *(SUMMARY, URDF, CORRECTION, FRAMES, TABLE, VALUES, OFFSETS, ROWS),
-    *(KINEMATICS, PAGE, RECORDING),
+CORRECTION = "correction.npz"
+NAMES = (  # in the order in which they are listed
+    *("summary.txt", "arm.urdf", CORRECTION, "frames.csv", "parameters.csv", "parameters.json"),
+    *("joint_offsets.csv", "rows.csv", "kinematics.yaml", "page.html", "recording.rrd"),
+)
+PLACE = (  # the columns of frames.csv that are numbers
+    *("x [mm]", "y [mm]", "z [mm]", "roll [deg]", "pitch [deg]", "yaw [deg]"),
+    *("deviation [mm]", "deviation [deg]"),
+    *("deviation beside the real link [mm]", "deviation beside the real link [deg]"),
 )
 
 
 def write_files(
     result: Calibrated,
-    folder: str | PathLike,
+    folder: str | PathLike[str],
     further: Sequence[tuple[str, Callable[[Path, Calibrated], None]]] = (),
 ) -> list[str]:
-    """Write what is known into a new folder, and say which files there are.
-
-    They are made elsewhere first, and appear together.
+    """Write what is known into a new folder, and say which files there are. They appear together.
 
     Args:
         further: files to look at, by what writes them.
 
     Raises InvalidFile where something is there already, or nothing can be put there.
     """
-    with tempfile.TemporaryDirectory() as temporary:
-        made = Path(temporary)
-        (made / SUMMARY).write_text(summary(result), encoding="utf-8")
-        _write_table(made / ROWS, _rows(result))
+    with new(folder, folder=True) as made:
+        (made / "summary.txt").write_text(summary(result), encoding="utf-8")
+        _write_table(made / "rows.csv", _rows(result))
         if frames := [*_frames(result)]:
-            _write_table(made / FRAMES, frames)
+            _write_table(made / "frames.csv", frames)
         if result.worthwhile:
             _write_calibration(made, result)
         for name, write in further:
             write(made / name, result)
-        written = [name for name in NAMES if (made / name).exists()]
-        with new(folder, folder=True) as there:
-            for name in written:
-                shutil.copyfile(made / name, there / name)
-    return written
+        return [name for name in NAMES if (made / name).exists()]
 
 
-def looks() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[str]]:
+def optional_outputs() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[str]]:
     """What writes the files to look at, and a sentence for each that cannot be written here."""
     writers, missing = [], []
     for name, module, function in (
-        (PAGE, "recalib.laboratory.page", "write_page"),
-        (RECORDING, "recalib.laboratory.watching", "write_recording"),
+        ("page.html", "recalib.laboratory.page", "write_page"),
+        ("recording.rrd", "recalib.laboratory.watching", "write_recording"),
     ):
         try:
             writers.append((name, getattr(import_module(module), function)))
         except ModuleNotFoundError as error:
-            package = error.name.partition(".")[0]
+            package = (error.name or module).partition(".")[0]
             missing.append(f"No {name}: {package} is missing; pip install 'recalib[laboratory]'")
     return writers, missing
 
@@ -91,20 +85,20 @@ def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) 
     with new(path) as made:
         _write_table(
             made,
-            (dict(zip(names, (f"{each:.9f}" for each in row), strict=True)) for row in numbers),
+            (dict(zip(names, (f"{number:.9f}" for number in row), strict=True)) for row in numbers),
         )
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
-    geometry, (text, tool) = result.geometry, result.corrected
-    (folder / URDF).write_bytes(text)
+    geometry, (urdf, tool) = result.geometry, result.corrected
+    (folder / "arm.urdf").write_bytes(urdf)
     if (kinematics := kinematics_yaml(geometry)) is not None:
-        (folder / KINEMATICS).write_text(kinematics, encoding="utf-8")
+        (folder / "kinematics.yaml").write_text(kinematics, encoding="utf-8")
     result.correction.save(folder / CORRECTION)
-    parameters = [vars(each) for each in described(result)]
-    _write_table(folder / TABLE, parameters)
-    offsets = [each for each in parameters if each["name"].startswith("offset of ")]
-    _write_table(folder / OFFSETS, offsets)
+    parameters = [vars(parameter) for parameter in described(result)]
+    _write_table(folder / "parameters.csv", parameters)
+    offsets = [its for its in parameters if its["name"].startswith("offset of ")]
+    _write_table(folder / "joint_offsets.csv", offsets)
     frames = geometry.frames
     values = {
         "verdict": verdict(result),
@@ -119,47 +113,41 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
         "frames": [*_frames(result)],
         "parameters": parameters,
     }
-    (folder / VALUES).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+    text = json.dumps(values, indent=2) + "\n"
+    (folder / "parameters.json").write_text(text, encoding="utf-8")
 
 
-def _frames(result: Calibrated) -> Iterator[dict]:
+def _frames(result: Calibrated) -> Iterator[dict[str, Any]]:
     """Each place that was found; what is not known of it is empty."""
     for place in result.places:
-        numbers = dict(zip(("x [mm]", "y [mm]", "z [mm]"), 1e3 * place.pose[:3, 3], strict=True))
-        turns = np.degrees(angles_of(place.pose))
-        numbers |= dict(zip(("roll [deg]", "pitch [deg]", "yaw [deg]"), turns, strict=True))
-        for what, (length, turn) in (
-            ("deviation", place.deviations),
-            ("deviation beside the real link", place.real_deviations),
-        ):
-            numbers |= {f"{what} [mm]": 1e3 * length, f"{what} [deg]": np.degrees(turn)}
-        yield (
-            {"frame": place.name, "in": place.link}
-            | {
-                name: "" if "deg" in name and not place.turned else f"{number:.6g}"
-                for name, number in numbers.items()
-            }
-            | {"fit": DOING[GEOMETRIC if result.worthwhile else NOTHING]}
-        )
+        numbers = [*1e3 * place.pose[:3, 3], *np.degrees(angles_of(place.pose))]
+        for length, turn in (place.deviations, place.real_deviations):
+            numbers += [1e3 * length, np.degrees(turn)]
+        known = {
+            name: f"{number:.6g}" if place.turned or "mm" in name else ""
+            for name, number in zip(PLACE, numbers, strict=True)
+        }
+        fit = DOING[GEOMETRIC if result.worthwhile else NOTHING]
+        yield {"frame": place.name, "in": place.link} | known | {"fit": fit}
 
 
-def _rows(result: Calibrated) -> Iterable[dict]:
+def _rows(result: Calibrated) -> Iterable[dict[str, Any]]:
     """For each row how far off it is, before and after, and how much it counted."""
     validation, weights = result.validation, result.geometry.estimate.weights
-    before = 1e3 * validation.errors(BLOCKWISE, NOTHING)[:, 0]
-    after = 1e3 * validation.errors(BLOCKWISE, validation.chosen)[:, 0]
-    doubted = {*result.doubted}
-    for row, (old, left, weight) in enumerate(zip(before, after, weights, strict=True), start=1):
+    before, after = (
+        1e3 * validation.errors(BLOCKWISE, kind)[:, 0] for kind in (NOTHING, validation.chosen)
+    )
+    for row, weight in enumerate(weights):
         yield {
-            "row": row,
-            "before [mm]": f"{old:.5g}",
-            "after [mm]": f"{left:.5g}",
+            "row": row + 1,
+            "before [mm]": f"{before[row]:.5g}",
+            "after [mm]": f"{after[row]:.5g}",
             "weight": f"{weight:.3g}",
-            "doubted": "yes" if row in doubted else "no",
+            "doubted": "yes" if row + 1 in result.doubted else "no",
         }
 
 
-def _write_table(path: Path, rows: Iterable[dict]) -> None:
+def _write_table(path: Path, rows: Iterable[dict[str, Any]]) -> None:
     rows = list(rows)
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, fieldnames=rows[0], lineterminator="\n")

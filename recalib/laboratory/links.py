@@ -3,12 +3,11 @@
 from os import PathLike
 from xml.etree import ElementTree
 
-import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidFile
 from recalib.laboratory.columns import read_table
-from recalib.laboratory.urdf import angles_of
+from recalib.laboratory.urdf import angles_of, written
 from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, TOOL, Row
 from recalib.nominal.kinematics import Arm, tool_frame
@@ -20,7 +19,7 @@ PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
 KINDS = "revolute", "prismatic"
 
 
-def read_rows(path: str | PathLike) -> list[Row]:
+def read_rows(path: str | PathLike[str]) -> list[Row]:
     """The rows of the table at `path`, from the base to the tool.
 
     Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, where
@@ -63,10 +62,10 @@ def urdf_of(arm: Arm) -> str:
         child = f"{name}_link"
         kind = "prismatic" if slides else "continuous"
         joint = _add(robot, name, kind, parent, child, model.jointPlacements[index])
-        ElementTree.SubElement(joint, "axis", xyz=_numbers(axis))
+        ElementTree.SubElement(joint, "axis", xyz=written(axis))
         if slides:  # which a URDF must bound
             bounds = {"lower": str(-UNBOUNDED), "upper": str(UNBOUNDED)}
-            ElementTree.SubElement(joint, "limit", **bounds, effort="0", velocity="0")
+            ElementTree.SubElement(joint, "limit", bounds, effort="0", velocity="0")
         parent = child
     tool = model.frames[tool_frame(model, arm.tool)].placement
     _add(robot, MOUNT, "fixed", parent, TOOL, tool)
@@ -82,10 +81,6 @@ def _add(
     joint = ElementTree.SubElement(robot, "joint", name=name, type=kind)
     ElementTree.SubElement(joint, "parent", link=parent)
     ElementTree.SubElement(joint, "child", link=child)
-    angles = _numbers(angles_of(placement.homogeneous))
-    ElementTree.SubElement(joint, "origin", xyz=_numbers(placement.translation), rpy=angles)
+    angles = written(angles_of(placement.homogeneous))
+    ElementTree.SubElement(joint, "origin", xyz=written(placement.translation), rpy=angles)
     return joint
-
-
-def _numbers(vector: np.ndarray) -> str:
-    return " ".join(f"{each + 0.0:.17g}" for each in vector)

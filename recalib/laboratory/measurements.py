@@ -7,12 +7,12 @@ from os import PathLike
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile
-from recalib.identification.soundness import FEWEST
+from recalib.errors import InvalidFile, InvalidSetting
+from recalib.identification.diagnostics import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
-from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.spelling import listed
 
 POSITION = "x", "y", "z"
@@ -21,7 +21,7 @@ MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place 
 QUATERNION = "qx", "qy", "qz", "qw"
 ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
 VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
-LABELS = "target", "socket"
+LABELS, TIMES = ("target", "socket"), "time"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
 
@@ -38,6 +38,7 @@ class Measurements:
         nominal: (n, 3) m, where the positions should have been; None likewise.
         targets: (n,) names of the targets that were measured, the same everywhere if there is one.
         sockets: (n,) names of the sockets in which the ball sat; None where there are none.
+        times: (n,) s, when rows were measured; None where there are none.
     """
 
     count: int
@@ -47,13 +48,30 @@ class Measurements:
     nominal: np.ndarray | None = None
     targets: np.ndarray | None = None
     sockets: np.ndarray | None = None
+    times: np.ndarray | None = None
 
     def __len__(self) -> int:
         return self.count
 
+    @property
+    def joints(self) -> np.ndarray:
+        """The joint coordinates (n, joints) of rows that have them. Raises InvalidSetting."""
+        if self.coordinates is None:
+            raise InvalidSetting("joint coordinates", None, "those of each joint in each row")
+        return self.coordinates
+
+    @property
+    def measured(self) -> np.ndarray | None:
+        """Poses (n, 4, 4) or positions (n, 3) [m] of targets; None where there are neither."""
+        if self.rotations is None:
+            return self.positions
+        poses = np.tile(np.eye(4), (self.count, 1, 1))
+        poses[:, :3, :3], poses[:, :3, 3] = self.rotations, self.positions
+        return poses
+
 
 def read_measurements(
-    path: str | PathLike, arm: Arm, description: Description | None = None
+    path: str | PathLike[str], arm: Arm, description: Description | None = None
 ) -> Measurements:
     """The measurements of an arm in the table at `path`.
 
@@ -73,7 +91,7 @@ def read_measurements(
     return read
 
 
-def read_desired(path: str | PathLike, arm: Arm) -> Measurements:
+def read_desired(path: str | PathLike[str], arm: Arm) -> Measurements:
     """Desired joint coordinates, poses or positions of the tool in the arm's base, or both.
 
     Raises InvalidFile as `read_measurements` does, but one row is enough.
@@ -84,9 +102,10 @@ def read_desired(path: str | PathLike, arm: Arm) -> Measurements:
     return read
 
 
-def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Measurements:
-    table = read_table(path, description and description.columns)
-    table.check_columns([*arm.joints, *(name for group in VECTORS for name in group), *LABELS])
+def _read(path: str | PathLike[str], arm: Arm, description: Description | None) -> Measurements:
+    table = read_table(path, description.columns if description else None)
+    components = (name for group in VECTORS for name in group)
+    table.check_columns([*arm.joints, *components, *LABELS, TIMES])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -100,14 +119,32 @@ def _read(path: str | PathLike, arm: Arm, description: Description | None) -> Me
             ],
             axis=1,
         )
+    targets, sockets = (_labels(table, label) for label in LABELS)
     return Measurements(
         len(table),
         coordinates,
         _positions(table, vectors),
         _rotations(table, vectors),
         vectors[NOMINAL],
-        *(_labels(table, label) for label in LABELS),
+        targets,
+        sockets,
+        _times(table),
     )
+
+
+def _times(table: Table) -> np.ndarray | None:
+    """Seconds (n,) from whenever."""
+    if TIMES not in table:
+        return None
+    times = table.dates(TIMES) if not table.units[TIMES] else table.numbers(TIMES, TIME)
+    if (early := np.diff(times) < 0).any():
+        row = int(early.argmax()) + 2
+        raise InvalidFile(
+            table.path, f"row {row} was measured before row {row - 1}; try: sort the rows by time"
+        )
+    if times[0] == times[-1]:
+        raise InvalidFile(table.path, f"column {TIMES!r} is the same in all rows; try: without it")
+    return times
 
 
 def _labels(table: Table, column: str) -> np.ndarray | None:
@@ -157,7 +194,7 @@ def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray 
 
 
 def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
-    given = [group for group in ROTATIONS if vectors[group] is not None]
+    given = {group: its for group in ROTATIONS if (its := vectors[group]) is not None}
     if not given:
         return None
     if len(given) > 1:
@@ -165,8 +202,8 @@ def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
         raise InvalidFile(table.path, f"its rotations are given twice: {both}; valid: once")
     if vectors[POSITION] is None and vectors[MISSED] is None:
         raise InvalidFile(table.path, "it has rotations without positions; valid: x, y, z, too")
-    numbers = vectors[given[0]]
-    if given[0] == QUATERNION:
+    ((group, numbers),) = given.items()
+    if group == QUATERNION:
         lengths = np.linalg.norm(numbers, axis=1)
         wrong = np.abs(lengths - 1) > SKEW
         if wrong.any():
@@ -176,6 +213,6 @@ def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
                 f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; valid: 1",
             )
         return Rotation.from_quat(numbers).as_matrix()
-    if given[0][0] == "rx":
+    if group[0] == "rx":
         return Rotation.from_rotvec(numbers).as_matrix()
     return Rotation.from_euler("xyz", numbers).as_matrix()

@@ -11,7 +11,7 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.storage import IN_THE_MAKING
 
 
-def check_new(path: str | os.PathLike, folder: bool = False) -> None:
+def check_new(path: str | os.PathLike[str], folder: bool = False) -> None:
     """Raise unless `new` may put a file, or a folder, at `path`.
 
     Raises InvalidSetting (no name), InvalidFile (something is there, or nothing can be put there),
@@ -28,7 +28,7 @@ def check_new(path: str | os.PathLike, folder: bool = False) -> None:
         raise InvalidFile(making, "it is in the way of what will be made; try: another --out")
 
 
-def is_taken(path: str | os.PathLike, folder: bool = False) -> bool:
+def is_taken(path: str | os.PathLike[str], folder: bool = False) -> bool:
     """Whether something is there that a file, or a folder, may not replace.
 
     A folder may replace an empty one, but not a link, another disk, or the one we are in.
@@ -40,7 +40,7 @@ def is_taken(path: str | os.PathLike, folder: bool = False) -> bool:
 
 
 @contextmanager
-def new(path: str | os.PathLike, folder: bool = False) -> Iterator[Path]:
+def new(path: str | os.PathLike[str], folder: bool = False) -> Iterator[Path]:
     """Where to make a file, or a folder, which appears at `path` when the block ends well.
 
     It appears at once, with those of its parents that are not there, and replaces nothing. What a
@@ -63,7 +63,7 @@ def new(path: str | os.PathLike, folder: bool = False) -> Iterator[Path]:
             shutil.rmtree(making, ignore_errors=True)
 
 
-def _places(path: str | os.PathLike) -> tuple[Path, Path]:
+def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
     """The uppermost part of a path that is not there, and the hidden folder in which it is made."""
     top = Path(os.path.abspath(path))
     while not os.path.lexists(top.parent):

@@ -5,11 +5,7 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.drawings import (
-    draw_arm,
-    draw_errors,
-    draw_over_joints,
-)
+from recalib.laboratory.drawings import COLOURS, draw_arm, draw_errors, draw_over_joints
 from recalib.laboratory.parameters import described
 from recalib.laboratory.summary import errors_table, notes, verdict
 
@@ -26,8 +22,9 @@ def write_page(path: Path, result: Calibrated) -> None:
         lstrip_blocks=True,
     )
     parameters = described(result)
-    decided = [each for each in parameters if each.decided_by == "data"]
-    decided.sort(key=lambda each: -abs(each.value) / each.deviation)
+    decided = [its for its in parameters if its.decided_by == "data"]
+    decided.sort(key=lambda its: -abs(its.value) / its.deviation)
+    arm_drawing, longer = draw_arm(result)
     text = environment.get_template("page.html.j2").render(
         result=result,
         verdict=verdict(result),
@@ -35,7 +32,9 @@ def write_page(path: Path, result: Calibrated) -> None:
         errors=errors_table(result),
         errors_drawing=draw_errors(result),
         joints_drawing=draw_over_joints(result),
-        arm_drawing=draw_arm(result),
+        arm_drawing=arm_drawing,
+        longer=longer,
+        colours={name: COLOURS[name] for name in result.residuals},
         parameters=decided[:LISTED],
         decided=len(decided),
         undecided=len(parameters) - len(decided),

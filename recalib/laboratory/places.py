@@ -14,8 +14,8 @@ import numpy as np
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.frames import HELD
-from recalib.identification.linearised import displacements
-from recalib.identification.openness import Open
+from recalib.identification.identifiability import Unidentifiable
+from recalib.identification.linearisation import displacements
 
 STEP = 1e-4  # of a parameter's prior deviation, to either side
 
@@ -43,7 +43,7 @@ class Place:
 
 def found_places(
     calibration: Calibration,
-    left_open: Sequence[Open],
+    unidentifiable: Sequence[Unidentifiable],
     targets: Sequence[str],
     sockets: Sequence[str],
     tool: str,
@@ -51,7 +51,7 @@ def found_places(
     """All that were not given.
 
     Args:
-        left_open: parameters that `openness.open_parameters` finds.
+        unidentifiable: see `unidentifiable_parameters`.
         targets, sockets: their names, in the order of their numbers.
         tool: the link that is the tool of the calibrated arm.
     """
@@ -64,7 +64,8 @@ def found_places(
     what += [(f"socket {name}", base, False) for name in sockets]
     if not what:
         return []
-    chosen = np.setdiff1d([one.parameter for one in left_open if one.lasting], free).astype(int)
+    lasting = np.array([one.parameter for one in unidentifiable if one.lasting], dtype=int)
+    chosen = np.setdiff1d(lasting, free)
     real = estimate.covariance[np.ix_(free, free)]
     across = estimate.covariance[np.ix_(free, chosen)]
     among = estimate.covariance[np.ix_(chosen, chosen)]
@@ -100,5 +101,8 @@ def _slopes(model: ErrorModel, parameters: np.ndarray, free: np.ndarray) -> np.n
 
 
 def _deviations(covariance: np.ndarray) -> tuple[float, float]:
-    parts = covariance[:3, :3], covariance[3:, 3:]
-    return tuple(float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1]))) for part in parts)
+    position, orientation = (
+        float(np.sqrt(max(0.0, np.linalg.eigvalsh(part)[-1])))
+        for part in (covariance[:3, :3], covariance[3:, 3:])
+    )
+    return position, orientation

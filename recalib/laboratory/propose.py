@@ -38,7 +38,7 @@ class Proposal:
     @property
     def worthwhile(self) -> bool:
         """Whether measuring all of them would make predictions noticeably better."""
-        return self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0]
+        return bool(self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0])
 
 
 def propose(correction: Correction, count: int, candidates: Measurements | None = None) -> Proposal:
@@ -51,12 +51,15 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
 
     Raises InvalidSetting where they would have to be drawn for a ball in sockets, or none is left.
     """
-    if candidates is None and len(correction.calibration.frames.sockets):
+    if candidates is not None:
+        postures = _reachable(correction, candidates)
+        if not len(postures):
+            valid = "within reach, and off the ends of joint ranges"
+            raise InvalidSetting("candidates", f"{len(candidates)} postures of no use", valid)
+    elif len(correction.calibration.frames.sockets):
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
-    postures = _drawn(correction) if candidates is None else _reachable(correction, candidates)
-    if not len(postures):
-        valid = "within reach, and off the ends of joint ranges"
-        raise InvalidSetting("candidates", f"{len(candidates)} postures of no use", valid)
+    else:
+        postures = _drawn(correction)
     calibration = correction.calibration
     model, estimate = calibration.model, calibration.estimate
     probes = _drawn(correction)[:PROBES]
@@ -92,7 +95,7 @@ def _limits(correction: Correction) -> tuple[np.ndarray, np.ndarray]:
 
 def _reachable(correction: Correction, candidates: Measurements) -> np.ndarray:
     if candidates.positions is None:
-        found, reached = candidates.coordinates, np.ones(len(candidates), dtype=bool)
+        found, reached = candidates.joints, np.ones(len(candidates), dtype=bool)
     else:
         found, _, reached = solve(correction, candidates)
     lower, upper = _limits(correction)

@@ -1,6 +1,7 @@
 """What a person reads first: what the calibration is worth, what is known, what to doubt."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from recalib.identification.validation import (
 )
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.doubts import doubts
-from recalib.laboratory.parameters import open_directions
+from recalib.laboratory.parameters import unidentifiable_directions
 from recalib.laboratory.urdf import angles_of
 from recalib.meshes import with_own_meshes
 
@@ -25,26 +26,21 @@ DOING = {
     HYBRID: "all of it, as in correction.npz",
 }
 UNITS = (1e3, "mm"), (180 / np.pi, "deg")
+NUMBERS = "mean", "95 %", "largest"  # of errors
 MOST = 12  # doubted rows that are listed
 
 
-def errors_table(result: Calibrated) -> list[dict]:
+def errors_table(result: Calibrated) -> list[dict[str, Any]]:
     """For each way of folding, quantity and what is done: mean, 95 % and largest error."""
     rows = []
     for way in WAYS:
         for kind in KINDS:
             errors = result.validation.errors(way, kind)[result.validation.counted]
-            for (scale, unit), each in zip(UNITS, errors.T, strict=False):
-                numbers = scale * np.array([each.mean(), np.quantile(each, 0.95), each.max()])
-                rows.append(
-                    {
-                        "folds": way,
-                        "what": DOING[kind],
-                        "chosen": kind == result.validation.chosen,
-                        "unit": unit,
-                        **dict(zip(("mean", "95 %", "largest"), numbers.tolist(), strict=True)),
-                    }
-                )
+            chosen = kind == result.validation.chosen
+            for (scale, unit), its in zip(UNITS, errors.T, strict=False):
+                row = {"folds": way, "what": DOING[kind], "chosen": chosen, "unit": unit}
+                numbers = scale * np.array([its.mean(), np.quantile(its, 0.95), its.max()])
+                rows.append(row | dict(zip(NUMBERS, numbers.tolist(), strict=True)))
     return rows
 
 
@@ -59,15 +55,9 @@ def verdict(result: Calibrated) -> str:
 
 
 def _worth(result: Calibrated) -> str:
-    validation = result.validation
-    before, after, near = (
-        1e3 * validation.errors(way, kind)[validation.counted, 0].mean()
-        for way, kind in (
-            (BLOCKWISE, NOTHING),
-            (BLOCKWISE, validation.chosen),
-            (RANDOM, validation.chosen),
-        )
-    )
+    chosen = result.validation.chosen
+    compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
+    before, after, near = (1e3 * result.validation.mean_error(*one) for one in compared)
     if not result.worthwhile:
         return (
             f"Correcting is no better than doing nothing: the {before:.3g} mm that the nominal arm"
@@ -81,7 +71,7 @@ def _worth(result: Calibrated) -> str:
 
 def _radius(result: Calibrated) -> float:
     """Within how many mm 95 % of positions should lie, in a middle posture."""
-    return float(1e3 * np.median(result.validation.radii(result.seen.joints)))
+    return float(1e3 * np.median(result.validation.radii(result.observations.joints)))
 
 
 def notes(result: Calibrated) -> list[str]:
@@ -100,7 +90,7 @@ def _lines(result: Calibrated) -> Iterator[str]:
     yield f"{'folds':<12}{'what is corrected':<34}{'mean':>9}{'95 %':>9}{'largest':>9}"
     for row in errors_table(result):
         what = row["what"] + (" *" if row["chosen"] else "")
-        numbers = "".join(f"{row[name]:9.3f}" for name in ("mean", "95 %", "largest"))
+        numbers = "".join(f"{row[name]:9.3f}" for name in NUMBERS)
         yield f"{row['folds']:<12}{what:<34}{numbers} {row['unit']}"
     yield "* used. Each row was predicted by a calibration that had not seen it; blocks of joint"
     yield "space tell of poses beside those that were measured."
@@ -111,8 +101,8 @@ def _lines(result: Calibrated) -> Iterator[str]:
 def _notes(result: Calibrated) -> Iterator[str]:
     arm, estimate = result.arm, result.calibration.estimate
     postures = result.validation.postures
-    rows = f"{len(result.seen)} rows of {result.table.name}"
-    yield rows if len(postures) == len(result.seen) else f"{len(postures)} postures, {rows}"
+    rows = f"{len(result.observations)} rows of {result.table.name}"
+    yield rows if len(postures) == len(result.observations) else f"{len(postures)} postures, {rows}"
     if result.beside is not None:
         yield f"nominal positions are those of the URDF, with {result.beside}"
     if arm.massless:
@@ -123,16 +113,12 @@ def _notes(result: Calibrated) -> Iterator[str]:
             f"{len(unseen)} meshes are in none of the URDF's packages and folders, and not in the"
             f" recording, as {unseen[0]}"
         )
-    noise = (
-        f"{scale * each:.3g} {unit}"
-        for (scale, unit), each in zip(UNITS, estimate.noise, strict=False)
-    )
-    used = DOING[result.validation.chosen]
-    yield f"noise of a measurement along an axis, as estimated with {used}: {', '.join(noise)}"
+    used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
+    yield f"noise of a measurement along an axis, as estimated with {used}: {noise}"
     yield from _places(result)
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
-    if result.validation.full[HYBRID].residual is not None:
+    if result.validation.full[HYBRID].pattern is not None:
         yield "chosen once, by all rows: how smooth the pattern in what is left is"
     if result.validation.unsettled:
         yield "more than geometry was found, and left out: its identification did not converge"
@@ -145,18 +131,18 @@ def _notes(result: Calibrated) -> Iterator[str]:
         f"95 % of positions should lie within {_radius(result):.3g} mm, also in places away from"
         f" those measured (held out: {covered:.0f} %)"
     )
-    directions = open_directions(result)
-    lasting = [words for words, other_postures_tell in directions if not other_postures_tell]
-    for words in [words for words, other_postures_tell in directions if other_postures_tell][:MOST]:
+    lasting: list[str] = []
+    passing: list[str] = []
+    for words, other_postures_tell in unidentifiable_directions(result):
+        (passing if other_postures_tell else lasting).append(words)
+    for words in passing[:MOST]:
         yield f"other postures would tell: {words}"
     for words in lasting:
         if words.startswith("offset"):
             yield f"no postures would tell: {words}"
     yield f"parameters that no such measurements tell apart, kept small: {len(lasting)}"
-    columns = result.seen.joints.T
-    for joint, slides, still, column in zip(
-        arm.joints, arm.slides, postures.still, columns, strict=True
-    ):
+    columns = arm.joints, arm.slides, postures.still, result.observations.joints.T
+    for joint, slides, still, column in zip(*columns, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]
         low, high = scale * column.min(), scale * column.max()
         if still:
@@ -169,16 +155,18 @@ def _places(result: Calibrated) -> Iterator[str]:
     """Where instrument, targets and sockets are."""
     fit = "arm.urdf" if result.worthwhile else result.urdf.name
     for place in result.places:
-        where = ", ".join(f"{1e3 * each:.2f}" for each in place.pose[:3, 3])
+        where = ", ".join(f"{1e3 * number:.2f}" for number in place.pose[:3, 3])
         words, kinds = f"{place.name} in {place.link} of {fit}: ({where}) mm", 1
         if place.turned:
-            turns = ", ".join(f"{each:.3f}" for each in np.degrees(angles_of(place.pose)))
+            turns = ", ".join(f"{angle:.3f}" for angle in np.degrees(angles_of(place.pose)))
             words, kinds = f"{words}, roll, pitch and yaw ({turns}) deg", 2
         known, real = (
-            ", ".join(
-                f"{scale * each:.2g} {unit}"
-                for (scale, unit), each in zip(UNITS, deviations[:kinds], strict=False)
-            )
-            for deviations in (place.deviations, place.real_deviations)
+            _in_units(its[:kinds], 2) for its in (place.deviations, place.real_deviations)
         )
         yield f"{words}, deviation {known}; beside the machine's own {place.link}, {real}"
+
+
+def _in_units(numbers: Sequence[float] | np.ndarray, digits: int) -> str:
+    """A length [m] and, if there is one, an angle [rad] as people read them."""
+    pairs = zip(UNITS, numbers, strict=False)
+    return ", ".join(f"{scale * number:.{digits}g} {unit}" for (scale, unit), number in pairs)

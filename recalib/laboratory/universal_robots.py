@@ -97,7 +97,7 @@ def _on_one_axis(frame: np.ndarray, axis: np.ndarray, its: np.ndarray) -> bool:
     """Whether a joint of this frame and axis turns about the z axis of the other frame."""
     direction, between = frame[:3, :3] @ axis, its[:3, 3] - frame[:3, 3]
     beside = np.abs(np.cross(direction, between)).max()
-    return max(np.abs(direction - its[:3, 2]).max(), beside) < ALIKE
+    return bool(max(np.abs(direction - its[:3, 2]).max(), beside) < ALIKE)
 
 
 def _pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0) -> np.ndarray:

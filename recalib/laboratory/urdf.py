@@ -6,7 +6,7 @@ moving joint directly, no origin is left to move it by: it gets a link of its ow
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.parsers import expat
@@ -16,7 +16,7 @@ import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
-from recalib.nominal.descriptions import encoding, parsed
+from recalib.nominal.descriptions import encoding, link_of, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 
 CORRECTED = "_corrected"  # what a further link for the tool is called, after the tool's own name
@@ -50,12 +50,11 @@ def corrected_origins(
     """New origins (4, 4) by joint, and that of a further link for the tool, if it needs one."""
     nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
     arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
-    segments = list(_segments(source, nominal))
+    moving, (fixed, name) = _segments(source, nominal)
     origins = {}
-    for joint, (fixed, name) in enumerate(segments[:-1], start=1):
+    for joint, (before, its) in enumerate(moving, start=1):
         placement = arm.model.jointPlacements[joint].homogeneous
-        origins[name] = np.linalg.inv(fixed) @ placement @ offsets[joint - 1]
-    fixed, name = segments[-1]
+        origins[its] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
     tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
     if name is None:
         return origins, tool
@@ -82,10 +81,12 @@ def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = 
 
 
 def _origin(pose: np.ndarray) -> str:
-    xyz, rpy = (
-        " ".join(f"{each + 0.0:.17g}" for each in part) for part in (pose[:3, 3], angles_of(pose))
-    )
-    return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
+    return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
+
+
+def written(vector: np.ndarray) -> str:
+    """Numbers (n,) as a URDF has them; they read as what they were."""
+    return " ".join(f"{number + 0.0:.17g}" for number in vector)
 
 
 def offset_poses(calibration: Calibration) -> list[np.ndarray]:
@@ -115,28 +116,30 @@ def angles_of(pose: np.ndarray) -> np.ndarray:
     )
 
 
-def _segments(source: bytes, arm: Arm) -> Iterator[tuple[np.ndarray, str | None]]:
-    """For each moving joint and last for the tool: the joint whose origin places it, and the
-    origins (4, 4) of the fixed joints before that one. The tool may have no such joint.
+def _segments(
+    source: bytes, arm: Arm
+) -> tuple[list[tuple[np.ndarray, str]], tuple[np.ndarray, str | None]]:
+    """For each moving joint, and for the tool: the joint whose origin places it, and the origins
+    (4, 4) of the fixed joints before that one. The tool may have no such joint.
     """
-    by_child = {
-        joint.find("child").get("link"): joint
-        for joint in parsed(source, Path("arm.urdf")).findall("joint")
-    }
+    joints = parsed(source, Path("arm.urdf")).findall("joint")
+    by_child = {link_of(joint, "child"): joint for joint in joints}
     path, link = [], arm.tool
     while link in by_child and link != arm.base:
         path.append(by_child[link])
-        link = path[-1].find("parent").get("link")
-    fixed = np.eye(4)
-    last = None
+        link = link_of(path[-1], "parent")
+    moving, fixed = [], np.eye(4)
+    last: tuple[np.ndarray, str | None] = fixed, None
     for joint in reversed(path):
-        if joint.get("name") in arm.joints:
-            yield fixed, joint.get("name")
-            fixed, last = np.eye(4), None
+        name = joint.attrib["name"]
+        if name in arm.joints:
+            moving.append((fixed, name))
+            fixed = np.eye(4)
+            last = fixed, None
         else:
-            last = fixed, joint.get("name")
+            last = fixed, name
             fixed = fixed @ _pose(joint.find("origin"))
-    yield last or (np.eye(4), None)
+    return moving, last
 
 
 def _pose(origin: ElementTree.Element | None) -> np.ndarray:
@@ -154,7 +157,9 @@ def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int]:
     Args:
         text: in UTF-8, whatever it says of itself.
     """
-    spans, path, joint, last = {}, [], None, 0
+    spans: dict[str, tuple[int, int]] = {}
+    path: list[str] = []
+    joint, last = "", 0
     parser = expat.ParserCreate("utf-8")
 
     def start(name: str, attributes: dict[str, str]) -> None:
@@ -175,7 +180,9 @@ def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int]:
         path.pop()
 
     def tag_end() -> int:
-        return _TAG.match(text, parser.CurrentByteIndex).end()
+        found = _TAG.match(text, parser.CurrentByteIndex)
+        assert found, "expat has found a tag there"
+        return found.end()
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.Parse(text, True)

@@ -1,4 +1,4 @@
-"""A recording for the Rerun viewer: the arm in each measured posture, and what it missed there."""
+"""A recording for the Rerun viewer: the arm in each measured posture, and its error there."""
 
 from pathlib import Path
 
@@ -6,48 +6,40 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from recalib.identification.validation import NOTHING
 from recalib.laboratory.calibrate import Calibrated
 from recalib.viewing import link_placements, log_meshes, send_frame
 
 ARM, ROW = "arm", "row"
-BEFORE, AFTER, GREY = (213, 94, 0), (0, 114, 178), (120, 120, 120)
-LONGEST = 0.12  # m: so long is the largest miss shown
+COLOURS, GREY = {"before": (213, 94, 0), "after": (0, 114, 178)}, (120, 120, 120)
+LONGEST = 0.12  # m: so long is the largest error shown
 THICK = 0.003  # m
 
 
 def write_recording(path: Path, result: Calibrated) -> None:
     """Write the recording of a calibration. Everything stands in the arm's base."""
-    seen, calibration = result.seen[result.counted], result.calibration
-    back = np.linalg.inv(calibration.frames.base)
-    places = calibration.seen(seen.joints, seen.targets)[:, :3, 3] @ back[:3, :3].T + back[:3, 3]
-    misses = {"before": (NOTHING, BEFORE)}
-    if result.worthwhile:
-        misses["after"] = result.validation.chosen, AFTER
-    largest = np.linalg.norm(result.missed(NOTHING)[:, :3], axis=1).max()
-    longer = float(f"{LONGEST / largest:.0e}")
+    positions, residuals = result.positions, result.residuals
+    longer = float(f"{LONGEST / np.linalg.norm(residuals['before'][:, :3], axis=1).max():.0e}")
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with rr.RecordingStream("recalib calibration") as rec:
         rec.save(path, default_blueprint=_blueprint(longer))
         rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
-        rec.log("measured", rr.Points3D(places, radii=THICK, colors=GREY), static=True)
+        rec.log("measured", rr.Points3D(positions, radii=THICK, colors=GREY), static=True)
         _send_arm(rec, result)
         rows = rr.TimeColumn(ROW, sequence=result.counted + 1)
-        for name, (kind, colour) in misses.items():
-            missed = result.missed(kind)[:, :3] @ back[:3, :3].T
-            rec.log(
-                f"misses/{name}",
-                rr.Arrows3D(
-                    origins=places, vectors=longer * missed, colors=colour, radii=THICK / 3
-                ),
-                static=True,
+        for name, its in residuals.items():
+            arrows = rr.Arrows3D(
+                origins=positions,
+                vectors=longer * its[:, :3],
+                colors=COLOURS[name],
+                radii=THICK / 3,
             )
-            rec.log(f"errors/{name}", rr.SeriesLines(colors=colour, names=name), static=True)
-            errors = 1e3 * np.linalg.norm(missed, axis=1)
+            rec.log(f"misses/{name}", arrows, static=True)
+            lines = rr.SeriesLines(colors=COLOURS[name], names=name)
+            rec.log(f"errors/{name}", lines, static=True)
+            errors = 1e3 * np.linalg.norm(its[:, :3], axis=1)
             rec.send_columns(f"errors/{name}", [rows], rr.Scalars.columns(scalars=errors))
-        rec.send_columns(
-            "now", [rows], rr.Points3D.columns(positions=places, radii=[4 * THICK] * len(places))
-        )
+        here = rr.Points3D.columns(positions=positions, radii=[4 * THICK] * len(positions))
+        rec.send_columns("now", [rows], here)
 
 
 def _blueprint(longer: float) -> rrb.Blueprint:
@@ -55,7 +47,7 @@ def _blueprint(longer: float) -> rrb.Blueprint:
         rrb.Vertical(
             rrb.Spatial3DView(
                 origin="/",
-                name=f"the arm, and its misses {longer:g} times as long",
+                name=f"the arm, and its errors {longer:g} times as long",
                 contents=["+ /**", "- /errors/**"],
             ),
             rrb.TimeSeriesView(
@@ -70,7 +62,7 @@ def _blueprint(longer: float) -> rrb.Blueprint:
 
 def _send_arm(rec: rr.RecordingStream, result: Calibrated) -> None:
     """The nominal arm in each row: its meshes, and a line along it, if they are missing."""
-    arm, joints = result.arm, result.seen.joints
+    arm, joints = result.arm, result.observations.joints
     rows = [rr.TimeColumn(ROW, sequence=np.arange(1, len(joints) + 1))]
     visuals, _ = log_meshes(rec, result.source, result.urdf, ARM)
     for link, poses in link_placements(arm, visuals, joints).items():

@@ -80,7 +80,16 @@ class Cells:
 
 
 @compiled
-def _read(cells, k, l, increments, g_k, g_kl, targets, kept):
+def _read(
+    cells: np.ndarray,
+    k: np.ndarray,
+    l: np.ndarray,
+    increments: bool,
+    g_k: np.ndarray,
+    g_kl: np.ndarray,
+    targets: np.ndarray,
+    kept: int,
+) -> np.ndarray:
     """What is held by one cell of each run, with the updates made that were kept back."""
     held = np.empty((len(cells), cells.shape[-1]))
     for run in range(len(cells)):

@@ -1,6 +1,7 @@
 """A black box: Gaussian processes for the correction of the command, knowing nothing of arms."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -8,6 +9,9 @@ from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
 from recalib.regression import Process, is_time_to_search
+
+if TYPE_CHECKING:
+    from recalib.nominal.robots import Robot
 
 
 class GaussianProcessLearner(Observer):
@@ -20,9 +24,7 @@ class GaussianProcessLearner(Observer):
         runs: how many independent trainings.
     """
 
-    kind = "gaussian_process"
-
-    def __init__(self, runs: int):
+    def __init__(self, *, runs: int = 1):
         self._experience = Experience(runs)
         self._processes: list[Process | None] = [None] * runs
 
@@ -50,7 +52,12 @@ class GaussianProcessLearner(Observer):
         known = None if last is None or search else last.hyperparameters
         return Process(achieved, commands - achieved, known)
 
-    def settings(self) -> dict:
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+        """The learner of so many runs that has learned nothing; there are no settings."""
+        return cls(runs=runs)
+
+    def settings(self) -> dict[str, Any]:
         """It has none."""
         return {}
 

@@ -4,8 +4,10 @@ To reach a pose, the learner asks the identified arm for the joint angles that i
 commands the pose that the nominal kinematics give these angles.
 """
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import Any, Self
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
 from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot
 
 
 class GeometricLearner(Observer):
@@ -26,16 +29,14 @@ class GeometricLearner(Observer):
     choose joint angles, and what these are follows from the nominal kinematics.
 
     Args:
-        runs: how many independent trainings.
         controller: the nominal controller.
+        runs: how many independent trainings.
 
     Attributes:
         calibrations: of each run; None where nothing has been learned.
     """
 
-    kind = "geometric"
-
-    def __init__(self, runs: int, controller: Controller):
+    def __init__(self, controller: Controller, *, runs: int = 1):
         self._controller = controller
         self._experience = Experience(
             runs, len(controller.robot.joints)
@@ -45,14 +46,11 @@ class GeometricLearner(Observer):
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         commands = desired.copy()
-        known = [
-            run for run, calibration in enumerate(self.calibrations) if calibration is not None
-        ]
+        known = {run: each for run, each in enumerate(self.calibrations) if each is not None}
         if known:
-            poses = self._controller.robot.workspace.to_poses(desired[known])
-            calibrations = [self.calibrations[run] for run in known]
-            commands[known] = self._controller.commands_for(
-                desired[known], partial(angles_for, calibrations, poses)
+            poses = self._controller.robot.workspace.to_poses(desired[[*known]])
+            commands[[*known]] = self._controller.commands_for(
+                desired[[*known]], partial(angles_for, [*known.values()], poses)
             )
         return commands
 
@@ -66,7 +64,15 @@ class GeometricLearner(Observer):
                     measured = self._controller.robot.workspace.to_poses(coordinates)
                     self.calibrations[run] = self._calibrate(angles, measured, last)
 
-    def settings(self) -> dict:
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
+        """The learner of so many runs that has learned nothing; there are no settings.
+
+        Its controller's singularity margin was accepted when it learned.
+        """
+        return cls(Controller(robot, greatest_condition=math.inf), runs=runs)
+
+    def settings(self) -> dict[str, Any]:
         """It has none; its controller is the robot's."""
         return {}
 
@@ -91,7 +97,7 @@ class GeometricLearner(Observer):
     ) -> Calibration:
         model = ErrorModel(self._controller.robot.arm, OFFSETS)
         return Calibration(
-            model, identify(model, Observations(angles, measured), last and last.estimate)
+            model, identify(model, Observations(angles, measured), last.estimate if last else None)
         )
 
     def _angles(self, commands: np.ndarray) -> np.ndarray:

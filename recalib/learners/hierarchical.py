@@ -1,8 +1,8 @@
 """The learners of the paper: hierarchical maps with Ritter's rules or the improved ones."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.measurements import check_moves
+
+if TYPE_CHECKING:
+    from recalib.nominal.robots import Robot
 
 # Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
 # rounding errors.
@@ -24,14 +27,12 @@ class HierarchicalLearner:
     The centres of the cells stay where they are (section 3).
 
     Args:
-        runs: how many independent trainings.
         rules: which rules to learn by.
         schedule: how widths and rates fall.
+        runs: how many independent trainings.
     """
 
-    kind = "hierarchical"
-
-    def __init__(self, runs: int, rules: Rules, schedule: Schedule):
+    def __init__(self, rules: Rules, schedule: Schedule, *, runs: int = 1):
         self.rules, self.schedule = rules, schedule.over(runs)
         self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
         self.maps = {
@@ -90,9 +91,19 @@ class HierarchicalLearner:
             each.theta.update(rate * learn_theta, *near, new_theta[:, each.outputs])
             each.jacobian.update(rate * learn_jacobian, *near, new_jacobian[:, each.outputs])
 
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        rules: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value
+            for name, value in settings["rules"].items()
+        }
+        schedule = Schedule.of_runs([Schedule(**its) for its in settings["by_run"]])
+        return cls(Rules(**rules), schedule, runs=runs)
+
     def settings(self) -> dict[str, Any]:
         """The rules and, by run, the schedule."""
-        by_run = [asdict(self.schedule.of_run(run)) for run in self._runs]
+        by_run = [asdict(self.schedule.of_run(run)) for run in range(len(self._runs))]
         return {"rules": asdict(self.rules), "by_run": by_run}
 
     def state(self) -> list[State]:

@@ -14,8 +14,6 @@ class HybridLearner(GeometricLearner):
     Such as eccentric gears and sag.
     """
 
-    kind = "hybrid"
-
     def _calibrate(
         self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
     ) -> Calibration:

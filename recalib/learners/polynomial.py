@@ -6,7 +6,8 @@ correction, each coefficient with a deviation.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from recalib.errors import InvalidSetting
 from recalib.interfaces import State
 from recalib.learners.observer import Observer
 from recalib.monomials import monomials
+
+if TYPE_CHECKING:
+    from recalib.nominal.robots import Robot
 
 # Deviations of the coefficients by their degree, and of what the polynomial leaves, all in
 # workspace coordinates: wear of some centimetres and degrees, an arm's length away, bends the map
@@ -26,15 +30,13 @@ class PolynomialLearner(Observer):
     """Regularised recursive least squares on the monomials of the pose coordinates.
 
     Args:
-        runs: how many independent trainings.
         degree: 1 for affine, 2 for quadratic.
+        runs: how many independent trainings.
 
     Raises InvalidSetting for any other degree.
     """
 
-    kind = "polynomial"
-
-    def __init__(self, runs: int, degree: int):
+    def __init__(self, degree: int, *, runs: int = 1):
         if degree not in (1, 2):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         self._degree = degree
@@ -59,7 +61,12 @@ class PolynomialLearner(Observer):
             self._coefficients += gain.swapaxes(1, 2) @ missed
             self._spread -= gain.swapaxes(1, 2) @ reach
 
-    def settings(self) -> dict[str, int]:
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
+        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        return cls(**settings, runs=runs)
+
+    def settings(self) -> dict[str, Any]:
         """The degree."""
         return {"degree": self._degree}
 

@@ -33,18 +33,18 @@ class RadialLearner:
         theta_i += c' g_i e    or    theta_i += c' g_i (theta_winner + e - theta_i).
 
     Args:
-        runs: how many independent trainings.
         rules: of the paper's: sizes and centres of the nets, whose pairs of cells (k, l) are the
             units; one map or two (section 4), increments of theta or values (section 5), and how
             widths and rates fall (section 6). What is said of Jacobians says nothing here.
         schedule: how widths and rates fall.
         field: s, the width of the receptive fields, in workspace coordinates; it stays.
+        runs: how many independent trainings.
 
     Attributes:
         theta: by the name of each map, `Cells` (run, K, L, output).
     """
 
-    def __init__(self, runs: int, rules: Rules, schedule: Schedule, field: float = SPACING):
+    def __init__(self, rules: Rules, schedule: Schedule, field: float = SPACING, *, runs: int = 1):
         self.rules, self.schedule = rules, schedule.over(runs)
         self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
         self.theta = {

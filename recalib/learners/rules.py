@@ -63,7 +63,7 @@ class Rules:
     width_units: tuple[float, ...] = (1.0,) * 6
     initial: int | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for kind, name, valid in (
             ("centres of cells", self.centres, CENTRES),
             ("spread of equal visits", self.spread, SPREADS),
@@ -94,7 +94,7 @@ class Rules:
         Args:
             name: of a map; see `maps`.
         """
-        start, ends = schedule.initial_width, schedule.final_widths[name]
+        start, ends = map(np.asarray, (schedule.initial_width, schedule.final_widths[name]))
         if not self.equal_visits:
             return schedules.exponential(start, ends, fraction)
         return schedules.equal_visits(start, ends, fraction, self.dimensions, self.spread)
@@ -102,7 +102,8 @@ class Rules:
     def learning_rate(self, schedule: Schedule, fraction: float) -> np.ndarray:
         """c' (run,) after this fraction of the training."""
         weaken = RATES[self.law_of_rate]
-        return weaken(schedule.initial_rate, schedule.final_rate, fraction)
+        start, end = map(np.asarray, (schedule.initial_rate, schedule.final_rate))
+        return weaken(start, end, fraction)
 
 
 IMPROVED = Rules(

@@ -18,17 +18,23 @@ DIMENSIONS = 3  # of each net's centres: positions for a supernet, orientations 
 SPREADS = {"widths": 1, "logarithms": 0}
 
 
-def exponential(start, end, fraction):
+def exponential(start: np.ndarray, end: np.ndarray, fraction: float) -> np.ndarray:
     """The same factor in every iteration: Ritter's decay of widths and rates."""
     return start * (end / start) ** fraction
 
 
-def linear(start, end, fraction):
+def linear(start: np.ndarray, end: np.ndarray, fraction: float) -> np.ndarray:
     """The same step in every iteration: how the improved system's rate falls (section 7)."""
     return start + (end - start) * fraction
 
 
-def equal_visits(start, end, fraction, dimensions: int = DIMENSIONS, spread: str = "widths"):
+def equal_visits(
+    start: np.ndarray,
+    end: np.ndarray,
+    fraction: float,
+    dimensions: int = DIMENSIONS,
+    spread: str = "widths",
+) -> np.ndarray:
     """The same mean number of visits of a cell at every width (section 6).
 
     The time spent at a width s is inversely proportional to the expected learning L of (10), which
@@ -44,7 +50,9 @@ def equal_visits(start, end, fraction, dimensions: int = DIMENSIONS, spread: str
     return linear(np.power(start, power), np.power(end, power), fraction) ** (1 / power)
 
 
-def expected_learning(width, dimensions: int, volume: float):
+def expected_learning(
+    width: float | np.ndarray, dimensions: int, volume: float
+) -> float | np.ndarray:
     """L of (10): what a cell far from the border learns in one iteration, on average.
 
     Args:
@@ -72,11 +80,11 @@ class Schedule:
     """
 
     initial_width: float | np.ndarray
-    final_widths: Mapping[str, Sequence[float | np.ndarray]]
+    final_widths: Mapping[str, Sequence[float | np.ndarray] | np.ndarray]
     initial_rate: float | np.ndarray
     final_rate: float | np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for width in (self.initial_width, *chain.from_iterable(self.final_widths.values())):
             if not np.all(np.greater(width, 0)):
                 raise InvalidSetting("width of a neighbourhood", width, "above 0")
@@ -99,10 +107,10 @@ class Schedule:
     def of_run(self, run: int) -> "Schedule":
         """That of one of several runs, all numbers."""
         return Schedule(
-            float(self.initial_width[run]),
-            {name: [float(w[run]) for w in pair] for name, pair in self.final_widths.items()},
-            float(self.initial_rate[run]),
-            float(self.final_rate[run]),
+            float(np.asarray(self.initial_width)[run]),
+            {name: np.asarray(pair)[:, run].tolist() for name, pair in self.final_widths.items()},
+            float(np.asarray(self.initial_rate)[run]),
+            float(np.asarray(self.final_rate)[run]),
         )
 
     @classmethod

@@ -8,7 +8,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
-from recalib.nominal.descriptions import MOST, find_urdf, parsed
+from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.storage import read_file
 
@@ -18,7 +18,7 @@ UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
 FARTHEST, HEAVIEST = 1e3, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
-def load_arm(urdf: str | PathLike, tool: str | None = None, base: str | None = None) -> Arm:
+def load_arm(urdf: str | PathLike[str], tool: str | None = None, base: str | None = None) -> Arm:
     """The arm of one-axis joints, turning or sliding, that carries a tool link from a base link.
 
     Joints elsewhere are locked at neutral. A turning joint without limits is one of limits at
@@ -92,18 +92,19 @@ class _Tree:
             raise UnsuitableRobot(
                 f"{path} is a xacro file; valid: what `xacro {path.name}` expands it to"
             )
-        links = {link.get("name") for link in robot.iterfind("link")}
+        links = {link.get("name", "") for link in robot.iterfind("link")}
         for joint in robot.iterfind("joint"):
             if joint.get("type") == "continuous":
                 _bound(joint)
-            if joint.get("name") in links:  # Pinocchio takes frames of one name for another
-                joint.set("name", joint.get("name") + NAMESAKE)
+            name = joint.get("name", "")
+            if name in links:  # Pinocchio takes frames of one name for another
+                joint.set("name", name + NAMESAKE)
         try:
             self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
         except (ValueError, RecursionError):  # what is wrong, urdfdom has written to stderr
             raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from None
         self._name = path.name
-        self._joints = {joint.find("child").get("link"): joint for joint in robot.iterfind("joint")}
+        self._joints = {link_of(joint, "child"): joint for joint in robot.iterfind("joint")}
         # of links in a circle, which hang on nothing, Pinocchio knows nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
@@ -117,7 +118,7 @@ class _Tree:
 
     def only_end(self, base: str) -> str:
         """The link above which there are joints that move, up to the base, and below it nothing."""
-        carrying = {_parent(joint) for joint in self._joints.values()}
+        carrying = {link_of(joint, "parent") for joint in self._joints.values()}
         ends = [
             link
             for link in self._links
@@ -143,25 +144,21 @@ class _Tree:
                     f" {kind}; valid: {', '.join(KINDS)}"
                 )
             if kind != "fixed":
-                moving.append(joint.get("name"))
+                moving.append(joint.attrib["name"])
         if not moving:
             raise UnsuitableRobot(f"no joint of {self._name} moves {tool} against {base}")
         return moving
 
     def _way_up(self, link: str) -> list[str]:
         """The link and all that carry it."""
-        return [link, *(_parent(joint) for joint in self._joints_up(link, self.root))]
+        return [link, *(link_of(joint, "parent") for joint in self._joints_up(link, self.root))]
 
     def _joints_up(self, link: str, base: str) -> list[ElementTree.Element]:
         joints = []
         while link != base:
             joints.append(self._joints[link])
-            link = _parent(joints[-1])
+            link = link_of(joints[-1], "parent")
         return joints
-
-
-def _parent(joint: ElementTree.Element) -> str:
-    return joint.find("parent").get("link")
 
 
 def _bound(joint: ElementTree.Element) -> None:

@@ -76,7 +76,7 @@ class Chain(NamedTuple):
 
 
 @compiled
-def _forward(chain, angles):
+def _forward(chain: Chain, angles: np.ndarray) -> np.ndarray:
     arms, postures, joints = angles.shape
     poses = np.zeros((arms, postures, 4, 4))
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
@@ -89,7 +89,14 @@ def _forward(chain, angles):
 
 
 @compiled
-def _stand(chain, arm, angles, pose, origins, directions):
+def _stand(
+    chain: Chain,
+    arm: int,
+    angles: np.ndarray,
+    pose: np.ndarray,
+    origins: np.ndarray,
+    directions: np.ndarray,
+) -> None:
     """Write the tool's pose (3 or 4, 4), and where the joints lie and point, both (n, 3)."""
     joints = len(angles)
     for row in range(3):
@@ -124,7 +131,7 @@ def _stand(chain, arm, angles, pose, origins, directions):
 
 
 @compiled
-def _jacobians(chain, angles):
+def _jacobians(chain: Chain, angles: np.ndarray) -> np.ndarray:
     postures, joints = angles.shape
     jacobians, pose = np.empty((postures, 6, joints)), np.empty((3, 4))
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
@@ -135,7 +142,13 @@ def _jacobians(chain, angles):
 
 
 @compiled
-def _move(chain, pose, origins, directions, jacobian):
+def _move(
+    chain: Chain,
+    pose: np.ndarray,
+    origins: np.ndarray,
+    directions: np.ndarray,
+    jacobian: np.ndarray,
+) -> None:
     """Write how the tool moves (6, n) with joints that lie and point as `_stand` says."""
     for joint in range(len(origins)):
         slides = chain.slides[0, joint]
@@ -152,7 +165,7 @@ def _move(chain, pose, origins, directions, jacobian):
 
 
 @compiled
-def _solve(chain, poses, start):
+def _solve(chain: Chain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     joints = start.shape[1]
     found, left = start.copy(), np.full(len(start), np.inf)
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
@@ -181,13 +194,13 @@ def _solve(chain, poses, start):
 
 
 @compiled
-def _copy(vector, to):
+def _copy(vector: np.ndarray, to: np.ndarray) -> None:
     for index in range(len(vector)):
         to[index] = vector[index]
 
 
 @compiled
-def _shortest_step(jacobian, missing):
+def _shortest_step(jacobian: np.ndarray, missing: np.ndarray) -> np.ndarray:
     """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
     if jacobian.shape[1] > 6:
         square, vector = np.zeros((6, 6)), missing.copy()
@@ -205,7 +218,7 @@ def _shortest_step(jacobian, missing):
 
 
 @compiled
-def _missing(pose, goal, missing):
+def _missing(pose: np.ndarray, goal: np.ndarray, missing: np.ndarray) -> float:
     """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
 
     The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
@@ -226,7 +239,7 @@ def _missing(pose, goal, missing):
 
 
 @compiled
-def _is_half_a_turn(pose, goal):
+def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
     """Whether a turn from pose to goal that is none or half a one is half a one."""
     trace = 0.0
     for row in range(3):
@@ -236,7 +249,7 @@ def _is_half_a_turn(pose, goal):
 
 
 @compiled
-def _longest(vector):
+def _longest(vector: np.ndarray) -> float:
     """Its largest number; nan if there is one."""
     longest = 0.0
     for number in vector:
@@ -246,7 +259,7 @@ def _longest(vector):
 
 
 @compiled
-def _eliminate(matrix, vector):
+def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
     """Solve linear equations in place, and say whether they can be solved."""
     size = len(vector)
     for column in range(size):

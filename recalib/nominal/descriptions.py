@@ -22,7 +22,7 @@ _MARKED = dict.fromkeys((codecs.BOM_UTF16_LE, b"<\0"), "utf-16-le")
 _MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
 
 
-def find_urdf(urdf: str | PathLike) -> Path:
+def find_urdf(urdf: str | PathLike[str]) -> Path:
     """The file of a URDF. One of the user's own comes before one of a package.
 
     Args:
@@ -43,7 +43,7 @@ def find_urdf(urdf: str | PathLike) -> Path:
         raise InvalidSetting("urdf", fspath(urdf), valid) from None
 
 
-def package_of(urdf: str | PathLike) -> str | None:
+def package_of(urdf: str | PathLike[str]) -> str | None:
     """The package that a name is of; None for a path to a file. Raises as `find_urdf`."""
     path, name = Path(urdf), fspath(urdf)
     if os.path.lexists(path) and not path.is_dir():
@@ -65,7 +65,7 @@ def _packaged_urdfs() -> dict[str, Path]:
     return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
 
 
-def origin(urdf: str | PathLike, source: bytes) -> str:
+def origin(urdf: str | PathLike[str], source: bytes) -> str:
     """Which file it is, for people: its name, its package if it is of one, and its digest."""
     package = package_of(urdf)
     name = f"{find_urdf(urdf).name} of the package {package}" if package else fspath(urdf)
@@ -96,3 +96,8 @@ def parsed(source: bytes, path: Path) -> ElementTree.Element:
     if (count := len(robot.findall("joint"))) > MOST_JOINTS:
         raise UnsuitableRobot(f"{path} has {count} joints; expected: at most {MOST_JOINTS}")
     return robot
+
+
+def link_of(joint: ElementTree.Element, role: str) -> str:
+    """Name of the parent or child link of a joint that Pinocchio has accepted."""
+    return joint.findall(role)[0].attrib["link"]

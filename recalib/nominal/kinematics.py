@@ -41,7 +41,7 @@ class Arm:
     @cached_property
     def slides(self) -> np.ndarray:
         """(joint,) whether a joint slides along its axis; else it turns about it."""
-        return ~self._motions[:, 3:].any(axis=1)
+        return np.logical_not(self._motions[:, 3:].any(axis=1))
 
     @cached_property
     def axes(self) -> np.ndarray:
@@ -117,9 +117,9 @@ class Arm:
                 self.model, self._data, self._frame, pin.LOCAL_WORLD_ALIGNED
             )
             placements.append(regressor)
-        poses, tools = np.array(poses), np.zeros((len(angles), 6, 6))
-        tools[:, :3, :3] = tools[:, 3:, 3:] = poses[:, :3, :3]
-        return poses, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
+        reached, tools = np.array(poses), np.zeros((len(angles), 6, 6))
+        tools[:, :3, :3] = tools[:, 3:, 3:] = reached[:, :3, :3]
+        return reached, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
 
     def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
         """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""

@@ -37,7 +37,7 @@ class Workspace:
     half_ranges: np.ndarray
     coordinates: str = "roll_pitch_yaw"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.coordinates not in COORDINATES:
             raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
 
@@ -70,7 +70,9 @@ class Workspace:
 
 
 @compiled
-def _poses(coordinates, centre, half_ranges, vectors):
+def _poses(
+    coordinates: np.ndarray, centre: np.ndarray, half_ranges: np.ndarray, vectors: bool
+) -> np.ndarray:
     poses = np.zeros((len(coordinates), 4, 4))
     relative = np.empty((3, 3))
     for index in range(len(coordinates)):
@@ -87,7 +89,9 @@ def _poses(coordinates, centre, half_ranges, vectors):
 
 
 @compiled
-def _coordinates(poses, centre, half_ranges, vectors):
+def _coordinates(
+    poses: np.ndarray, centre: np.ndarray, half_ranges: np.ndarray, vectors: bool
+) -> np.ndarray:
     coordinates, relative = np.empty((len(poses), 6)), np.empty((3, 3))
     for index in range(len(poses)):
         pose, numbers = poses[index], coordinates[index]
@@ -105,7 +109,7 @@ def _coordinates(poses, centre, half_ranges, vectors):
 
 
 @compiled
-def _write_product(one, other, product):
+def _write_product(one: np.ndarray, other: np.ndarray, product: np.ndarray) -> None:
     """Of two orientations, each the first three rows and columns."""
     for row in range(3):
         for column in range(3):
@@ -117,12 +121,12 @@ def _write_product(one, other, product):
 
 
 @compiled
-def _write_row(row, x, y, z):
+def _write_row(row: np.ndarray, x: float, y: float, z: float) -> None:
     row[0], row[1], row[2] = x, y, z
 
 
 @compiled
-def _write_turn_by_angles(angles, turn):
+def _write_turn_by_angles(angles: np.ndarray, turn: np.ndarray) -> None:
     """Rz(yaw) Ry(pitch) Rx(roll)."""
     (a, b, c), (d, e, f) = np.cos(angles), np.sin(angles)
     _write_row(turn[0], c * b, c * e * d - f * a, c * e * a + f * d)
@@ -131,7 +135,7 @@ def _write_turn_by_angles(angles, turn):
 
 
 @compiled
-def _write_turn_by_vector(vector, turn):
+def _write_turn_by_vector(vector: np.ndarray, turn: np.ndarray) -> None:
     """exp([r]), by Rodrigues' formula."""
     x, y, z = vector
     angle = np.sqrt(x * x + y * y + z * z)
@@ -147,10 +151,10 @@ def _write_turn_by_vector(vector, turn):
 
 
 @compiled
-def _write_vector(turn, vector):
+def _write_vector(turn: np.ndarray, vector: np.ndarray) -> None:
     """Of exp([r]), by its quaternion: of four ways to it, one divides by no small number."""
     trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
-    first = np.argmax(np.array([turn[0, 0], turn[1, 1], turn[2, 2], trace]))
+    first = int(np.argmax(np.array([turn[0, 0], turn[1, 1], turn[2, 2], trace])))
     if first == 3:
         real = 1 + trace
         for axis in range(3):

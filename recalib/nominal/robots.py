@@ -78,11 +78,11 @@ def _lengthen(arm: Arm, beyond: float) -> None:
 
 
 def load_robot(
-    urdf: str | PathLike,
+    urdf: str | PathLike[str],
     tool: str,
     home: Mapping[str, float],
-    position_range: Sequence[float],
-    orientation_range: Sequence[float],
+    position_range: Sequence[float] | np.ndarray,
+    orientation_range: Sequence[float] | np.ndarray,
     limits: Mapping[str, tuple[float, float]] | None = None,
     name: str | None = None,
     coordinates: str = "roll_pitch_yaw",

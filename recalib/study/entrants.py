@@ -49,31 +49,31 @@ def _uncorrected(runs: int, controller: "Controller") -> "Learner":
 def _affine(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.polynomial import PolynomialLearner
 
-    return PolynomialLearner(runs, degree=1)
+    return PolynomialLearner(runs=runs, degree=1)
 
 
 def _quadratic(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.polynomial import PolynomialLearner
 
-    return PolynomialLearner(runs, degree=2)
+    return PolynomialLearner(runs=runs, degree=2)
 
 
 def _gaussian_process(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.gaussian_process import GaussianProcessLearner
 
-    return GaussianProcessLearner(runs)
+    return GaussianProcessLearner(runs=runs)
 
 
 def _geometric(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.geometric import GeometricLearner
 
-    return GeometricLearner(runs, controller)
+    return GeometricLearner(controller, runs=runs)
 
 
 def _hybrid(runs: int, controller: "Controller") -> "Learner":
     from recalib.learners.hybrid import HybridLearner
 
-    return HybridLearner(runs, controller)
+    return HybridLearner(controller, runs=runs)
 
 
 ENTRANTS: Mapping[str, Entrant] = {

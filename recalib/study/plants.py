@@ -84,7 +84,7 @@ class Resolved(Kept):
         """
         luck = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
         arm = self.arm(controller.robot)
-        return Plant(controller, [arm], disturbances_among(self.damages), luck)
+        return Plant(controller, arm, disturbances_among(self.damages), luck)
 
 
 def fleet(
@@ -131,7 +131,7 @@ def resolve(
     workspace = controller.robot.workspace
     tests = workspace.sample(generator(seed, name, "initial errors"), 1, poses)
     arm = apply(controller.robot, damages_among(resolved))
-    achieved, _ = Plant(controller, [arm]).achieve(tests)
+    achieved, _ = Plant(controller, arm).achieve(tests)
     desired = workspace.to_poses(tests)
     return Resolved(
         scenario=name,

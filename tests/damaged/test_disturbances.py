@@ -57,7 +57,7 @@ def test_what_an_instrument_adds_does_not_depend_on_where_the_arm_stands():
 
 def test_a_plant_stops_beside_its_poses_by_what_its_joints_do(controller, damaged, commands):
     loose = Disturbances(repeatability=Repeatability(1e-3))
-    plant = Plant(controller, [damaged], loose, generators(7, 8))
+    plant = Plant(controller, damaged, loose, generators(7, 8))
     outcome = plant.execute(commands)
     stops = loose.of_joints(generators(7, 8), commands.shape[1:])
     angles = controller.targets(commands).angles + stops
@@ -67,10 +67,10 @@ def test_a_plant_stops_beside_its_poses_by_what_its_joints_do(controller, damage
 
 
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):
-    quiet = Plant(controller, [damaged])
+    quiet = Plant(controller, damaged)
     noisy = Plant(
         controller,
-        [damaged],
+        damaged,
         Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3)),
         generators(7, 8),
     )
@@ -88,7 +88,7 @@ def test_each_run_has_luck_of_its_own_that_repeats(controller, damaged, commands
         Disturbances(outliers=Outliers(1.0, 0.05)),
     ):
         first, second = (
-            Plant(controller, [damaged], disturbances, generators(9, 10)).execute(same).achieved
+            Plant(controller, damaged, disturbances, generators(9, 10)).execute(same).achieved
             for _ in range(2)
         )
         assert np.array_equal(first, second)
@@ -96,17 +96,17 @@ def test_each_run_has_luck_of_its_own_that_repeats(controller, damaged, commands
 
 
 def test_no_disturbance_at_all_changes_nothing(controller, damaged, commands):
-    quiet = Plant(controller, [damaged]).execute(commands).achieved
+    quiet = Plant(controller, damaged).execute(commands).achieved
     still = (
-        Plant(controller, [damaged], Disturbances(), generators(11, 12)).execute(commands).achieved
+        Plant(controller, damaged, Disturbances(), generators(11, 12)).execute(commands).achieved
     )
     assert np.allclose(still, quiet, atol=1e-12)
 
 
 def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, commands):
     disturbances = Disturbances(Noise(1e-3, 1e-3), Repeatability(1e-3), Outliers(0.5, 0.05))
-    both = Plant(controller, [damaged], disturbances, generators(9, 10)).execute(commands)
-    alone = Plant(controller, [damaged], disturbances, generators(10)).execute(commands[1:])
+    both = Plant(controller, damaged, disturbances, generators(9, 10)).execute(commands)
+    alone = Plant(controller, damaged, disturbances, generators(10)).execute(commands[1:])
     assert np.array_equal(both.achieved[1:], alone.achieved)
 
 

@@ -13,8 +13,8 @@ def plants(controller, damaged):
         noisy = Disturbances(Noise(1e-3, 0.0), Repeatability(1e-3))
         moved = apply(controller.robot, [BaseShift(translation=(0.01, 0.0, 0.02))])
         return [
-            Plant(controller, [damaged]),
-            Plant(controller, [moved], noisy, [np.random.default_rng(seed) for seed in (1, 2)]),
+            Plant(controller, damaged),
+            Plant(controller, moved, noisy, [np.random.default_rng(seed) for seed in (1, 2)]),
         ]
 
     return make

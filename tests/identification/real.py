@@ -74,8 +74,8 @@ class Real:
         return joints + gears + self._offsets
 
     def poses(self, joints, targets=0, noise=NOISE):
-        seen = self.base @ self._arm.forward(self._standing(joints)) @ self.targets[targets]
+        observations = self.base @ self._arm.forward(self._standing(joints)) @ self.targets[targets]
         turns = noise[1] * self.random.standard_normal((len(joints), 3))
-        seen[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ seen[:, :3, :3]
-        seen[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))
-        return seen
+        observations[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ observations[:, :3, :3]
+        observations[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))
+        return observations

@@ -19,7 +19,7 @@ def calibrations(controller):
         calibrate(robot.arm, (terms,), Observations(angles, gear.forward(angles)))
         for terms in (OFFSETS, JOINT_ERRORS)
     ]
-    assert [calibration.residual is None for calibration in found] == [False, True]
+    assert [calibration.pattern is None for calibration in found] == [False, True]
     return found
 
 
@@ -51,10 +51,10 @@ def test_a_pattern_is_learned_from_so_many_rows_at_most(controller, monkeypatch)
     robot, random = controller.robot, np.random.default_rng(1)
     angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(random, 40)))
     gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
-    seen = Observations(angles, gear.forward(angles))
+    observations = Observations(angles, gear.forward(angles))
     for most, used in ((40, 40), (30, 30)):
         monkeypatch.setattr(module, "MOST", most)
-        inputs = calibrate(robot.arm, (OFFSETS,), seen).residual.state()["inputs"]
+        inputs = calibrate(robot.arm, (OFFSETS,), observations).pattern.state()["inputs"]
         assert len(np.unique(inputs, axis=0)) == used
         assert {*map(tuple, inputs)} <= {*map(tuple, angles)}
 
@@ -66,8 +66,8 @@ def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibra
     angles = controller.inverse(workspace.to_poses(workspace.sample(random, 40)))
     measured = robot.arm.forward(angles)
     measured[:, :3, 3] += random.normal(scale=1e-4, size=(40, 3))
-    seen = Observations(angles, measured[:, :3, 3])
+    observations = Observations(angles, measured[:, :3, 3])
     patterned, eccentric = calibrations
-    assert calibrate_again(patterned, (OFFSETS,), seen).residual is None
-    again = calibrate_again(eccentric, (OFFSETS, JOINT_ERRORS), seen)
+    assert calibrate_again(patterned, (OFFSETS,), observations).pattern is None
+    again = calibrate_again(eccentric, (OFFSETS, JOINT_ERRORS), observations)
     assert again.model.names == tuple(OFFSETS) != eccentric.model.names

@@ -20,8 +20,8 @@ def angles(robot, controller):
 @pytest.fixture
 def calibration(robot, damaged, angles):
     model = ErrorModel(robot.arm, OFFSETS)
-    seen = Observations(angles[:3], damaged.forward(angles[:3]))
-    return Calibration(model, identify(model, seen))
+    observations = Observations(angles[:3], damaged.forward(angles[:3]))
+    return Calibration(model, identify(model, observations))
 
 
 def test_a_pose_that_was_measured_teaches_less_than_a_new_one(calibration, angles):

@@ -6,7 +6,7 @@ from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.nongeometric import Sag
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.linearised import displacements
+from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.nominal.poses import orientation_error, position_error
 

@@ -5,8 +5,8 @@ import pytest
 
 from recalib.identification.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.first_guess import guess_frames
 from recalib.identification.frames import HELD
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import GANTRY, SCARA, urdf
@@ -31,11 +31,11 @@ def test_joints_that_slide_are_identified(text, what, load):
     real = Real(arm, 1)
     joints = real.postures(30)
     poses = real.poses(joints)
-    seen = Observations(joints, poses if what == "poses" else poses[:, :3, 3])
-    model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
-    found = identify(model, seen)
+    observations = Observations(joints, poses if what == "poses" else poses[:, :3, 3])
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
+    found = identify(model, observations)
     assert found.converged
-    nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), seen)
+    nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
     after, before = (
         missed(real, lambda fresh, its=its: model.predict(its.parameters, fresh))
         for its in (found, nominal)
@@ -72,9 +72,9 @@ def balls():
     fresh = real.postures(100)
     tool, true = arm.forward(fresh), real.ball(BALL, fresh)
 
-    def after(seen):
-        model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
-        found = identify(model, seen)
+    def after(observations):
+        model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
+        found = identify(model, observations)
         return aligned(model.predict(found.parameters, fresh)[:, :3, 3], true), model, found
 
     before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)

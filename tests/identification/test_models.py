@@ -53,7 +53,7 @@ def test_where_geometry_alone_is_wrong_geometry_alone_is_used(robot, controller,
         found = calibrate(
             robot.arm, (OFFSETS, JOINT_ERRORS), Observations(angles, noisy(damaged, angles, seed))
         )
-        assert found.model.names == ("offset",) and found.residual is None
+        assert found.model.names == ("offset",) and found.pattern is None
 
 
 def test_where_more_is_wrong_the_model_that_says_it_is_used(robot, controller):

@@ -5,12 +5,12 @@ import pytest
 
 from recalib.identification import validation as module
 from recalib.identification.calibration import calibrate
-from recalib.identification.first_guess import guess_frames
+from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Observations
 from recalib.identification.postures import find_postures
-from recalib.identification.soundness import Implausible, TooFewPostures
 from recalib.identification.validation import (
     GEOMETRIC,
     HYBRID,
@@ -44,15 +44,15 @@ def real(arm):
 @pytest.fixture(scope="module")
 def validation(arm, real):
     """With an outlier in row 7."""
-    seen = seen_of(real, ROWS)
-    seen.measured[7, 2, 3] += 0.02
-    return validate(arm, seen, guess_frames(arm, seen))
+    observations = seen_of(real, ROWS)
+    observations.measured[7, 2, 3] += 0.02
+    return validate(arm, observations, initial_frames(arm, observations))
 
 
 def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
     assert validation.chosen == GEOMETRIC
     fresh = real.postures(200)
-    missed = validation.calibration.misses(Observations(fresh, real.poses(fresh)))
+    missed = validation.calibration.residuals(Observations(fresh, real.poses(fresh)))
     errors = np.linalg.norm(missed[:, :3], axis=1)
     said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
     assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
@@ -78,9 +78,9 @@ def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
 def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
     real = Real(arm, 7)
     joints = real.postures(ROWS)
-    seen = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
-    frames = guess_frames(arm, seen)
-    found = validate(arm, seen, frames)
+    observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
+    frames = initial_frames(arm, observations)
+    found = validate(arm, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
     def stopped(*arguments, **options):
@@ -88,7 +88,7 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
         return replace(calibration, estimate=replace(calibration.estimate, converged=False))
 
     monkeypatch.setattr(module, "calibrate", stopped)
-    found = validate(arm, seen, frames)
+    found = validate(arm, observations, frames)
     assert found.chosen == GEOMETRIC and found.unsettled
 
 
@@ -99,12 +99,12 @@ def postures_of(joints):
 def test_each_target_and_each_socket_is_in_all_random_parts():
     joints = np.random.default_rng(2).uniform(-1, 1, (60, 6))
     numbers, postures = np.arange(60) % 3, postures_of(joints)
-    for seen in (
+    for observations in (
         Observations(joints, joints[:, :3], numbers),
         Observations(joints, sockets=numbers),
     ):
         for number in range(3):
-            folds = random_folds(seen, postures)
+            folds = random_folds(observations, postures)
             assert set(folds[numbers == number]) == set(range(FOLDS))
         assert np.ptp(np.bincount(folds)) <= 1
 
@@ -152,14 +152,14 @@ def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
 @pytest.mark.parametrize("count", [16, 30])
 def test_a_third_of_the_rows_may_be_grossly_wrong(arm, count):
     real = Real(arm, count)
-    seen = seen_of(real, count)
+    observations = seen_of(real, count)
     bad = np.arange(count // 3) * 3
-    seen.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
-    found = validate(arm, seen, guess_frames(arm, seen))
+    observations.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
+    found = validate(arm, observations, initial_frames(arm, observations))
     assert np.array_equal(np.flatnonzero(~found.counted), bad)
     fresh = real.postures(50)
-    misses = found.calibration.seen(fresh) - real.poses(fresh, noise=(0, 0))
-    assert np.linalg.norm(misses[:, :3, 3], axis=1).mean() < 1e-3
+    residuals = found.calibration.predict(fresh) - real.poses(fresh, noise=(0, 0))
+    assert np.linalg.norm(residuals[:, :3, 3], axis=1).mean() < 1e-3
 
 
 def test_an_arm_without_errors_is_left_alone(arm):
@@ -176,8 +176,8 @@ def test_a_joint_may_stand_still_at_any_angle(arm, angle):
     real = Real(arm, 8)
     joints = real.postures(ROWS)
     joints[:, 0] = angle
-    seen = Observations(joints, real.poses(joints))
-    found = validate(arm, seen, guess_frames(arm, seen))
+    observations = Observations(joints, real.poses(joints))
+    found = validate(arm, observations, initial_frames(arm, observations))
     assert found.postures.still.tolist() == [True, False, False, False, False, False]
     offsets = found.calibration.model.coefficients(found.calibration.estimate.parameters)["offset"]
     assert abs(offsets[0]) < 1e-9 < np.abs(offsets[1:]).min()
@@ -186,29 +186,29 @@ def test_a_joint_may_stand_still_at_any_angle(arm, angle):
 
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
     real = Real(arm, 5)
-    seen = seen_of(real, 30)
-    seen.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
-    with pytest.raises(Implausible, match=r"still misses by [0-9.]+ mm .*rows ([0-9]+, ){4}"):
-        validate(arm, seen, guess_frames(arm, seen))
+    observations = seen_of(real, 30)
+    observations.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
+    with pytest.raises(Untrustworthy, match=r"still misses by [0-9.]+ mm .*rows ([0-9]+, ){4}"):
+        validate(arm, observations, initial_frames(arm, observations))
 
 
 def test_few_rows_are_refused(arm):
-    with pytest.raises(TooFewPostures, match="9 rows of 9 postures; valid: at least 10"):
+    with pytest.raises(Untrustworthy, match="9 rows of 9 postures; valid: at least 10"):
         validate(arm, seen_of(Real(arm, 6), 9))
 
 
 def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
-    misses = np.array([[0.003, 0.0, 0.004, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]])
-    held = HeldOut(misses, np.ones(2), np.arange(2))
+    residuals = np.array([[0.003, 0.0, 0.004, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]])
+    held = HeldOut(residuals, np.ones(2), np.arange(2))
     assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
     assert held.losses == pytest.approx([0.055, 0.01])
-    assert HeldOut(misses[:, :3], held.spreads, held.folds).losses == pytest.approx([0.005, 0])
+    assert HeldOut(residuals[:, :3], held.spreads, held.folds).losses == pytest.approx([0.005, 0])
 
 
 def test_rows_of_one_posture_are_refused_as_such(arm):
-    seen = seen_of(Real(arm, 6), 12)
-    with pytest.raises(TooFewPostures, match="12 rows of 1 posture; valid: at least 10 postures"):
-        validate(arm, seen[np.zeros(12, dtype=int)])
+    observations = seen_of(Real(arm, 6), 12)
+    with pytest.raises(Untrustworthy, match="12 rows of 1 posture; valid: at least 10 postures"):
+        validate(arm, observations[np.zeros(12, dtype=int)])
 
 
 @pytest.mark.parametrize(("rows", "rank"), [(12, 12), (19, 19), (40, 39), (99, 95), (100, 96)])

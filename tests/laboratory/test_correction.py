@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
@@ -84,6 +84,11 @@ def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correct
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
 
 
+def test_nothing_that_is_desired_is_refused_by_what_is_missing(correction):
+    with pytest.raises(InvalidSetting, match="joint coordinates is missing"):
+        correct(correction, Measurements(1))
+
+
 def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     goals = correction.calibration.forward(correction.learned[:5] + 0.02)
     commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
@@ -117,6 +122,6 @@ def small(tmp_path_factory):
     joints = MIDDLE + SEEN * np.random.default_rng(3).uniform(-1, 1, (60, 3))
     seen = Observations(joints, arm.forward(joints + 0.01 + 0.02 * np.sin(3 * joints)))
     calibration = calibrate(arm, (OFFSETS,), seen)
-    assert calibration.residual is not None
+    assert calibration.pattern is not None
     Correction(ARM.encode(), calibration, joints).save(folder / "correction.npz")
     return (folder / "correction.npz").read_bytes()

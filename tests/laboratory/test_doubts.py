@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from recalib.identification.observations import Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import calibrate_arm
@@ -24,14 +25,14 @@ from tests.laboratory.test_command_line import (
 ROWS = 60
 
 
-def result(errors: dict, chosen: str = HYBRID, found: tuple = ()) -> SimpleNamespace:
+def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) -> SimpleNamespace:
     """A calibration with these errors [m] by way and kind."""
     validation = SimpleNamespace(
         chosen=chosen,
-        counted=np.ones(ROWS, dtype=bool),
-        errors=lambda way, kind: np.full((ROWS, 1), errors[way, kind]),
+        mean_error=lambda way, kind: errors[way, kind],
     )
-    return SimpleNamespace(validation=validation, faults=found, seen=range(ROWS))
+    rows = Observations(np.zeros((ROWS, 6)), times=times)
+    return SimpleNamespace(validation=validation, faults=found, observations=rows)
 
 
 @pytest.mark.parametrize(
@@ -61,6 +62,11 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
 def test_a_fault_is_told_with_its_rows_and_size(fault, said):
     (told,) = doubts(result({}, GEOMETRIC, (fault,)))
     assert told.startswith("Careful: ") and said in told
+
+
+def test_where_rows_carry_times_a_lag_is_told_in_milliseconds():
+    (told,) = doubts(result({}, GEOMETRIC, (Fault(LAG, 0.0203),), np.arange(ROWS)))
+    assert "poses seem to be 20 ms behind the joints" in told
 
 
 def test_two_sessions_are_told_of_beside_the_error(tmp_path):

@@ -100,7 +100,7 @@ REFUSED = {
     ),
     "a joint is unknown": (
         lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
-        "unknown column 'elbow'; valid: one of 23, such as rail, wrist and x",
+        "unknown column 'elbow'; valid: one of 24, such as rail, wrist and x",
     ),
     "no unit": (
         lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},
@@ -271,6 +271,10 @@ WRONG = {
         '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
         "distance.sockets is ['a', 'a']; valid: the names of two sockets",
     ),
+    "a socket twice": (
+        '[[distance]]\nsockets = ["a", "b", "a"]\nlength = "1 m"\n',
+        "distance.sockets is ['a', 'b', 'a']; valid: the names of two sockets",
+    ),
     "a distance twice": (
         '[[distance]]\nsockets = ["a", "b"]\nlength = "254.95 mm"\n'
         '[[distance]]\nsockets = ["b", "a"]\nlength = "900 mm"\n',
@@ -292,3 +296,32 @@ def test_a_description_that_cannot_be_used_is_refused(text, sentence, tmp_path):
     with pytest.raises(InvalidFile) as refused:
         read_description(path)
     assert sentence in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("column", "cells"),
+    [
+        ("time [s]", [f"{1.5 * row}" for row in range(ROWS)]),
+        ("time [ms]", [1500 * row for row in range(ROWS)]),
+        ("time", [f"2026-11-23T08:00:{1.5 * row:06.3f}" for row in range(ROWS)]),
+        ("time", [f"2026-11-23 08:00:{1.5 * row:06.3f}+01:00" for row in range(ROWS)]),
+    ],
+)
+def test_times_are_seconds_or_dates(column, cells, gantry, write):
+    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).times
+    assert times - times[0] == pytest.approx(1.5 * np.arange(ROWS))
+
+
+@pytest.mark.parametrize(
+    ("column", "cells", "said"),
+    [
+        ("time [s]", [1, 2, 3, 2.5, *[4] * 6], "row 4 was measured before row 3; try: sort the"),
+        ("time [s]", [7] * ROWS, "column 'time' is the same in all rows; try: without it"),
+        ("time [h]", [*range(ROWS)], r"valid: time \[min\], time \[ms\], time \[s\]"),
+        ("time", [*range(ROWS)], "row 1 of column 'time' is '0'; expected: a date as 2026-11-23T"),
+        ("time", ["2026-11-23T08:00:00"] * 9 + ["8 pm"], "row 10 of column 'time' is '8 pm'"),
+    ],
+)
+def test_times_that_tell_nothing_are_refused(column, cells, said, gantry, write):
+    with pytest.raises(InvalidFile, match=said):
+        read_measurements(write(joints() | positions() | {column: cells}), gantry)

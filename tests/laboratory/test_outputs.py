@@ -43,7 +43,7 @@ def laboratory(tmp_path_factory):
     result = calibrate.calibrate_arm(folder / "arm.urdf", folder / "rows.csv")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(calibrate, "calibrate_arm", lambda *_: result)
-        patch.setattr(files, "looks", lambda: ([], []))
+        patch.setattr(files, "optional_outputs", lambda: ([], []))
         assert run(folder, "calibrate", "arm.urdf", "rows.csv") == DONE
         yield folder
 

@@ -10,10 +10,10 @@ import pytest
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.first_guess import guess_frames
-from recalib.identification.linearised import displacements
+from recalib.identification.identifiability import unidentifiable_parameters
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
-from recalib.identification.openness import open_parameters
 from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.files import write_files
@@ -36,16 +36,16 @@ def arm():
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_places_are_known_as_well_as_other_noise_moves_them(arm, positions):
-    real, guess, left_open, drawn = Real(arm, 3), None, None, []
+    real, guess, unidentifiable, drawn = Real(arm, 3), None, None, []
     joints = real.postures(40)
     for _ in range(DRAWS):
         poses = real.poses(joints)
         seen = Observations(joints, poses[:, :3, 3] if positions else poses)
-        guess = guess or guess_frames(arm, seen)
+        guess = guess or initial_frames(arm, seen)
         model = ErrorModel(arm, OFFSETS, guess)
         calibration = Calibration(model, identify(model, seen))
-        left_open = left_open or open_parameters(calibration, seen)
-        drawn.append(found_places(calibration, left_open, ["the target"], [], TOOL))
+        unidentifiable = unidentifiable or unidentifiable_parameters(calibration, seen)
+        drawn.append(found_places(calibration, unidentifiable, ["the target"], [], TOOL))
     for places, truth in zip(
         zip(*drawn, strict=True), [np.linalg.inv(real.base), real.targets[0]], strict=True
     ):
@@ -85,11 +85,11 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     result, folder = calibrated
     told = json.loads((folder / "parameters.json").read_text())
     assert told["fit"] == "geometry, as in arm.urdf"
-    seen = result.seen
+    seen = result.observations
     poses = load_arm(folder / "arm.urdf", told["tool"], told["base"]).forward(seen.joints)
     targets = np.array(list(told["targets_in_tool"].values()))[seen.targets]
     there = np.array(told["base_in_instrument"]) @ poses @ targets
-    assert np.abs(there - result.geometry.seen(seen.joints, seen.targets)).max() < 1e-9
+    assert np.abs(there - result.geometry.predict(seen.joints, seen.targets)).max() < 1e-9
     rows = read_places(folder)
     assert [(row["frame"], row["in"]) for row in rows] == [
         ("the instrument", told["base"]),

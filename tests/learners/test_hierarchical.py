@@ -88,7 +88,7 @@ def written_out(learner, desired, start, rates):
 def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, convention):
     runs, iterations = 2, 40  # more than are kept back
     rules = Rules(*switches, **SIZES, **convention)
-    learner = HierarchicalLearner(runs, rules, Schedule(1.5, WIDTHS[switches[0]], 0.9, 0.3))
+    learner = HierarchicalLearner(rules, Schedule(1.5, WIDTHS[switches[0]], 0.9, 0.3), runs=runs)
     desired = np.random.default_rng(5).uniform(-1, 1, (runs, iterations, 6))
     for t in range(iterations):
         learner.learn(desired[:, t], strange_world, t / iterations)
@@ -109,7 +109,7 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
 def test_a_metric_matters_by_the_ratios_of_its_units():
     def learned(metric):
         rules = Rules(*SWITCHES[-1], **SIZES, metric=metric)
-        learner = HierarchicalLearner(1, rules, Schedule(1.5, SEPARATE_WIDTHS, 0.9, 0.3))
+        learner = HierarchicalLearner(rules, Schedule(1.5, SEPARATE_WIDTHS, 0.9, 0.3))
         for t, u in enumerate(np.random.default_rng(5).uniform(-1, 1, (10, 1, 6))):
             learner.learn(u, strange_world, t / 10)
         return learner.maps["position"].jacobian.all
@@ -153,9 +153,9 @@ def test_impossible_widths_and_rates_are_refused(widths, rate):
 
 def improved(runs=1):
     return HierarchicalLearner(
-        runs,
         Rules(True, True, True, True),
         Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4),
+        runs=runs,
     )
 
 
@@ -185,7 +185,9 @@ def test_a_run_learns_the_same_alone_and_beside_others(increments):
     """Bit for bit, also where another run's moves are refused."""
     rules = Rules(increments, increments, increments, increments)
     widths = SEPARATE_WIDTHS if increments else SINGLE_WIDTHS
-    beside, alone = (HierarchicalLearner(n, rules, Schedule(1.5, widths, 0.9, 0.3)) for n in (3, 1))
+    beside, alone = (
+        HierarchicalLearner(rules, Schedule(1.5, widths, 0.9, 0.3), runs=n) for n in (3, 1)
+    )
     desired = np.random.default_rng(8).uniform(-1, 1, (3, 40, 6))
 
     def refuse_the_first(commands):
@@ -204,7 +206,7 @@ def test_a_run_learns_the_same_alone_and_beside_others(increments):
 def test_a_new_learner_commands_what_is_desired(sizes, separate):
     widths = SEPARATE_WIDTHS if separate else SINGLE_WIDTHS
     fresh = HierarchicalLearner(
-        2, Rules(separate, True, True, True, *sizes), Schedule(1.5, widths, 0.9, 0.3)
+        Rules(separate, True, True, True, *sizes), Schedule(1.5, widths, 0.9, 0.3), runs=2
     )
     u = np.random.default_rng(0).uniform(-1.5, 1.5, (2, 30, 6))
     assert np.allclose(fresh.command(u), u, atol=1e-14)
@@ -213,7 +215,7 @@ def test_a_new_learner_commands_what_is_desired(sizes, separate):
 def test_random_values_of_theta_are_the_same_for_all_runs_and_for_one_map_as_for_two():
     def started(runs, separate, theta_increments, initial):
         rules = Rules(separate, theta_increments, False, False, **SIZES, initial=initial)
-        learner = HierarchicalLearner(runs, rules, Schedule(1.5, WIDTHS[separate], 0.9, 0.3))
+        learner = HierarchicalLearner(rules, Schedule(1.5, WIDTHS[separate], 0.9, 0.3), runs=runs)
         return np.concatenate([each.theta.all for each in learner.maps.values()], axis=-1)
 
     one, two, other = (
@@ -227,7 +229,7 @@ def test_random_values_of_theta_are_the_same_for_all_runs_and_for_one_map_as_for
 def test_an_intact_robot_is_left_alone(controller, robot):
     from recalib.damaged.damage import apply
 
-    learner, plant = improved(), Plant(controller, [apply(robot, [])])
+    learner, plant = improved(), Plant(controller, apply(robot, []))
     rng = np.random.default_rng(9)
     for t in range(50):
         learner.learn(rng.uniform(-1, 1, (1, 6)), plant.execute, t / 50)

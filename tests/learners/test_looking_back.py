@@ -23,7 +23,7 @@ def observed(learner, first, last):
 
 
 def test_the_process_is_that_of_the_moves_that_were_carried_out():
-    learner = observed(GaussianProcessLearner(2), 0, MOVES)
+    learner = observed(GaussianProcessLearner(runs=2), 0, MOVES)
     asked = np.random.default_rng(4).uniform(-1, 1, (2, 3, 6))
     commands = learner.command(asked)
     for run in range(2):
@@ -33,7 +33,7 @@ def test_the_process_is_that_of_the_moves_that_were_carried_out():
 
 
 def test_hyperparameters_are_sought_anew_when_the_moves_have_doubled_and_kept_between():
-    learner, seen = GaussianProcessLearner(2), []
+    learner, seen = GaussianProcessLearner(runs=2), []
     for move in range(MOVES):
         state = observed(learner, move, move + 1).state()[1]
         assert state["moves"]["executed"].shape == (move + 1,)
@@ -49,7 +49,7 @@ def test_hyperparameters_are_sought_anew_when_the_moves_have_doubled_and_kept_be
 def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_command(
     kind, controller, damaged
 ):
-    workspace, learner = controller.robot.workspace, kind(2, controller)
+    workspace, learner = controller.robot.workspace, kind(controller, runs=2)
     targets = controller.targets(SENT)
     poses = damaged.forward(targets.angles.reshape(-1, 6)).reshape(2, MOVES, 4, 4)
     executed = EXECUTED & targets.executed
@@ -60,14 +60,14 @@ def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_comm
         angles = controller.targets(commands[run][None]).angles[0]
         found = workspace.to_coordinates(calibration.forward(angles))
         np.testing.assert_allclose(found, SENT[run], rtol=0, atol=1e-6)
-    fresh = kind(2, controller)
+    fresh = kind(controller, runs=2)
     fresh.restore(learner.state())
     assert np.array_equal(fresh.command(SENT), commands)
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, -1e6])
 def test_no_move_is_kept_that_measured_nothing(number):
-    learner, spoilt = GaussianProcessLearner(2), ACHIEVED.copy()
+    learner, spoilt = GaussianProcessLearner(runs=2), ACHIEVED.copy()
     spoilt[1, 3, 2] = number
     with pytest.raises(BadMeasurement, match="move 3 of run 1"):
         learner.observe(SENT, spoilt, EXECUTED)

@@ -52,12 +52,12 @@ def errors(learner, plant) -> tuple[float, float]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, makers):
-    assert np.array_equal(makers[name](RUNS).command(TESTS), TESTS)
+    assert np.array_equal(makers[name](runs=RUNS).command(TESTS), TESTS)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, makers):
-    learner, sent = makers[name](RUNS), []
+    learner, sent = makers[name](runs=RUNS), []
 
     def refuse(commands):
         sent.append(commands.shape)
@@ -70,7 +70,7 @@ def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, makers
 
 @pytest.mark.parametrize("name", LEARNING)
 def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller, damaged):
-    plant, learner = Plant(controller, [damaged]), makers[name](RUNS)
+    plant, learner = Plant(controller, damaged), makers[name](runs=RUNS)
 
     def refuse_the_first(commands):
         outcome = plant.execute(commands)
@@ -93,9 +93,9 @@ def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller,
     ],
 )
 def test_errors_fall(name, moves, position, orientation, makers, controller, damaged):
-    plant = Plant(controller, [damaged])
-    before = errors(makers[name](RUNS), plant)
-    after = errors(train(makers[name](RUNS), plant, moves), plant)
+    plant = Plant(controller, damaged)
+    before = errors(makers[name](runs=RUNS), plant)
+    after = errors(train(makers[name](runs=RUNS), plant, moves), plant)
     assert after[0] < min(position, before[0] / 3)
     assert after[1] < min(orientation, before[1] / 3)
 
@@ -105,9 +105,9 @@ def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
         robot,
         [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)],
     )
-    plant = Plant(controller, [arm])
+    plant = Plant(controller, arm)
     geometric, hybrid = (
-        errors(train(makers[name](RUNS), plant, 16), plant) for name in ("geometric", "hybrid")
+        errors(train(makers[name](runs=RUNS), plant, 16), plant) for name in ("geometric", "hybrid")
     )
     assert geometric[1] > 0.1
     assert max(hybrid) < 0.01
@@ -115,4 +115,4 @@ def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
 
 def test_a_polynomial_of_another_degree_is_refused():
     with pytest.raises(InvalidSetting, match="1 or 2"):
-        PolynomialLearner(RUNS, 3)
+        PolynomialLearner(3, runs=RUNS)

@@ -30,7 +30,7 @@ def test_what_is_learned_is_the_regularised_least_squares_solution(degree):
     achieved = sent + 0.1 * np.sin(2 * sent[..., ::-1]) + 0.05
     executed = np.ones((2, 25), dtype=bool)
     executed[0, [3, 20]] = False
-    learner = PolynomialLearner(2, degree)
+    learner = PolynomialLearner(degree, runs=2)
     for first, last in ((0, 1), (1, 8), (8, 25)):  # one at a time or several: no difference
         moves = slice(first, last)
         learner.observe(sent[:, moves], achieved[:, moves], executed[:, moves])
@@ -47,14 +47,14 @@ def test_what_is_learned_is_the_regularised_least_squares_solution(degree):
 
 def test_a_constant_shift_is_learned_at_once_by_as_much_as_the_prior_allows():
     """From one move to the centre: the prior's variance over it and the noise's."""
-    learner, zero = PolynomialLearner(1, 1), np.zeros((1, 1, 6))
+    learner, zero = PolynomialLearner(1), np.zeros((1, 1, 6))
     learner.observe(zero + 0.2, zero, np.ones((1, 1), dtype=bool))
     share = PRIOR[0] ** 2 / (PRIOR[0] ** 2 + NOISE**2)
     assert learner.command(zero) == pytest.approx(zero + 0.2 * share)
 
 
 def test_what_is_no_number_is_refused_before_it_is_learned():
-    learner, zero = PolynomialLearner(1, 2), np.zeros((1, 1, 6))
+    learner, zero = PolynomialLearner(2), np.zeros((1, 1, 6))
     with pytest.raises(BadMeasurement):
         learner.observe(zero, zero + np.nan, np.ones((1, 1), dtype=bool))
     assert np.array_equal(learner.command(zero), zero)

@@ -18,7 +18,7 @@ def taught(separate, increments, visits, desired, world=strange_world, **sizes):
     """A learner after as many iterations as there are desired poses (run, iteration, 6)."""
     rules = Rules(separate, increments, False, visits, **(SIZES | sizes))
     schedule = Schedule(START, WIDTHS[separate], *RATES)
-    learner = RadialLearner(len(desired), rules, schedule, FIELD)
+    learner = RadialLearner(rules, schedule, FIELD, runs=len(desired))
     for t in range(desired.shape[1]):
         learner.learn(desired[:, t], world, t / desired.shape[1])
     return learner

@@ -44,19 +44,19 @@ def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
 
 def hierarchical() -> HierarchicalLearner:
     widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
-    return HierarchicalLearner(2, IMPROVED, Schedule(4.0, widths, 0.8, 0.4))
+    return HierarchicalLearner(IMPROVED, Schedule(4.0, widths, 0.8, 0.4), runs=2)
 
 
 @pytest.mark.parametrize(
     ("make", "iterations", "most"),
     [
         (lambda controller: hierarchical(), 100, 0.15),
-        (lambda controller: GaussianProcessLearner(2), 60, 0.02),
-        (lambda controller: GeometricLearner(2, controller), 12, 1e-6),
+        (lambda controller: GaussianProcessLearner(runs=2), 60, 0.02),
+        (lambda controller: GeometricLearner(controller, runs=2), 12, 1e-6),
     ],
 )
 def test_a_learner_recalibrates_seven_joints(make, iterations, most, controller):
-    plant = Plant(controller, [apply(controller.robot, DAMAGES)])
+    plant = Plant(controller, apply(controller.robot, DAMAGES))
     assert np.all(left(make(controller), plant, iterations) < most)
 
 
@@ -65,8 +65,8 @@ def test_gears_and_sag_of_seven_joints_are_identified(controller, tmp_path):
     more = EccentricGear("panda_joint7", 0.01), Sag("panda_joint4", 2e-4)
     disturbances = Disturbances(Noise(1e-5, 1e-5), Repeatability(1e-6))
     luck = [np.random.default_rng(1)]
-    plant = Plant(controller, [apply(robot, [*DAMAGES, *more])], disturbances, luck)
-    learner = HybridLearner(1, controller)
+    plant = Plant(controller, apply(robot, [*DAMAGES, *more]), disturbances, luck)
+    learner = HybridLearner(controller)
     assert np.all(left(learner, plant, 32, runs=1) < 0.01)
     save(tmp_path / "learned.npz", learner, robot)
     desired = robot.workspace.sample(np.random.default_rng(6), 1, 3)
@@ -82,7 +82,7 @@ def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_pat
     controller = Controller(robot)
     slid = controller.targets(robot.workspace.sample(np.random.default_rng(4), 1, 20)).angles
     assert np.ptp(slid[..., 0]) > 0.02  # m
-    plant = Plant(controller, [apply(robot, [EncoderShift("elbow", 0.05)])])
-    assert np.all(left(GeometricLearner(2, controller), plant, 12) < 1e-6)
+    plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
+    assert np.all(left(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
     with pytest.raises(UnknownName, match="unknown turning joint of railed 'rail'; valid: bend"):
         apply(robot, [EncoderShift("rail", 0.05)])

@@ -146,6 +146,7 @@ MIMIC = '<mimic joint="slide"/>'
             "the limits of shoulder are 3.0 to 2.0 in",
         ),
         (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "no URDF"),
+        ('<robot name="x"><link/><joint type="fixed"/></robot>', [], UnsuitableRobot, "no URDF"),
         (
             '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="x"><xacro:arm/></robot>',
             [],

@@ -80,7 +80,7 @@ def test_arms_side_by_side_move_as_they_do_alone(controller, robot):
     commands = np.random.default_rng(1).uniform(-1, 1, (3, 5, 6))
     together, _ = Plant(controller, damaged).achieve(commands)
     alone = [
-        Plant(controller, [arm]).achieve(own[None])[0][0]
+        Plant(controller, arm).achieve(own[None])[0][0]
         for arm, own in zip(damaged, commands, strict=True)
     ]
     assert np.array_equal(together, alone)

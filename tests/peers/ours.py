@@ -3,7 +3,7 @@
 import numpy as np
 
 from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.first_guess import guess_frames
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.validation import GEOMETRIC, validate
 from tests.identification.bars import least_squares
 from tests.peers.tasks import Task
@@ -13,14 +13,14 @@ NOMINAL, PLAIN, GEOMETRY, OURS = "nominal", "plain least squares", "recalib, geo
 
 def predict_all(task: Task) -> dict[str, np.ndarray]:
     """Positions (m, 3) [m] in the fresh postures, by who predicts them."""
-    guess = guess_frames(task.arm, task.seen)
+    guess = initial_frames(task.arm, task.observations)
     model = ErrorModel(task.arm, OFFSETS, guess)
-    plain = model.predict(least_squares(model, task.seen), task.fresh)
-    validation = validate(task.arm, task.seen, guess)
+    plain = model.predict(least_squares(model, task.observations), task.fresh)
+    validation = validate(task.arm, task.observations, guess)
     poses = {
         PLAIN: plain,
-        GEOMETRY: validation.full[GEOMETRIC].seen(task.fresh),
-        OURS: validation.calibration.seen(task.fresh),
+        GEOMETRY: validation.full[GEOMETRIC].predict(task.fresh),
+        OURS: validation.calibration.predict(task.fresh),
     }
     found = {who: task.predicted(its) for who, its in poses.items()}
     nominal = task.nominal()

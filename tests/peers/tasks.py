@@ -34,7 +34,7 @@ class Task:
         draw: its number among those of the scenario.
         arm: the nominal one.
         urdf: its file.
-        seen: what there is to learn from, in the frame of the instrument.
+        observations: what there is to learn from, in the frame of the instrument.
         fresh: (m, joints) rad, the postures to be judged on.
         truth: poses (m, 4, 4) or positions (m, 3) [m] of the target there, in the same frame.
         told: the poses (4, 4) of the arm's base in the frame of the instrument, and of the target
@@ -46,7 +46,7 @@ class Task:
     draw: int
     arm: Arm
     urdf: Path
-    seen: Observations
+    observations: Observations
     fresh: np.ndarray
     truth: np.ndarray
     told: tuple[np.ndarray, np.ndarray] | None
@@ -100,8 +100,8 @@ class Task:
             packages=str(self.urdf.parents[4]),  # below which meshes are found
             tool=self.arm.tool,
             names=np.array(self.arm.joints),
-            joints=self.seen.joints,
-            measured=self.as_told(self.seen.measured),
+            joints=self.observations.joints,
+            measured=self.as_told(self.observations.measured),
             fresh=self.fresh,
             told=self.told is not None,
             noise=np.array(NOISE),

@@ -121,7 +121,7 @@ def test_outliers_are_far_off_and_the_rest_is_noise():
     clean, rough = (
         simulated("ur10", "UR10", Shortened, 0, outliers=share) for share in (0.0, OUTLIERS)
     )
-    gaps = rough.seen.measured[:, :3, 3] - clean.seen.measured[:, :3, 3]
+    gaps = rough.observations.measured[:, :3, 3] - clean.observations.measured[:, :3, 3]
     off = np.linalg.norm(gaps, axis=1)
     assert np.sum(off > 0) == OUTLIERS * POSES
     np.testing.assert_allclose(off[off > 0], FAR)
@@ -138,7 +138,7 @@ def test_the_recording_is_read_with_its_own_description(tmp_path):
         table |= {"x_dif": 3.0, "y_dif": 0.0, "z_dif": 4.0}
         pd.DataFrame(table).to_csv(tmp_path / f"{name}.csv", index_label="step_order")
     tasks = list(recorded(tmp_path))
-    assert [len(task.seen) for task in tasks] == [
+    assert [len(task.observations) for task in tasks] == [
         count for count, subsets in SUBSETS.items() for _ in range(subsets)
     ]
     assert len({task.name for task in tasks}) == len(tasks)

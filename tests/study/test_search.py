@@ -92,7 +92,7 @@ def poses_of_a_search(budget, tests, order="random"):
 
 def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(study, controller, robot):
     budget = budget_of(study).model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
-    plant = Plant(controller, [apply(robot, [EncoderShift("elbow_joint", 0.05)])])
+    plant = Plant(controller, apply(robot, [EncoderShift("elbow_joint", 0.05)]))
 
     def found(order="random", **told):
         its, poses = rules_of(rules(study, "improved_200")), poses_of_a_search(budget, 20, order)
@@ -148,15 +148,15 @@ def test_another_learner_is_searched_for_alike(study, controller, damaged):
     budget = budget_of(study).model_copy(update=given)
     rules = Rules(False, True, False, True)
     poses = poses_of_a_search(budget, 5)
-    args = (lambda runs: Plant(controller, [damaged]), rules, budget, poses)
+    args = (lambda runs: Plant(controller, damaged), rules, budget, poses)
     first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
     numbers = search.columns(rules)
     assert other[numbers].equals(first[numbers]) and list(other) == list(first)
     assert (other["score"] != first["score"]).all()
     trial = other.iloc[1]
     history = train(
-        Plant(controller, [damaged]),
-        RadialLearner(2, rules, search.schedule(trial, rules)),
+        Plant(controller, damaged),
+        RadialLearner(rules, search.schedule(trial, rules), runs=2),
         poses.desired,
         poses.tests,
         [8],

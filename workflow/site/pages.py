@@ -37,6 +37,5 @@ def on_files(files: Files, config) -> Files:
 
 
 def reference() -> str:
-    """The page of the public names, each documented where it is at home."""
-    homes = (f"{getattr(recalib, name).__module__}.{name}" for name in recalib.__all__)
-    return REFERENCE + "\n".join(f"::: {home}\n" for home in homes)
+    """The page of the public names."""
+    return REFERENCE + "\n".join(f"::: recalib.{name}\n" for name in recalib.__all__)

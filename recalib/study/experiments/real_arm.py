@@ -75,7 +75,7 @@ def _model_based(
 
 
 def _black_box(
-    make: Callable[[int], PolynomialLearner | GaussianProcessLearner],
+    make: Callable[[], PolynomialLearner | GaussianProcessLearner],
     arm: Arm,
     known: Measurements,
     unknown: Measurements,
@@ -87,7 +87,7 @@ def _black_box(
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = make(1)
+    learner = make()
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)
@@ -209,7 +209,7 @@ def learn_on_twin(
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}
     history = train_for_results(
-        Plant(Controller(robot, nominal.controller.greatest_condition), [twin]),
+        Plant(Controller(robot, nominal.controller.greatest_condition), twin),
         build_tuned(rules, sample, [run + 1 for run in runs]),
         Stream.TWIN.draw(seed, runs, iterations, tests),
         sorted(met | {iterations}),

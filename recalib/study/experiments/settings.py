@@ -35,7 +35,7 @@ def build(learner: Learner, trials: Sequence[Mapping]) -> HierarchicalLearner:
     """An untrained learner, each run with the widths and rates of a trial."""
     rules = rules_of(learner)
     columns = {name: [trial[name] for trial in trials] for name in search.columns(rules)}
-    return HierarchicalLearner(len(trials), rules, search.schedule(columns, rules))
+    return HierarchicalLearner(rules, search.schedule(columns, rules), runs=len(trials))
 
 
 def build_tuned(learner: Learner, path: str | Path, searches: Iterable[int]) -> HierarchicalLearner:

@@ -47,7 +47,7 @@ def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learn
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
-    plant, rng = Plant(controller, [arm]), np.random.default_rng(0)
+    plant, rng = Plant(controller, arm), np.random.default_rng(0)
     commands = rng.uniform(-1, 1, (MOVES, RUNS, 1, 6))
     angles = controller.inverse(robot.workspace.to_poses(commands.reshape(-1, 6)))
     # Both in turn, and the ratio pair by pair: the machine may be shared.
@@ -67,7 +67,7 @@ def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learn
     poses = Stream.SPEED.draw(0, range(RUNS), ITERATIONS, tests=1)
     for (name, rules), sample in zip(learners.items(), samples, strict=True):
         learner = build_tuned(rules, sample, range(1, RUNS + 1))
-        arguments = Plant(controller, [arm]), learner, poses, [ITERATIONS]
+        arguments = Plant(controller, arm), learner, poses, [ITERATIONS]
         spent = seconds(train_for_results, *arguments) / (RUNS * ITERATIONS)
         lines.append(
             f"{name}: {1e6 * spent:.0f} us an iteration and seed,"

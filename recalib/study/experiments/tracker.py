@@ -14,7 +14,7 @@ import numpy as np
 from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.measurements import NOMINAL, read_measurements
-from recalib.laboratory.sanity import check_nominal
+from recalib.laboratory.nominal_checks import check_nominal
 from recalib.nominal.kinematics import Arm
 from recalib.storage import whole
 from recalib.study.configuration.study import Source

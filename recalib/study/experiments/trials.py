@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib import interfaces
 from recalib.interfaces import Commandable
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
 from recalib.randomness import generator
 from recalib.study.configuration.study import Budget, Learner
 from recalib.study.experiments import search
@@ -21,6 +19,8 @@ from recalib.study.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from recalib.learners.radial import RadialLearner
 
 DIGITS = 4  # of errors and scores
 
@@ -82,7 +82,7 @@ class Search:
             Raises TypeError: they are for results. The randomness of trials goes by their name.
         fixed: numbers of a trial that are not sought.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
-        learner: makes one of so many runs, by the rules, with a schedule of each run.
+        learner: its kind.
     """
 
     robots: Callable[[int], Commandable]
@@ -91,7 +91,7 @@ class Search:
     poses: SearchPoses
     fixed: Mapping[str, float] = field(default_factory=dict)
     error: str = "norm"
-    learner: Callable[[int, Rules, Schedule], interfaces.Learner] = HierarchicalLearner
+    learner: "type[HierarchicalLearner | RadialLearner]" = HierarchicalLearner
 
     def __post_init__(self):
         SearchPoses.only(self.poses)
@@ -128,7 +128,7 @@ class Search:
         runs = len(trials) * seeds
         history = train_on(
             self.robots(runs),
-            self.learner(runs, self.rules, search.schedule(trials, self.rules, seeds)),
+            self.learner(self.rules, search.schedule(trials, self.rules, seeds), runs=runs),
             SearchPoses.side_by_side([self.poses] * len(trials)),
             [iterations],
             error=self.error,

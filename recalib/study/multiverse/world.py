@@ -4,17 +4,14 @@ Nothing of a replicate is that of another one: searches, poses and seeds are its
 are compared in it see the same poses.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
-from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
 from recalib.study.experiments.poses import Stream, train_for_results
@@ -26,7 +23,9 @@ from recalib.study.plants import nominal_controller
 if TYPE_CHECKING:
     import pandas as pd
 
-Kind = Callable[[int, Rules, Schedule], Learner]
+    from recalib.learners.radial import RadialLearner
+
+    Kind = type[HierarchicalLearner | RadialLearner]
 
 
 class World:
@@ -51,7 +50,7 @@ class World:
         iterations: int,
         like: str = "",
         fixed: Mapping[str, float] = {},
-        kind: Kind = HierarchicalLearner,
+        kind: "Kind" = HierarchicalLearner,
     ) -> Search:
         """The search for a learner, on the paper's damage.
 
@@ -71,7 +70,7 @@ class World:
             replicate=self.replicate,
         )
         return Search(
-            robots=lambda runs: Plant(self.controller, [arm]),
+            robots=lambda runs: Plant(self.controller, arm),
             rules=rules_in(universe, learner),
             budget=universe.budget,
             poses=poses,
@@ -86,7 +85,7 @@ class World:
         iterations: int,
         trials: "pd.DataFrame",
         scenario: str = "",
-        kind: Kind = HierarchicalLearner,
+        kind: "Kind" = HierarchicalLearner,
     ) -> np.ndarray:
         """First and last errors (seed, 2, 2) [cm, degrees] of the best of some trials.
 
@@ -104,8 +103,8 @@ class World:
             replicate=self.replicate,
         )
         history = train_for_results(
-            Plant(self.controller, [arm]),
-            kind(len(seeds), rules, search.schedule(best_of(trials), rules)),
+            Plant(self.controller, arm),
+            kind(rules, search.schedule(best_of(trials), rules), runs=len(seeds)),
             poses,
             [0, iterations],
             error=universe.error,

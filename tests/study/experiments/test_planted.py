@@ -38,7 +38,7 @@ def final_errors(study, controller, learner="improved"):
     history = train_for_results(
         Plant(
             controller,
-            [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
+            apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages)),
         ),
         build_tuned(settings, sample, searches),
         Stream.SCENARIO.draw(

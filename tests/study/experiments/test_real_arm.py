@@ -10,7 +10,8 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.sanity import WrongNominal
+from recalib.laboratory.nominal_checks import WrongNominal
+from recalib.study.entrants import PEERS
 from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
 from recalib.study.experiments.tracker import read_of, read_whole_description
 from recalib.study.plants import nominal_robot
@@ -105,6 +106,10 @@ def test_learners_leave_ever_smaller_errors(recording, ur5):
     assert left["gaussian_process"] < left["affine"]
     assert left["geometric"] < left["quadratic"]
     assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
+
+
+def test_every_peer_learns_from_recorded_poses_too():
+    assert [*LEARNERS] == PEERS
 
 
 def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):

@@ -13,7 +13,7 @@ def desired():
 
 def test_the_true_commands_take_the_damaged_arm_to_the_desired_poses(controller, damaged, desired):
     commands = true_commands(controller, damaged, desired)
-    achieved = Plant(controller, [damaged]).execute(commands[None]).achieved[0]
+    achieved = Plant(controller, damaged).execute(commands[None]).achieved[0]
     assert np.allclose(achieved, desired, atol=1e-9)
     assert np.abs(commands - desired).max() > 0.1
 

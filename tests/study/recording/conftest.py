@@ -32,9 +32,9 @@ DAMAGES = (
 def learner(name, runs=1):
     if name == "improved":
         widths = {"position": (0.6, 1.4), "orientation": (0.7, 1.2)}
-        return HierarchicalLearner(runs, IMPROVED, Schedule(3.8, widths, 0.8, 0.4))
+        return HierarchicalLearner(IMPROVED, Schedule(3.8, widths, 0.8, 0.4), runs=runs)
     rules, widths = Rules(False, False, False, False), {"pose": (0.2, 0.3)}
-    return HierarchicalLearner(runs, rules, Schedule(0.5, widths, 0.4, 0.1))
+    return HierarchicalLearner(rules, Schedule(0.5, widths, 0.4, 0.1), runs=runs)
 
 
 def learners(job):

@@ -5,6 +5,7 @@ then links. Where what the data say of it, with all before it left to vary, is l
 believed beforehand, it is open; the parameters that make up for it are its partners.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ import scipy.linalg
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.frames import HELD
-from recalib.identification.linearised import Linearised
+from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
@@ -27,13 +28,13 @@ PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the la
 
 
 @dataclass(frozen=True)
-class Open:
+class Unidentifiable:
     """A parameter that is not told from others.
 
     Attributes:
         parameter: its number.
         partners: the numbers of those that can make up for it, the strongest first; none where the
-            data do not see it at all.
+            data say nothing of it at all.
         lasting: whether no measurements of this kind could tell them apart.
     """
 
@@ -42,18 +43,19 @@ class Open:
     lasting: bool
 
 
-def open_parameters(calibration: Calibration, seen: Observations) -> list[Open]:
-    """The parameters of geometry that what was seen leaves open, in the order above."""
+def unidentifiable_parameters(
+    calibration: Calibration, observations: Observations
+) -> list[Unidentifiable]:
+    """The parameters of geometry that observations leave open, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
-    information = _information(calibration, seen, estimate.weights)[np.ix_(order, order)]
-    anywhere = _anywhere(calibration, seen)
+    information = _information(calibration, observations, estimate.weights)[np.ix_(order, order)]
+    anywhere = _anywhere(calibration, observations)
     more = _information(calibration, anywhere, np.ones(len(anywhere)))[np.ix_(order, order)]
-    lasting = {
-        number for number, *_ in _dependent(more, ROUNDING * np.maximum(np.diag(more), TOLD))
-    }
+    least = ROUNDING * np.maximum(np.diag(more), TOLD)
+    lasting = {number for number, _ in _dependent(more, least)}
     return [
-        Open(int(order[number]), tuple(int(order[one]) for one in partners), number in lasting)
+        Unidentifiable(int(order[number]), tuple(order[partners].tolist()), number in lasting)
         for number, partners in _dependent(information, np.full(len(order), TOLD))
     ]
 
@@ -68,53 +70,57 @@ def _order(model: ErrorModel) -> np.ndarray:
     return order[model.deviations[order] > HELD]
 
 
-def _information(calibration: Calibration, seen: Observations, weights: np.ndarray) -> np.ndarray:
+def _information(
+    calibration: Calibration, observations: Observations, weights: np.ndarray
+) -> np.ndarray:
     """That of the data (P, P) on parameters over their prior deviations."""
     model, estimate = calibration.model, calibration.estimate
-    terms = model.terms(seen.joints)
-    near = Linearised(model, estimate.parameters / model.deviations, seen, terms)
-    by_kind, _ = near.normal_equations(weights)
+    parameters, terms = estimate.parameters / model.deviations, model.terms(observations.joints)
+    linear = Linearisation(model, parameters, observations, terms)
+    by_kind, _ = linear.normal_equations(weights)
     return np.einsum("k,kpq->pq", estimate.noise**-2.0, by_kind)
 
 
-def _anywhere(calibration: Calibration, seen: Observations) -> Observations:
+def _anywhere(calibration: Calibration, observations: Observations) -> Observations:
     """Observations of the same kind, of all targets, in postures all over the joints' ranges.
 
     A ball goes into its sockets from there, by the shortest way.
     """
-    arm, random = calibration.model.nominal.model, generator(0, "openness")
+    arm, rng = calibration.model.nominal.model, generator(0, "openness")
     low, high = (
         np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
     )
-    joints = random.uniform(low, high, (POSTURES, len(low)))
-    if seen.measured is None:
-        return _seated(calibration, joints, seen)
-    targets = np.arange(POSTURES) % (seen.targets.max() + 1)
+    joints = rng.uniform(low, high, (POSTURES, len(low)))
+    if observations.sockets is not None:
+        pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
+        return _seated(calibration, joints, pairs)
+    targets = np.arange(POSTURES) % (observations.targets.max() + 1)
     poses = calibration.model.predict(calibration.estimate.parameters, joints, targets)
-    return Observations(joints, poses if seen.kinds == 2 else poses[:, :3, 3], targets)
+    return Observations(joints, poses if observations.kinds == 2 else poses[:, :3, 3], targets)
 
 
-def _seated(calibration: Calibration, joints: np.ndarray, seen: Observations) -> Observations:
-    """Each ball in its sockets, in postures near the given ones (n, joints) that reach them."""
-    pairs = np.unique(np.stack([seen.targets, seen.sockets]), axis=1)
+def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> Observations:
+    """Balls in sockets, pairs (2, p), in postures near the given ones (n, joints) that reach."""
     targets, sockets = pairs[:, np.arange(len(joints)) % pairs.shape[1]]
     goals = calibration.frames.sockets[sockets]
-    found, left = joints.copy(), np.empty(len(joints))
+    found, errors = joints.copy(), np.empty(len(joints))
     for target in np.unique(targets):
         rows = np.flatnonzero(targets == target)
         arm = calibration.model.arm(calibration.estimate.parameters, target)
 
-        def look(_, postures: np.ndarray, arm: Arm = arm) -> tuple[np.ndarray, np.ndarray]:
+        def kinematics(
+            _: np.ndarray, postures: np.ndarray, arm: Arm = arm
+        ) -> tuple[np.ndarray, np.ndarray]:
             poses, jacobians = arm.forward_and_jacobian(postures[:, 0])
             return poses[:, None], jacobians[:, None]
 
-        its = solve_groups(look, goals[rows, None], joints[rows, None], SEATED, STEPS)
-        found[rows], left[rows] = its[0][:, 0], its[1][:, 0]
-    reached = left <= SEATED
+        its = solve_groups(kinematics, goals[rows, None], joints[rows, None], SEATED, STEPS)
+        found[rows], errors[rows] = its[0][:, 0], its[1][:, 0]
+    reached = errors <= SEATED
     return Observations(found[reached], None, targets[reached], sockets[reached])
 
 
-def _dependent(information: np.ndarray, least: np.ndarray):
+def _dependent(information: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:
     """Each row (p,) that those before it leave less than `least` of, with its partners."""
     accepted: list[int] = []
     for number in range(len(information)):
@@ -128,9 +134,6 @@ def _dependent(information: np.ndarray, least: np.ndarray):
             continue
         effects = np.abs(makes_up) * np.sqrt(np.diag(information)[accepted])
         largest = effects.max(initial=0.0)
+        weakest = SHARE * largest if largest**2 >= least[number] else np.inf
         strongest = np.argsort(-effects, kind="stable")[:PARTNERS]
-        seen_at_all = largest**2 >= least[number]
-        yield (
-            number,
-            [accepted[one] for one in strongest if seen_at_all and effects[one] >= SHARE * largest],
-        )
+        yield number, [accepted[one] for one in strongest if effects[one] >= weakest]

@@ -4,9 +4,9 @@ import pytest
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.first_guess import guess_frames
+from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
+from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
-from recalib.identification.openness import Open, open_parameters
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 
@@ -24,9 +24,11 @@ def found(arm, hold=None, positions=False):
     if hold is not None:
         joints[:, hold] = joints[0, hold]
     poses = real.poses(joints)
-    seen = Observations(joints, poses[:, :3, 3] if positions else poses)
-    model = ErrorModel(arm, OFFSETS, guess_frames(arm, seen))
-    return open_parameters(Calibration(model, identify(model, seen)), seen)
+    observations = Observations(joints, poses[:, :3, 3] if positions else poses)
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
+    return unidentifiable_parameters(
+        Calibration(model, identify(model, observations)), observations
+    )
 
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
@@ -39,7 +41,7 @@ def test_an_arm_of_turning_joints_has_four_parameters_a_joint_and_six_at_its_end
 
 def test_the_offset_of_the_last_joint_is_a_turn_of_the_target(panda):
     (last,) = [one for one in found(panda) if one.parameter == OFFSET + 6]
-    assert last == Open(OFFSET + 6, (TARGET + 5,), True)
+    assert last == Unidentifiable(OFFSET + 6, (TARGET + 5,), True)
 
 
 def test_the_offset_of_the_first_joint_is_a_move_of_the_instrument(panda):
@@ -58,7 +60,11 @@ def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda
     real, ball = Real(panda, 1), np.array([0.02, -0.01, 0.12])
     sockets = np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
     joints = np.concatenate([real.touching(ball, socket, 80) for socket in sockets])
-    seen = Observations(joints, sockets=np.repeat([0, 1], 80), distances=[Distance(0, 1, 0.3)])
-    model = ErrorModel(panda, OFFSETS, guess_frames(panda, seen))
-    open_ones = open_parameters(Calibration(model, identify(model, seen)), seen)
+    observations = Observations(
+        joints, sockets=np.repeat([0, 1], 80), distances=[Distance(0, 1, 0.3)]
+    )
+    model = ErrorModel(panda, OFFSETS, initial_frames(panda, observations))
+    open_ones = unidentifiable_parameters(
+        Calibration(model, identify(model, observations)), observations
+    )
     assert open_ones and all(one.lasting for one in open_ones)

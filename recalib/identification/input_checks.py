@@ -10,28 +10,31 @@ from recalib.measurements import FARTHEST
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 
 
-def check_observations(seen: Observations, model: ErrorModel) -> None:
+def check_observations(observations: Observations, model: ErrorModel) -> None:
     """Raise BadMeasurement unless the parameters of a model can be identified from these."""
-    count, joints = len(seen), len(model.nominal.slides)
+    count, joints = len(observations), len(model.nominal.slides)
     if count == 0:
         raise BadMeasurement("the number of observations", [0], "one or more")
-    sizes = {"joints": [(count, joints)], "targets": [(count,)]}
-    if seen.measured is None:
+    sizes: dict[str, list[tuple[int, ...]]] = {
+        "joints": [(count, joints)],
+        "targets": [(count,)],
+    }
+    if observations.measured is None:
         sizes["sockets"] = [(count,)]
     else:
         sizes["measured"] = [(count, 3), (count, 4, 4)]
     for name, fit in sizes.items():
-        size = np.shape(getattr(seen, name))
+        size = np.shape(getattr(observations, name))
         if size not in fit:
             valid = " or ".join(map(str, fit))
             raise BadMeasurement(f"the size of the observations' {name!r}", size, valid)
     slides = model.nominal.slides
     tables = [
-        ("joint angles of measurement", seen.joints[:, ~slides], TURNED, "rad"),
-        ("joint positions of measurement", seen.joints[:, slides], FARTHEST, "m"),
+        ("joint angles of measurement", observations.joints[:, ~slides], TURNED, "rad"),
+        ("joint positions of measurement", observations.joints[:, slides], FARTHEST, "m"),
     ]
-    if seen.measured is not None:
-        tables.append(("measurement", seen.measured, FARTHEST, "m in the base frame"))
+    if observations.measured is not None:
+        tables.append(("measurement", observations.measured, FARTHEST, "m in the base frame"))
     for what, values, most, unit in tables:
         wrong = ~(np.abs(values) <= most).reshape(count, -1).all(axis=1)
         if wrong.any():
@@ -39,8 +42,8 @@ def check_observations(seen: Observations, model: ErrorModel) -> None:
             valid = f"numbers up to {most:.3g} ({unit})"
             raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
     for what, numbers, most in (
-        ("target", seen.targets, len(model.frames.targets)),
-        ("socket", seen.sockets, len(model.frames.sockets)),
+        ("target", observations.targets, len(model.frames.targets)),
+        ("socket", observations.sockets, len(model.frames.sockets)),
     ):
         if numbers is not None and not (np.isin(numbers, np.arange(most))).all():
             row = (~np.isin(numbers, np.arange(most))).argmax()

@@ -1,4 +1,4 @@
-"""What was seen of an arm as a linear function of the parameters, near some of them.
+"""Residuals of observations as a linear function of the parameters, near some of them.
 
 A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad]
 along the instrument's axes, or the translation alone where no orientation was measured; a ball in a
@@ -32,7 +32,7 @@ def displacements(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return np.concatenate([end[:, :3, 3] - start[:, :3, 3], turns], axis=-1)
 
 
-class Linearised:
+class Linearisation:
     """Residuals and their slopes by the parameters over their deviations.
 
     Args:
@@ -46,39 +46,41 @@ class Linearised:
     """
 
     def __init__(
-        self, model: ErrorModel, parameters: np.ndarray, seen: Observations, terms: np.ndarray
+        self,
+        model: ErrorModel,
+        parameters: np.ndarray,
+        observations: Observations,
+        terms: np.ndarray,
     ):
         self._origin = parameters
-        self.residuals = np.empty((seen.kinds, len(seen), 3))
+        self.residuals = np.empty((observations.kinds, len(observations), 3))
         self.jacobians = np.empty((*self.residuals.shape, len(parameters)))
         parameters = parameters * model.deviations
-        for first in range(0, len(seen), BLOCK):
+        for first in range(0, len(observations), BLOCK):
             block = slice(first, first + BLOCK)
-            its = seen[block]
+            its = observations[block]
             poses, jacobians = model.linearise(parameters, its.joints, terms[block], its.targets)
-            measured = its.measured
-            if measured is None:
-                measured = model.sockets(parameters)[its.sockets]
+            if its.measured is None:
                 # where the centre goes, the residual goes: the other way than with the prediction
                 by_centre = jacobians[:, :3, model.socket_columns].reshape(len(its), 3, -1, 3)
                 by_centre[np.arange(len(its)), :, its.sockets] = -np.eye(3)
                 jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(its), 3, -1)
-            missed = displacements(poses, measured)
-            for kind in range(seen.kinds):
+            residuals = displacements(poses, its.reached(model.sockets(parameters)))
+            for kind in range(observations.kinds):
                 part = slice(3 * kind, 3 * kind + 3)
-                self.residuals[kind, block] = missed[:, part]
+                self.residuals[kind, block] = residuals[:, part]
                 np.multiply(jacobians[:, part], model.deviations, out=self.jacobians[kind, block])
         highest, lowest = (f(self.jacobians, axis=(0, 1, 2)) for f in (np.max, np.min))
         self.reach = np.maximum(highest, -lowest)
 
     def is_good_at(self, parameters: np.ndarray, negligible: float) -> bool:
         """Whether no parameter alone has moved a target by more than the root of `negligible`."""
-        return np.max(np.abs(parameters - self._origin) * self.reach) ** 2 <= negligible
+        return bool(np.max(np.abs(parameters - self._origin) * self.reach) ** 2 <= negligible)
 
-    def move(self, change: np.ndarray) -> None:
-        """Change the parameters (P,), over their deviations."""
-        rows = self.jacobians.reshape(-1, len(change))
-        self.residuals = self.residuals - (rows @ change).reshape(self.residuals.shape)
+    def move(self, step: np.ndarray) -> None:
+        """Move the parameters by a step (P,), over their deviations."""
+        rows = self.jacobians.reshape(-1, len(step))
+        self.residuals = self.residuals - (rows @ step).reshape(self.residuals.shape)
 
     def normal_equations(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """J' W J (kind, P, P) and J' W r (kind, P), with weights (n,) up to 1 of the rows."""

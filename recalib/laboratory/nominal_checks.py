@@ -7,20 +7,20 @@ forgotten. Each mistake is tried, alone and then in pairs; the one that explains
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
-from recalib.identification.frames import nearest_rotation
+from recalib.identification.closed_forms import solutions
+from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
 EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
 ENOUGH = 40  # rows to try mistakes on
-REFINED = 8  # so many of the likeliest mistakes are looked at closely
-STEPS = 50
 QUARTERS = 90, -90, 180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
 
@@ -30,21 +30,16 @@ Try = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 class WrongNominal(RecalibError):
     """Nominal positions that are not those of the nominal arm.
 
-    Attributes:
+    Args:
         gap: m, the largest difference.
         mistake: the likely one, in words; None where none explains it.
     """
 
     def __init__(self, gap: float, mistake: str | None):
-        self.gap, self.mistake = gap, mistake
-        likely = (
-            f"likely: {mistake}"
-            if mistake
-            else "no single mistake of zero, sign, order or unit explains it: is it another arm?"
-        )
+        unlikely = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
         super().__init__(
             f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
-            f" the tool; {likely}"
+            f" the tool; {f'likely: {mistake}' if mistake else unlikely}"
         )
 
 
@@ -72,7 +67,7 @@ class Fit:
         words = []
         if turn.magnitude() > UNTURNED:
             axis = turn.as_rotvec() / turn.magnitude()
-            about = ", ".join(f"{round(each, 2) + 0.0:g}" for each in axis)
+            about = ", ".join(f"{round(number, 2) + 0.0:g}" for number in axis)
             words.append(
                 f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})"
             )
@@ -122,16 +117,13 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: Fit)
     """The mistake that explains the most, of one step and then of two."""
     steps = list(_steps(arm))
     for count in (1, 2):
-        tried = []
+        fits = []
         for chosen in combinations(steps, count):
             undone = coordinates, nominal
             for _, change in chosen:
                 undone = change(*undone)
             words = " and ".join(name for name, _ in chosen)
-            poses, positions = arm.forward(undone[0]), undone[1]
-            tried.append((_relaxed(poses, positions)[1], words, poses, positions))
-        tried.sort(key=lambda one: one[0])
-        fits = [(_fit(poses, positions), words) for _, words, poses, positions in tried[:REFINED]]
+            fits.append((_fit(arm.forward(undone[0]), undone[1]), words))
         fit, words = min(fits, key=lambda one: one[0].rms)
         if fit.gaps.max() <= ALIKE and fit.rms < EXPLAINED * plain.rms:
             return words
@@ -147,18 +139,23 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
     yield "positions in metres that say mm", lambda q, p: (q, p * 1e3)
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
-        yield f"the sign of {name}", lambda q, p, signs=signs: (q * signs, p)
+        yield f"the sign of {name}", _of_joints(partial(np.multiply, signs))
     for joint, name in enumerate(arm.joints):
         for degrees in () if arm.slides[joint] else QUARTERS:
             shift = np.where(np.arange(count) == joint, np.radians(degrees), 0.0)
             words = f"the zero of {name}, off by {-degrees} deg"
-            yield words, lambda q, p, shift=shift: (q + shift, p)
+            yield words, _of_joints(partial(np.add, shift))
     for one, other in combinations(range(count), 2):
         order = np.arange(count)
         order[[one, other]] = other, one
         names = f"{arm.joints[one]} and {arm.joints[other]}"
-        yield f"the columns of {names} exchanged", lambda q, p, order=order: (q[:, order], p)
+        exchanged = partial(np.take, indices=order, axis=1)
+        yield f"the columns of {names} exchanged", _of_joints(exchanged)
     yield "the joint columns in reverse order", lambda q, p: (q[:, ::-1], p)
+
+
+def _of_joints(change: Callable[[np.ndarray], np.ndarray]) -> Try:
+    return lambda q, p: (change(q), p)
 
 
 def _gaps(
@@ -171,54 +168,20 @@ def _gaps(
 def _fit(
     poses: np.ndarray,
     nominal: np.ndarray,
-    known: np.ndarray | None = None,
-    point: np.ndarray | None = None,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
 ) -> Fit:
-    """By nonlinear least squares from where the relaxed problem has its solution.
-
-    Args:
-        known, point: base and target, each where it is known and so not fitted.
-    """
-    turns, places = poses[:, :3, :3], poses[:, :3, 3]
-    first = Rotation.from_matrix(_relaxed(poses, nominal)[0] if known is None else known[:3, :3])
-
-    def reached(numbers: np.ndarray) -> np.ndarray:
-        points = places + turns @ numbers[6:]
-        return (Rotation.from_rotvec(numbers[:3]) * first).apply(points) + numbers[3:6]
-
-    shift = (nominal - first.apply(places)).mean(axis=0) if known is None else known[:3, 3]
-    found = np.array([*np.zeros(3), *shift, *(np.zeros(3) if point is None else point)])
-    fitted = np.repeat([known is None, point is None], [6, 3])
-
-    def missed(numbers: np.ndarray) -> np.ndarray:
-        found[fitted] = numbers
-        return (reached(found) - nominal).ravel()
-
-    if fitted.any():
-        from scipy.optimize import least_squares  # slow to import, and most tables are right
-
-        best = least_squares(missed, found[fitted], x_scale="jac", max_nfev=STEPS)
-        found[fitted] = best.x
-    base = np.eye(4)
-    base[:3, :3] = (Rotation.from_rotvec(found[:3]) * first).as_matrix()
-    base[:3, 3] = found[3:6]
-    return Fit(base, found[6:], np.linalg.norm(reached(found) - nominal, axis=1))
-
-
-def _relaxed(poses: np.ndarray, nominal: np.ndarray) -> tuple[np.ndarray, float]:
-    """A first guess of the base's turn (3, 3), and a lower bound [m] of what every fit leaves.
-
-    With a base that may be any matrix the fit is linear: X' p - R z + b = t.
-    """
-    count = len(nominal)
-    matrix = np.kron(np.eye(3), nominal[:, None]).reshape(count, 3, 9)
-    unit = np.tile(np.eye(3), (count, 1, 1))
-    system = np.concatenate([matrix, -poses[:, :3, :3], unit], axis=2).reshape(3 * count, 15)
-    goal = poses[:, :3, 3].ravel()
-    found, *_ = np.linalg.lstsq(system, goal)
-    turn = nearest_rotation(found[:9].reshape(3, 3).T)
-    return turn, float(np.sqrt(np.mean((system @ found - goal) ** 2)))
+    """The frames that explain nominal positions best; base and target, where they are known."""
+    rows, place = Observations(np.empty((len(nominal), 0)), nominal), None
+    if target is not None:
+        place = np.eye(4)
+        place[:3, 3] = target
+    fits = []
+    for frames in solutions(poses, rows, base, place):
+        point = frames.targets[0, :3, 3]
+        fits.append(Fit(frames.base, point, _gaps(poses, nominal, frames.base, point)))
+    return min(fits, key=lambda fit: fit.rms)
 
 
 def _millimetres(vector: np.ndarray) -> str:
-    return f"({', '.join(f'{round(1e3 * each, 1) + 0.0:g}' for each in vector)}) mm"
+    return f"({', '.join(f'{round(1e3 * number, 1) + 0.0:g}' for number in vector)}) mm"

@@ -6,7 +6,7 @@ from recalib.errors import BadMeasurement
 from recalib.identification.closed_forms import turns_by_poses
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.first_guess import NoFirstGuess, fewest, guess_frames
+from recalib.identification.initial_estimate import NoInitialEstimate, fewest, initial_frames
 from recalib.identification.observations import Distance, Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import SCARA
@@ -25,10 +25,10 @@ def panda():
     return load_arm(*ARMS["panda"])
 
 
-def misses(real, nominal, seen):
+def residuals(real, nominal, observations):
     """By how much [m] fresh positions are missed, of the first target, after identification."""
-    model = ErrorModel(nominal, OFFSETS, guess_frames(nominal, seen))
-    parameters, fresh = identify(model, seen).parameters, real.postures(50)
+    model = ErrorModel(nominal, OFFSETS, initial_frames(nominal, observations))
+    parameters, fresh = identify(model, observations).parameters, real.postures(50)
     gaps = model.predict(parameters, fresh) - real.poses(fresh, noise=(0, 0))
     return np.linalg.norm(gaps[:, :3, 3], axis=1)
 
@@ -39,8 +39,8 @@ def test_instrument_and_target_may_be_anywhere(what, seed, arm):
     real = Real(arm, seed)
     joints = real.postures(30 if what == "positions" else 20)
     measured = real.poses(joints)
-    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
-    assert misses(real, arm, seen).mean() < 5e-4
+    observations = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    assert residuals(real, arm, observations).mean() < 5e-4
 
 
 @pytest.mark.parametrize("what", ["poses", "positions"])
@@ -49,25 +49,25 @@ def test_a_few_gross_outliers_do_not_matter(what, arm):
     joints = real.postures(40)
     measured = real.poses(joints)
     measured[:4] = measured[4:8]
-    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
-    assert misses(real, arm, seen).mean() < 5e-4
+    observations = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    assert residuals(real, arm, observations).mean() < 5e-4
 
 
 def test_several_targets_sit_anywhere_on_one_tool(panda):
     real = Real(panda, 6, targets=3)
     joints, targets = real.postures(48), np.arange(48) % 3
-    seen = Observations(joints, real.poses(joints, targets)[:, :3, 3], targets)
-    assert misses(real, panda, seen).mean() < 5e-4
+    observations = Observations(joints, real.poses(joints, targets)[:, :3, 3], targets)
+    assert residuals(real, panda, observations).mean() < 5e-4
 
 
 def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
     real = Real(panda, 6, targets=2)
     joints, targets = real.postures(600), np.repeat([0, 1], [597, 3])
-    seen = Observations(joints, real.poses(joints, targets), targets)
-    frames = guess_frames(panda, seen)
+    observations = Observations(joints, real.poses(joints, targets), targets)
+    frames = initial_frames(panda, observations)
     assert len(frames.targets) == 2
     reached = frames.base @ panda.forward(joints[-3:]) @ frames.targets[1]
-    assert np.linalg.norm((reached - seen.measured[-3:])[:, :3, 3], axis=1).max() < 0.05
+    assert np.linalg.norm((reached - observations.measured[-3:])[:, :3, 3], axis=1).max() < 0.05
 
 
 @pytest.mark.parametrize("what", ["poses", "positions"])
@@ -78,9 +78,9 @@ def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):
     joints = real.postures(30)
     measured = real.poses(joints)
     measured[:3] = measured[3:6]  # outliers
-    seen = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
+    observations = Observations(joints, measured[:, :3, 3] if what == "positions" else measured)
     frame = real.base if known == "base" else real.targets[0]
-    frames = guess_frames(arm, seen, **{known: frame})
+    frames = initial_frames(arm, observations, **{known: frame})
     if known == "base":
         assert np.array_equal(frames.base, frame) and not frames.base_unknown
         assert np.abs(frames.targets[0, :3, 3] - real.targets[0, :3, 3]).max() < 0.05
@@ -88,7 +88,7 @@ def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):
         assert np.array_equal(frames.targets[0], frame) and not frames.targets_unknown
         assert np.abs(frames.base - real.base).max() < 0.05
     model = ErrorModel(arm, OFFSETS, frames)
-    estimate = identify(model, seen)
+    estimate = identify(model, observations)
     fresh = real.postures(50)
     gaps = model.predict(estimate.parameters, fresh) - real.poses(fresh, noise=(0, 0))
     assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < 5e-4
@@ -105,7 +105,7 @@ def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(tmp_pa
     nominal = load_arm(path)
     real = Real(nominal, 7)
     joints = real.postures(30)
-    assert misses(real, nominal, Observations(joints, real.poses(joints))).mean() < 5e-4
+    assert residuals(real, nominal, Observations(joints, real.poses(joints))).mean() < 5e-4
 
 
 def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_about_one_axis():
@@ -126,18 +126,21 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda seen: seen[np.arange(2)], "2 rows leave open .* at least 6"),
-        (lambda seen: seen[np.zeros(20, dtype=int)], "along a line"),
-        (lambda seen: Observations(seen.joints[::-1], seen.measured), "explains what was seen"),
+        (lambda observations: observations[np.arange(2)], "2 rows leave open .* at least 6"),
+        (lambda observations: observations[np.zeros(20, dtype=int)], "along a line"),
+        (
+            lambda observations: Observations(observations.joints[::-1], observations.measured),
+            "explains what was seen",
+        ),
     ],
     ids=["too few", "one posture", "rows mixed up"],
 )
 def test_frames_that_nothing_tells_are_refused(change, said, panda):
     real = Real(panda, 8)
     joints = real.postures(30)
-    seen = Observations(joints, real.poses(joints)[:, :3, 3])
-    with pytest.raises(NoFirstGuess, match=said):
-        guess_frames(panda, change(seen))
+    observations = Observations(joints, real.poses(joints)[:, :3, 3])
+    with pytest.raises(NoInitialEstimate, match=said):
+        initial_frames(panda, change(observations))
 
 
 def test_positions_in_a_plane_tell_how_the_instrument_stands():
@@ -147,10 +150,10 @@ def test_positions_in_a_plane_tell_how_the_instrument_stands():
     joints = real.postures(40)
     joints[:, [0, 4, 5]] = joints[0, [0, 4, 5]]
     exact = arm.forward(joints)
-    seen = Observations(joints, (real.base @ exact @ real.targets[0])[:, :3, 3])
-    frames = guess_frames(arm, seen)
+    observations = Observations(joints, (real.base @ exact @ real.targets[0])[:, :3, 3])
+    frames = initial_frames(arm, observations)
     found = (frames.base @ exact @ frames.targets[0])[:, :3, 3]
-    assert np.abs(found - seen.positions).max() < 1e-3
+    assert np.abs(found - observations.positions).max() < 1e-3
 
 
 def test_it_says_how_many_rows_it_needs():
@@ -163,8 +166,8 @@ def test_it_says_how_many_rows_it_needs():
 
 def test_a_target_or_socket_beyond_the_known_ones_is_refused(panda):
     model = ErrorModel(panda, OFFSETS)
-    seen = Observations(np.zeros((3, 7)), np.zeros((3, 3)), np.array([0, 0, 1]))
+    observations = Observations(np.zeros((3, 7)), np.zeros((3, 3)), np.array([0, 0, 1]))
     with pytest.raises(BadMeasurement, match=r"target of measurement 2 measured \(1\); .*below 1"):
-        identify(model, seen)
+        identify(model, observations)
     with pytest.raises(BadMeasurement, match="socket of measurement 0"):
         identify(model, Observations(np.zeros((3, 7)), sockets=np.zeros(3, dtype=int)))

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.laboratory.sanity import WrongNominal, check_nominal
+from recalib.laboratory.nominal_checks import WrongNominal, check_nominal
 from recalib.nominal.arms import load_arm
 
 TOOL_POINT = 0.0, 0.02, 0.12  # m

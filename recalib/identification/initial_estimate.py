@@ -1,0 +1,150 @@
+"""An initial estimate of where the instrument stands and where the targets sit, from anywhere.
+
+Closed forms are solved for all rows and for many small sets of them, which a few gross outliers do
+not all spoil. The best, by their median error, are refined by robust least squares.
+"""
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from recalib.errors import RecalibError
+from recalib.identification.closed_forms import solutions, turns_by_poses
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.frames import HELD, Frames
+from recalib.identification.linearisation import LEVER, Linearisation, displacements
+from recalib.identification.observations import Observations
+from recalib.nominal.kinematics import Arm
+from recalib.randomness import generator
+
+SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
+MOST = 200  # rows to estimate from: more tell little more
+REFINED = 6  # so many of the best estimates are refined
+ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
+FARTHEST = 0.15  # m: an arm with a larger median error is not the one that is described
+THIN = 5e-3  # m: the standard deviation across a line of points that are on it
+
+
+class NoInitialEstimate(RecalibError):
+    """Where the instrument stands, or where a target sits, cannot be told from the measurements."""
+
+
+def fewest(observations: Observations) -> int:
+    """How many rows an initial estimate needs, if each of them is of use."""
+    targets = int(np.max(observations.targets, initial=0)) + 1
+    if observations.sockets is not None:
+        return targets + int(np.max(observations.sockets, initial=0)) + 2
+    return (2 if observations.kinds == 2 else 5) + targets
+
+
+def initial_frames(
+    arm: Arm,
+    observations: Observations,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> Frames:
+    """The frames at both ends of the nominal arm, to start an identification from.
+
+    Args:
+        base: (4, 4) m in the frame of the instrument, where it is known.
+        target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
+
+    Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them.
+    """
+    if len(observations) < fewest(observations):
+        raise NoInitialEstimate(
+            f"{len(observations)} rows leave open where instrument and target are;"
+            f" valid: at least {fewest(observations)}"
+        )
+    rng = generator(0, "first guess")
+    if len(observations) > MOST:
+        observations = observations[_some(observations, rng.permutation(len(observations)))]
+    tool = arm.forward(observations.joints)
+    if observations.measured is not None and base is None and _is_open(tool, observations, target):
+        raise NoInitialEstimate(
+            "the targets were seen along a line, which leaves open how the instrument is turned"
+            " about it; valid: positions that span an area"
+            + ", or postures that turn the tool about several axes"
+            * (observations.kinds == 2)
+        )
+    found = [
+        frames
+        for rows in [np.arange(len(observations)), *_small_sets(observations, rng)]
+        for frames in solutions(tool[rows], observations[rows], base, target)
+    ]
+    found.sort(key=lambda frames: median_error(frames, tool, observations))
+    refined = [_refined(arm, frames, observations) for frames in found[:REFINED]]
+    best = min(refined, key=lambda frames: median_error(frames, tool, observations))
+    error = median_error(best, tool, observations)
+    if not error <= FARTHEST:
+        raise NoInitialEstimate(
+            "no place of instrument and target explains what was seen: the best leaves"
+            f" {1e3 * error:.0f} mm; valid: up to {1e3 * FARTHEST:.0f} mm, from an arm as its"
+            " description has it, with the same joints, signs, zeros and units"
+        )
+    return best
+
+
+def _some(observations: Observations, order: np.ndarray) -> np.ndarray:
+    """The first rows of an order, and all rows of groups that none of these is of."""
+    group = observations.groups
+    rare = np.flatnonzero(~np.isin(group, group[order[:MOST]]))
+    return np.union1d(order[:MOST], rare)
+
+
+def _small_sets(observations: Observations, rng: np.random.Generator) -> Iterator[np.ndarray]:
+    """Rows in which each target, or each socket with each ball, is about equally often."""
+    group = observations.groups
+    each = -(-(fewest(observations) + SPARE) // (group.max() + 1))
+    for _ in range(SETS):
+        order = rng.permutation(len(observations))
+        ranks = [np.flatnonzero(group[order] == one)[:each] for one in range(group.max() + 1)]
+        yield order[np.concatenate(ranks)]
+
+
+def _is_open(tool: np.ndarray, observations: Observations, target: np.ndarray | None) -> bool:
+    """Whether the rotation of the instrument is left open."""
+    if observations.kinds == 2 and (target is not None or turns_by_poses(tool, observations)):
+        return False
+    points = observations.positions - observations.positions.mean(axis=0)
+    return bool(np.linalg.svd(points / np.sqrt(len(points)), compute_uv=False)[1] < THIN)
+
+
+def median_error(frames: Frames, tool: np.ndarray, observations: Observations) -> float:
+    """The median error [m] with these frames and the nominal poses (n, 4, 4) of the tool."""
+    predicted = frames.base @ tool @ frames.targets[observations.targets]
+    residuals = displacements(predicted, observations.reached(frames.sockets))
+    residuals[:, 3:] *= LEVER
+    return float(np.median(np.linalg.norm(residuals, axis=1)))
+
+
+def _refined(arm: Arm, frames: Frames, observations: Observations) -> Frames:
+    """The frames at a robust optimum nearby, with the nominal arm between them."""
+    model = ErrorModel(arm, OFFSETS, frames)
+    varied = np.flatnonzero(model.free & (model.deviations > HELD))
+    if not len(varied):
+        return frames
+    terms = model.terms(observations.joints)
+    units = np.array([1.0, LEVER])[: observations.kinds, None, None]
+
+    @lru_cache(maxsize=1)  # residuals and slopes are asked for one after the other
+    def linearised(numbers: bytes) -> tuple[np.ndarray, np.ndarray]:
+        parameters = np.zeros_like(model.deviations)
+        parameters[varied] = np.frombuffer(numbers)
+        linearisation = Linearisation(model, parameters, observations, terms)
+        slopes = linearisation.jacobians[..., varied] * units[..., None]
+        return (linearisation.residuals * units).ravel(), -slopes.reshape(-1, len(varied))
+
+    found = least_squares(
+        lambda numbers: linearised(numbers.tobytes())[0],
+        np.zeros(len(varied)),
+        jac=lambda numbers: linearised(numbers.tobytes())[1],
+        loss="soft_l1",
+        f_scale=ROBUST,
+        max_nfev=STEPS,
+    )
+    parameters = np.zeros_like(model.deviations)
+    parameters[varied] = found.x * model.deviations[varied]
+    return model.found(parameters)

@@ -1,0 +1,85 @@
+"""The parameters of an error model by name, in the units of people."""
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.identification.error_model import ErrorModel
+from recalib.identification.estimation import Estimate
+
+MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
+CLEAR = 2.0  # standard errors: a parameter that is so far from zero is listed
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What is known of a parameter.
+
+    Attributes:
+        name: in words, such as offset of elbow_joint.
+        unit: mm, deg or deg/Nm.
+        value: in that unit.
+        deviation: its standard error, in that unit, which data and prior leave together: where the
+            data do not tell a parameter from others, it may be small because the prior is.
+    """
+
+    name: str
+    unit: str
+    value: float
+    deviation: float
+
+
+def parameters_of(
+    model: ErrorModel, estimate: Estimate, targets: Sequence[str] = (), sockets: Sequence[str] = ()
+) -> list[Parameter]:
+    """All parameters, in the order of the model.
+
+    Args:
+        targets, sockets: their names; their numbers unless given.
+    """
+    errors = np.sqrt(np.diag(estimate.covariance))
+    return [
+        Parameter(name, unit, float(scale * value), float(scale * error))
+        for (name, unit, scale), value, error in zip(
+            _names(model, targets, sockets), estimate.parameters, errors, strict=True
+        )
+    ]
+
+
+def table_of(parameters: Collection[Parameter]) -> str:
+    """Those that are not zero for sure, a line each, and how many others there are."""
+    clear = [its for its in parameters if abs(its.value) > CLEAR * its.deviation]
+    lines = [f"{its.name:<48}{its.value:10.4f}{its.deviation:10.4f} {its.unit}" for its in clear]
+    return "\n".join(
+        [
+            f"{'parameter':<48}{'value':>10}{'std err':>10}",
+            *lines,
+            f"and {len(parameters) - len(clear)} within {CLEAR:g} standard errors of zero",
+        ]
+    )
+
+
+def _names(
+    model: ErrorModel, targets: Sequence[str], sockets: Sequence[str]
+) -> Iterator[tuple[str, str, float]]:
+    """Name, unit, and its number in an SI unit, of each parameter."""
+    arm, frames = model.nominal, model.frames
+    links = ["of base", *(f"behind {joint}" for joint in arm.joints[:-1])]
+    ends = [f"of target {name}" for name in targets or range(len(frames.targets))]
+    if len(ends) == 1:
+        ends = ["of target" if frames.targets_unknown else "of tool"]
+    for where in [*links, *ends]:
+        for motion in MOTIONS:
+            yield f"{motion} {where}", *_unit(slides=motion.startswith("shift"))
+    for socket in sockets or range(len(frames.sockets)):
+        for axis in "xyz":
+            yield f"{axis} of socket {socket}, beside its first guess", "mm", 1e3
+    for term in model.names:
+        for joint, slides in zip(arm.joints, arm.slides, strict=True):
+            unit, scale = _unit(slides)
+            yield f"{term} of {joint}", f"{unit}/Nm" if term == "compliance" else unit, scale
+
+
+def _unit(slides: bool) -> tuple[str, float]:
+    return ("mm", 1e3) if slides else ("deg", 180 / np.pi)

@@ -1,0 +1,121 @@
+"""Whether what is said of an arm holds, tried on simulated arms whose truth is known."""
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.consensus import identify_by_consensus
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
+from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault, faults
+from recalib.identification.validation import (
+    BLOCKWISE,
+    GEOMETRIC,
+    HYBRID,
+    OUTLYING,
+    RANDOM,
+    validate,
+)
+from tests.identification.real import Real
+
+GEARS = np.radians(0.03)
+MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad
+ROWS, HELD_BACK = 119, 400
+
+
+def distances(calibration: Calibration, observations: Observations) -> np.ndarray:
+    """Distances (n,) [m] between positions that are predicted and measured."""
+    return np.linalg.norm(calibration.residuals(observations)[:, :3], axis=1)
+
+
+def with_targets(real: Real, postures: int, targets: int = 3) -> Observations:
+    """Positions of several targets in each posture."""
+    joints = np.repeat(real.postures(postures), targets, axis=0)
+    numbers = np.arange(targets * postures) % targets
+    return Observations(joints, real.poses(joints, numbers)[:, :3, 3], numbers)
+
+
+def three_targets(arm, seed: int, gears: float = GEARS) -> dict[str, tuple[float, float]]:
+    """Said and true errors [m] of geometry and of all of it, where a posture has three targets."""
+    real = Real(arm, seed, targets=3, gears=gears)
+    known, fresh = with_targets(real, 60), with_targets(real, 200)
+    found = validate(arm, known, initial_frames(arm, known))
+    assert len(found.postures) == 60
+    return {
+        kind: (
+            found.errors(RANDOM, kind)[found.counted, 0].mean(),
+            distances(found.full[kind], fresh).mean(),
+        )
+        for kind in (GEOMETRIC, HYBRID)
+    }
+
+
+def other_half(arm, seed: int) -> float:
+    """The part of positions within radii in that half of a joint's range that was not measured."""
+    real = Real(arm, seed, gears=GEARS * (seed % 2))
+    joints, halved = real.postures(4 * HELD_BACK), seed % len(arm.joints)
+    upper = joints[:, halved] > np.median(joints[:, halved])
+    here, there = joints[~upper][:60], joints[upper][:HELD_BACK]
+    known = Observations(here, real.poses(here))
+    found = validate(arm, known, initial_frames(arm, known))
+    errors = distances(found.calibration, Observations(there, real.poses(there)))
+    return float(np.mean(errors <= found.radii(there)))
+
+
+class Session:
+    """Rows of a UR10 in the order in which they were measured, with a fault.
+
+    Args:
+        kind, size: lag, of a step to the row; jump or drift, m; nothing unless given.
+        on_a_path: whether rows lie along one; or anywhere.
+    """
+
+    def __init__(
+        self,
+        arm,
+        seed: int,
+        kind: str = "",
+        size: float = 0.0,
+        positions: bool = False,
+        on_a_path: bool = False,
+        gears: float = 0.0,
+    ):
+        self._arm, self._kind, self._size = arm, kind, size
+        self._real, self._rng = Real(arm, seed, gears=gears), np.random.default_rng([seed, 7])
+        self._towards = self._rng.standard_normal(3)
+        self._towards /= np.linalg.norm(self._towards)
+        joints = self._postures(ROWS // 6 if on_a_path else ROWS)
+        if on_a_path:
+            along = CubicSpline(np.linspace(0, 1, len(joints)), joints)
+            joints = along(np.linspace(0, 1, ROWS))
+        steps = np.diff(joints, axis=0, prepend=joints[:1])
+        poses = self._real.poses(joints - size * (kind == LAG) * steps)
+        poses[:, :3, 3] += self._moved(np.linspace(0, 1, ROWS))
+        self.observations = Observations(joints, poses[:, :3, 3] if positions else poses)
+        self._frames = initial_frames(arm, self.observations)
+
+    def _postures(self, count: int) -> np.ndarray:
+        return MIDDLE + self._rng.uniform(-AROUND, AROUND, (count, 6))
+
+    def _moved(self, times: np.ndarray) -> np.ndarray:
+        """How far (n, 3) [m] the instrument has moved when parts (n,) of the rows are measured."""
+        far = {JUMP: times >= 0.4, DRIFT: times}.get(self._kind, 0 * times)
+        return self._size * np.outer(far, self._towards)
+
+    def named(self) -> list[Fault]:
+        """What is found in the order of the rows."""
+        model = ErrorModel(self._arm, OFFSETS, self._frames)
+        estimate = identify_by_consensus(model, self.observations)
+        geometry = Calibration(model, estimate)
+        return faults(geometry, self.observations, estimate.weights >= OUTLYING)
+
+    def honesty(self) -> float:
+        """The said error over the true one: on fresh postures, at rest, at any time."""
+        found = validate(self._arm, self.observations, self._frames)
+        fresh = self._postures(300)
+        poses = self._real.poses(fresh, noise=(0, 0))
+        poses[:, :3, 3] += self._moved(self._rng.uniform(0, 1, len(fresh)))
+        said = found.errors(BLOCKWISE, found.chosen)[found.counted, 0].mean()
+        true = distances(found.calibration, Observations(fresh, poses[:, :3, 3])).mean()
+        return float(said / true)

@@ -1,0 +1,30 @@
+import inspect
+
+import pytest
+
+from recalib.errors import UnknownName
+from recalib.interfaces import Savable
+from recalib.learners.kinds import KINDS, class_of, kind_of
+from recalib.learners.polynomial import PolynomialLearner
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_is_a_class_that_files_can_make(kind):
+    its = class_of(kind)
+    asked = {name for name, member in vars(Savable).items() if inspect.isfunction(member)}
+    assert asked > {"settings", "state", "restore"}
+    assert all(callable(getattr(its, name)) for name in {*asked, "from_settings", "command"})
+
+
+def test_a_learner_is_of_the_kind_of_its_own_class():
+    class Other(PolynomialLearner):
+        pass
+
+    assert kind_of(PolynomialLearner(1)) == "polynomial"
+    with pytest.raises(UnknownName, match="unknown kind of learner to save 'Other'"):
+        kind_of(Other(1))
+
+
+def test_an_unknown_kind_is_refused_with_the_known_ones():
+    with pytest.raises(UnknownName, match=r"'hybird'; valid: .*; did you mean hybrid\?"):
+        class_of("hybird")
