@@ -8,7 +8,9 @@ import zipfile
 from importlib.resources import files
 
 import pytest
+import yaml
 
+import recalib
 from recalib.study.evidence.claims import CLAIMS
 from tests.conftest import ROOT
 
@@ -110,3 +112,14 @@ def test_the_validator_of_ro_crate_finds_nothing(unpacked, monkeypatch):
             rocrate_uri=str(unpacked), profile_identifier=profile, no_cache=True
         )
         assert [issue.message for issue in services.validate(settings).get_issues()] == []
+
+
+def test_all_files_for_citation_name_the_same_version_and_title():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    meta, zenodo = (
+        json.loads((ROOT / name).read_text(encoding="utf-8"))
+        for name in ("codemeta.json", ".zenodo.json")
+    )
+    assert {cited["version"], meta["version"], zenodo["version"]} == {recalib.__version__}
+    assert cited["title"] == zenodo["title"]
+    assert cited["references"][0]["title"] == meta["referencePublication"]["name"]
