@@ -1,11 +1,13 @@
 """Pages, rendered from templates: no measured number in them is typed."""
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 from recalib.study.evidence import (
     all_results,
+    article,
     choices,
     deviations,
     findings,
@@ -32,7 +34,9 @@ PAGES: Mapping[str, Page] = {
     "findings.md": Page(findings.needs, findings.context),
     "guidance.md": Page(guidance.needs, guidance.context),
     "real_arm.md": Page(real_arm.needs, real_arm.context),
+    "article.typ": Page(article.needs, article.context),
 }
+MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
 
 
 def page(name: str, evidence: Evidence, template: Path) -> str:
@@ -44,5 +48,15 @@ def render(template: str | Path, context: Mapping) -> str:
     """The text of a page."""
     import jinja2
 
-    environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
+    in_typst = Path(template).name.endswith(".typ.j2")
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined,
+        keep_trailing_newline=True,
+        finalize=_escaped if in_typst else None,
+    )
     return environment.from_string(Path(template).read_text(encoding="utf-8")).render(context)
+
+
+def _escaped(value: object) -> object:
+    """A value whose signs are no markup of Typst."""
+    return MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value))

@@ -28,7 +28,7 @@ def short(value: float) -> str:
 
 def percent(value: float) -> str:
     """A share."""
-    return _rounding(value) or f"{100 * value:.2g} %"
+    return _rounding(value) or f"{float(f'{100 * value:.2g}'):g} %"
 
 
 def ranged(middle: float, bounds: Sequence[float], said=short) -> str:

@@ -1,0 +1,96 @@
+"""The article: what it says follows from the results, and a reader finds all of it."""
+
+import re
+
+import pytest
+
+from recalib.study.evidence.article import typeset
+from recalib.study.evidence.pages import PAGES, render
+from recalib.study.evidence.results import Evidence
+from tests.conftest import ROOT
+
+TEMPLATE = ROOT / "workflow" / "templates" / "article.typ.j2"
+GIVEN = {"1996", "2", "1"}  # numbers of the abstract that are no results: a year, counts of words
+
+
+@pytest.fixture(scope="module")
+def known(made_up):
+    page = PAGES["article.typ"]
+    return page.context(Evidence(made_up.needs(page.needs)))
+
+
+@pytest.fixture(scope="module")
+def article(known, tmp_path_factory) -> list[str]:
+    """The text of each page of the PDF."""
+    pypdf = pytest.importorskip("pypdf")
+    pytest.importorskip("typst")
+    folder = tmp_path_factory.mktemp("article")
+    for part in ("figures", "workflow"):  # Typst reads below its root alone, and follows no link
+        (folder / part).mkdir()
+    for figure in (ROOT / "figures").glob("*.svg"):
+        (folder / "figures" / figure.name).write_bytes(figure.read_bytes())
+    references = folder / "workflow" / "article" / "references.bib"
+    references.parent.mkdir()
+    references.write_bytes((ROOT / "workflow" / "article" / "references.bib").read_bytes())
+    source, pdf = folder / "article.typ", folder / "article.pdf"
+    source.write_text(render(TEMPLATE, known), encoding="utf-8")
+    typeset(source, pdf, folder)
+    return [page.extract_text() for page in pypdf.PdfReader(pdf).pages]
+
+
+def abstract(text: str) -> str:
+    """Without markup."""
+    found = re.search(r"\*Abstract\.\*(.*?)\n\]", text, re.DOTALL)[1]
+    return re.sub(r"[\\_]", "", " ".join(found.split()))
+
+
+def test_it_has_as_many_pages_as_the_journal_asks_for(article):
+    assert 8 <= len(article) <= 12
+
+
+def test_nothing_in_it_is_a_placeholder_or_an_unresolved_reference(article):
+    text = " ".join(article)
+    assert not re.search(r"TODO|\?\?|\bnan\b|None|undefined|\{\{|\{%", text)
+
+
+def test_every_claim_is_in_it(article, known):
+    text = " ".join(" ".join(article).split()).replace("’", "'")
+    for claim in known["claims"]:
+        first = " ".join(claim["statement"].split()[:4])
+        assert first in text, claim["id"]
+
+
+def test_the_numbers_of_the_abstract_are_results(known):
+    said = abstract(render(TEMPLATE, known))
+    results = " ".join(
+        [
+            *known["sentences"].values(),
+            known["typical"],
+            known["counted"],
+            known["published_errors"],
+            *(its["factor"] for its in known["readings"].values()),
+            f"{known['published']} {known['own']['iterations']} {len(known['claims'])}",
+            f"{known['own']['initial_position_error_cm']:.1f}",
+            f"{known['own']['initial_orientation_error_deg']:.1f}",
+        ]
+    )
+    numbers = re.findall(r"(?<![\w.])\d+(?:\.\d+)?", said)
+    assert len(numbers) > 12
+    assert {number for number in numbers if number not in results} <= GIVEN
+
+
+@pytest.mark.parametrize("claim", ["theta-increments", "separate-maps"])
+def test_another_verdict_changes_abstract_text_and_table(known, claim):
+    before = render(TEMPLATE, known)
+    changed = [
+        its | {"verdict": "contradicted"} if its["id"] == claim else its for its in known["claims"]
+    ]
+    by = {verdict: [its for its in changed if its["verdict"] == verdict] for verdict in known["by"]}
+    of = {its["id"]: its for its in changed}
+    after = render(TEMPLATE, known | {"claims": changed, "by": by, "of": of})
+    statement = of[claim]["statement"]
+    assert statement in abstract(after) and statement not in abstract(before)
+    assert after.count("*Contradicted*") == 1 and "*Contradicted*" not in before
+    assert len(re.findall(r"^\*[A-Z]", after, re.MULTILINE)) < len(
+        re.findall(r"^\*[A-Z]", before, re.MULTILINE)
+    ), "a paragraph that was written for another verdict is gone"

@@ -1,0 +1,125 @@
+"""The archive says what it holds, in words that a machine reads, and always in the same bytes."""
+
+import base64
+import json
+import shutil
+import subprocess
+import zipfile
+from importlib.resources import files
+
+import pytest
+import yaml
+
+import recalib
+from recalib.study.evidence.claims import CLAIMS
+from tests.conftest import ROOT
+
+pytest.importorskip("rocrate")
+from workflow import archive
+
+FEW = "Snakefile", "config.yaml", "README.md", "CITATION.cff", "LICENSE"
+TERM = b"https://bioschemas.org/terms/ComputationalWorkflow"
+
+
+@pytest.fixture
+def project(made_up, tmp_path, monkeypatch):
+    """A few files of the project, made-up results, and what Snakemake notes of them."""
+    monkeypatch.chdir(tmp_path)
+    for name in FEW:
+        shutil.copy(ROOT / name, tmp_path)
+    subprocess.run(["git", "init", "--quiet"], check=True)
+    subprocess.run(["git", "add", *FEW], check=True)
+    shutil.copytree(made_up.layout.root, "results")
+    archive.NOTES.mkdir(parents=True)
+    note = {
+        "rule": "claims",
+        "input": ["results/summary.csv"],
+        "starttime": 1e9,
+        "endtime": 1e9 + 5,
+    }
+    name = base64.b64encode(b"results/claims.json").decode()
+    (archive.NOTES / name).write_text(json.dumps(note), encoding="utf-8")
+    return tmp_path
+
+
+@pytest.fixture
+def unpacked(project, tmp_path_factory):
+    """The folder that a stranger unpacks, and what it says of itself."""
+    archive.pack(project / "archive.zip")
+    folder = tmp_path_factory.mktemp("unpacked")
+    with zipfile.ZipFile(project / "archive.zip") as packed:
+        packed.extractall(folder)
+    (its,) = folder.iterdir()
+    return its
+
+
+def graph(folder) -> dict[str, dict]:
+    text = (folder / "ro-crate-metadata.json").read_text(encoding="utf-8")
+    return {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
+
+
+def test_the_same_results_give_the_same_bytes(project):
+    for name in ("one.zip", "two.zip"):
+        archive.pack(project / name)
+    assert (project / "one.zip").read_bytes() == (project / "two.zip").read_bytes()
+
+
+def test_all_that_is_named_is_there_and_the_job_of_a_result_is_said(unpacked):
+    known = graph(unpacked)
+    named = [part["@id"] for part in known["./"]["hasPart"]]
+    assert {*FEW, "published/claims.json", "published/summary.csv"} <= {*named}
+    assert all((unpacked / name).is_file() for name in named)
+    job = known["#job-results/claims.json"]
+    assert job["result"] == {"@id": "published/claims.json"}
+    assert job["object"] == [{"@id": "published/summary.csv"}]
+    assert known[job["instrument"]["@id"]]["name"] == "rule claims"
+    assert job["startTime"] == "2001-09-09T01:46:40+00:00"
+
+
+def test_each_claim_is_a_review_of_a_sentence_of_the_paper(unpacked):
+    linked = json.loads((unpacked / "published" / "claims.jsonld").read_text(encoding="utf-8"))
+    judged = json.loads((unpacked / "published" / "claims.json").read_text(encoding="utf-8"))
+    reviews = {review["@id"]: review for review in linked["@graph"]}
+    assert len(reviews) == len(CLAIMS) == len(judged)
+    for claim in judged:
+        review = reviews[f"#{claim['id']}"]
+        assert review["reviewRating"]["alternateName"] == claim["verdict"]
+        assert review["itemReviewed"]["text"] == claim["quotation"]
+        numbers = {each["name"]: each["value"] for each in review["additionalProperty"]}
+        assert claim["measured"].items() <= numbers.items()
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of rdflib, by its own callers
+@pytest.mark.slow  # the rules of the profiles take half a minute
+def test_the_validator_of_ro_crate_finds_nothing(unpacked, monkeypatch):
+    requests = pytest.importorskip("requests")
+    models = pytest.importorskip("rocrate_validator.models")
+    from rocrate_validator import services
+
+    # Version 1.1 of the context is not packaged. 1.3 is, and names one term of ours otherwise.
+    context = (files("rocrate") / "data" / "ro-crate.jsonld").read_bytes()
+    context = context.replace(TERM, TERM.replace(b"terms/", b""))
+
+    def get(self, url, **_):
+        answer = requests.Response()
+        answer.status_code, answer._content, answer.url = 200, context, url
+        answer.headers["Content-Type"] = "application/ld+json"
+        return answer
+
+    monkeypatch.setattr(requests.Session, "get", get)
+    for profile in ("ro-crate-1.1", "workflow-run-crate-0.5"):
+        settings = models.ValidationSettings(
+            rocrate_uri=str(unpacked), profile_identifier=profile, no_cache=True
+        )
+        assert [issue.message for issue in services.validate(settings).get_issues()] == []
+
+
+def test_all_files_for_citation_name_the_same_version_and_title():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    meta, zenodo = (
+        json.loads((ROOT / name).read_text(encoding="utf-8"))
+        for name in ("codemeta.json", ".zenodo.json")
+    )
+    assert {cited["version"], meta["version"], zenodo["version"]} == {recalib.__version__}
+    assert cited["title"] == zenodo["title"]
+    assert cited["references"][0]["title"] == meta["referencePublication"]["name"]

@@ -1,0 +1,219 @@
+"""The archive: code, results, recordings and article in one file that says what they are.
+
+`python -m workflow.archive results/archive.zip` packs what git knows and the results of the shipped
+study, as an RO-Crate: for each result it says which job made it, from what, and when. The same
+results give the same bytes.
+"""
+
+import base64
+import json
+import mimetypes
+import subprocess
+import sys
+import zipfile
+from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import yaml
+from rocrate.model import ContextEntity, Person
+from rocrate.model.computationalworkflow import ComputationalWorkflow
+from rocrate.rocrate import ROCrate
+
+import recalib
+from recalib.storage import whole
+
+RESULTS, PUBLISHED = Path("results"), Path("published")  # here, and in the archive
+NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it made
+CHOSEN = (
+    "summary.csv",
+    "claims.json",
+    "claims.jsonld",
+    "check.txt",
+    "article.pdf",
+    "report.html",
+    "figures/*",
+    "mapping/*",
+    "ensemble/*",
+    "runs/**/*",
+    "scenarios/*",
+    "recordings/*.rrd",
+)
+PROFILES = {
+    "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
+    "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
+    "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
+}
+LICENCE = "https://spdx.org/licenses/MIT"
+SNAKEMAKE = "https://w3id.org/workflowhub/workflow-ro-crate#snakemake"
+MOMENT = (1980, 1, 1, 0, 0, 0)  # of all files in the archive
+
+
+def committed() -> list[Path]:
+    """The files that git knows."""
+    listed = subprocess.run(["git", "ls-files", "-z"], check=True, capture_output=True, text=True)
+    return sorted(Path(name) for name in listed.stdout.split("\0") if Path(name).is_file())
+
+
+def chosen() -> list[Path]:
+    """The results that are kept."""
+    return sorted(path for pattern in CHOSEN for path in RESULTS.glob(pattern) if path.is_file())
+
+
+def notes() -> Iterator[tuple[Path, Mapping]]:
+    """Each file that Snakemake made, and how."""
+    for path in sorted(NOTES.iterdir()):
+        name = base64.b64decode(path.name).decode()
+        yield Path(name), json.loads(path.read_text(encoding="utf-8"))
+
+
+def claims_as_linked_data(claims: list[Mapping], paper: Mapping) -> dict[str, Any]:
+    """Each judged claim as a review of a sentence of the paper, in the words of schema.org."""
+    article = {"@type": "ScholarlyArticle", "name": paper["title"]}
+    return {
+        "@context": "https://schema.org",
+        "@graph": [
+            {
+                "@type": "ClaimReview",
+                "@id": f"#{claim['id']}",
+                "claimReviewed": claim["statement"],
+                "itemReviewed": {
+                    "@type": "Claim",
+                    "text": claim["quotation"],
+                    "appearance": article | {"pagination": f"section {claim['section']}"},
+                },
+                "reviewAspect": claim["criterion"],
+                "reviewRating": {"@type": "Rating", "alternateName": claim["verdict"]},
+                "additionalProperty": [*_numbers(claim)],
+            }
+            for claim in claims
+        ],
+    }
+
+
+def _numbers(claim: Mapping) -> Iterator[dict[str, Any]]:
+    for name, value in claim["measured"].items():
+        number = {"@type": "PropertyValue", "name": name, "value": value}
+        if name in claim["interval"]:
+            low, high = claim["interval"][name]
+            number |= {"minValue": low, "maxValue": high}
+        yield number
+    if "mean" in claim["universes"]:
+        low, high = claim["universes"]["mean_interval"]
+        name, mean = "mean over the alternative setups", claim["universes"]["mean"]
+        yield {"@type": "PropertyValue", "name": name, "value": mean} | {
+            "minValue": low,
+            "maxValue": high,
+        }
+
+
+def _moment(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
+
+
+def crate(citation: Mapping) -> ROCrate:
+    """What the archive says of itself: the workflow, the files, and the run that made them."""
+    its = ROCrate(version="1.1")  # the one on which the profiles of runs are built
+    its.name = citation["title"]
+    its.description = "Code, results, recordings and article of a replication, and its run."
+    its.license = its.add(ContextEntity(its, LICENCE, {"@type": "CreativeWork", "name": "MIT"}))
+    for address, name in PROFILES.items():
+        about = {
+            "@type": ["CreativeWork", "Profile"],
+            "name": name,
+            "version": address.rpartition("/")[-1],
+        }
+        its.root_dataset.append_to("conformsTo", its.add(ContextEntity(its, address, about)))
+    authors = [
+        its.add(Person(its, f"#{it['name']}", {"name": it["name"]})) for it in citation["authors"]
+    ]
+    its.root_dataset["author"] = authors
+    language = {
+        "@type": "ComputerLanguage",
+        "name": "Snakemake",
+        "url": "https://snakemake.github.io",
+        "version": version("snakemake"),
+    }
+    workflow = its.add(
+        ComputationalWorkflow(
+            its,
+            "Snakefile",
+            "Snakefile",
+            properties={"name": "The replication", "license": LICENCE},
+        )
+    )
+    workflow["programmingLanguage"] = its.add(ContextEntity(its, SNAKEMAKE, language))
+    its.mainEntity = workflow
+    for path in committed():
+        if path != Path("Snakefile"):
+            its.add_file(path, path.as_posix(), properties=_about(path))
+    results = {path: PUBLISHED / path.relative_to(RESULTS) for path in chosen()}
+    for path, place in results.items():
+        its.add_file(path, place.as_posix(), properties=_about(path))
+    _add_run(its, workflow, results, authors)
+    return its
+
+
+def _about(path: Path) -> dict[str, str]:
+    kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+    return {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
+
+
+def _add_run(its: ROCrate, workflow, results: Mapping[Path, Path], authors: list) -> None:
+    """An action for the whole run, and one for each job whose results are kept."""
+    noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
+    whole_run = {"@type": "CreateAction", "name": "A run of the workflow", "instrument": workflow}
+    whole_run["agent"] = authors
+    if noted:
+        whole_run["startTime"] = _moment(min(note["starttime"] for _, note in noted))
+        whole_run["endTime"] = _moment(max(note["endtime"] for _, note in noted))
+    whole_run["result"] = [its.dereference(place.as_posix()) for place in results.values()]
+    actions = [its.add(ContextEntity(its, "#run", whole_run))]
+    tools = {}
+    for path, note in noted:
+        if (rule := note["rule"]) not in tools:
+            tool = {"@type": "SoftwareApplication", "name": f"rule {rule}", "url": workflow.id}
+            tool["version"] = recalib.__version__
+            tools[rule] = its.add(ContextEntity(its, f"#rule-{rule}", tool))
+        read = [results.get(Path(name), Path(name)).as_posix() for name in note["input"]]
+        job = {
+            "@type": "CreateAction",
+            "name": f"{rule}: {path.as_posix()}",
+            "instrument": tools[rule],
+            "object": [entity for name in read if (entity := its.dereference(name))],
+            "result": its.dereference(results[path].as_posix()),
+            "startTime": _moment(note["starttime"]),
+            "endTime": _moment(note["endtime"]),
+        }
+        actions.append(its.add(ContextEntity(its, f"#job-{path.as_posix()}", job)))
+    its.root_dataset["mentions"] = actions
+    last = max((note["endtime"] for _, note in noted), default=0)
+    its.datePublished = datetime.fromtimestamp(last, UTC)
+
+
+def pack(archive: Path) -> None:
+    """Write the archive."""
+    citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
+    claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
+    linked = claims_as_linked_data(claims, citation["references"][0])
+    with whole(RESULTS / "claims.jsonld") as path:
+        path.write_text(json.dumps(linked, indent=1) + "\n", encoding="utf-8")
+    its, top = crate(citation), f"recalib-{recalib.__version__}"
+    with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        text = json.dumps(its.metadata.generate(), indent=1) + "\n"
+        _put(file, f"{top}/ro-crate-metadata.json", text.encode())
+        for entity in its.data_entities:
+            if getattr(entity, "source", None):
+                _put(file, f"{top}/{entity.id}", Path(entity.source).read_bytes())
+
+
+def _put(file: zipfile.ZipFile, name: str, content: bytes) -> None:
+    about = zipfile.ZipInfo(name, MOMENT)
+    about.compress_type, about.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+    file.writestr(about, content)
+
+
+if __name__ == "__main__":
+    pack(Path(sys.argv[1]))
