@@ -53,10 +53,12 @@ test-all: lint ## the linters and all tests
 lint: setup ## the linters
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
+	.venv/bin/snakefmt --check Snakefile workflow/rules
 
 dist: setup ## what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
+	$(UV) tool run twine check --strict dist/*
 
 elsewhere: dist ## the sources that are released, unpacked elsewhere: make test and make quick; PYTHON=python3.13 for another Python
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \

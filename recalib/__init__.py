@@ -6,7 +6,7 @@ a reader needs first can be imported from here; the examples show how it fits to
 
 from importlib import import_module
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Where each name is at home. It is imported when it is asked for: Pinocchio, SciPy and scikit-learn
 # take seconds, and nobody needs all of them.
