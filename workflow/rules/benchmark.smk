@@ -4,15 +4,17 @@
 rule benchmark_run:
     input:
         scenarios=lambda w: [layout(w).scenario(name) for name in plan(w).batches()[w.batch]],
-        sample=lambda w: sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else [],
+        sample=lambda w: (
+            sample(w, w.learner) if plan(w).benchmark(w.learner, w.batch).learner else []
+        ),
     output:
         LAYOUT.benchmark_batch("{learner}", "{batch}"),
-    params:
-        code=made_from("benchmark.py"),
-        job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("benchmark.py"),
+        job=lambda w: as_text(plan(w).benchmark(w.learner, w.batch)),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
@@ -30,10 +32,10 @@ rule benchmark_table:
         table=LAYOUT.benchmark,
         reached=LAYOUT.benchmark_moves,
         seconds=LAYOUT.benchmark_seconds,
+    localrule: True
     params:
         code=made_from("benchmark_table.py"),
         job=lambda w: as_text(plan(w).benchmark_table()),
-    localrule: True
     message:
         "Put the benchmark together"
     script:
@@ -43,12 +45,12 @@ rule benchmark_table:
 rule real_data:
     output:
         LAYOUT.real_data("{part}"),
-    params:
-        code=made_from("real_data.py"),
-        job=lambda w: as_text(plan(w).real_data(w.part)),
     wildcard_constraints:
         part="fit|test",
     localrule: True
+    params:
+        code=made_from("real_data.py"),
+        job=lambda w: as_text(plan(w).real_data(w.part)),
     message:
         "Bring the poses of the real arm to {wildcards.part}"
     script:
@@ -62,12 +64,12 @@ rule real_run:
         description=lambda w: study(w).real.description,
     output:
         LAYOUT.real_run("{learner}"),
-    params:
-        code=made_from("real_run.py"),
-        job=lambda w: as_text(plan(w).real_run(w.learner)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("real_run.py"),
+        job=lambda w: as_text(plan(w).real_run(w.learner)),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
@@ -81,12 +83,12 @@ rule real_twin:
         sample=lambda w: sample(w, w.learner),
     output:
         LAYOUT.real_twin("{learner}"),
-    params:
-        code=made_from("real_twin.py"),
-        job=lambda w: as_text(plan(w).real_twin(w.learner)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("real_twin.py"),
+        job=lambda w: as_text(plan(w).real_twin(w.learner)),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:
@@ -101,10 +103,10 @@ rule real_table:
         ],
     output:
         LAYOUT.real,
+    localrule: True
     params:
         code=made_from("real_table.py"),
         job=lambda w: as_text(plan(w).real_table()),
-    localrule: True
     message:
         "Put the results on the real arm together"
     script:

@@ -7,9 +7,9 @@ rule check:
         expected=lambda w: study(w).expected,
     output:
         LAYOUT.check,
+    localrule: True
     params:
         code=made_from("check.py", reads=lambda w: [study(w).expected]),
-    localrule: True
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -21,9 +21,9 @@ rule expect:
         summary=LAYOUT.summary,
     output:
         LAYOUT.expected,
+    localrule: True
     params:
         code=made_from("expect.py"),
-    localrule: True
     message:
         "Propose new bands for the check"
     script:

@@ -26,10 +26,10 @@ rule summary:
         scenarios=lambda w: [layout(w).scenario(name) for name in TRAININGS[w.root].scenarios()],
     output:
         LAYOUT.summary,
+    localrule: True
     params:
         code=made_from("summarise.py"),
         job=lambda w: as_text(plan(w).summary()),
-    localrule: True
     message:
         "Put the final errors of every training into one table"
     script:
@@ -41,12 +41,12 @@ rule claims:
         evidence=lambda w: judging(request(w.root)).inputs,
     output:
         LAYOUT.claims,
-    params:
-        code=made_from("claims.py"),
-        job=lambda w: as_text(judging(request(w.root))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("claims.py"),
+        job=lambda w: as_text(judging(request(w.root))),
     message:
         "Judge every claim of the paper"
     script:
@@ -62,10 +62,10 @@ rule outcome:
         evidence=lambda w: outcome_needs(w).inputs,
     output:
         LAYOUT.outcome,
+    localrule: True
     params:
         code=made_from("outcome.py"),
         job=lambda w: as_text(outcome_needs(w)),
-    localrule: True
     message:
         "Say what came out"
     script:
@@ -82,12 +82,12 @@ rule page:
         evidence=lambda w: page_needs(w).inputs,
     output:
         LAYOUT.page("{page}"),
-    params:
-        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
-        job=lambda w: as_text(page_needs(w)),
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),
     localrule: True
+    params:
+        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
+        job=lambda w: as_text(page_needs(w)),
     message:
         "Write the numbers into {wildcards.page}"
     script:

@@ -8,13 +8,13 @@ rule train:
     output:
         history=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}"),
         learned=LAYOUT.chunk("{scenario}", "{learner}", "{chunk}", ".npz"),
-    params:
-        code=made_from("train.py"),
-        job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
+    priority: 10
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
-    priority: 10
+    params:
+        code=made_from("train.py"),
+        job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     message:
         "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
     script:
@@ -37,9 +37,9 @@ rule run:
     output:
         history=LAYOUT.history("{scenario}", "{learner}"),
         learned=LAYOUT.learned("{scenario}", "{learner}"),
+    localrule: True
     params:
         code=made_from("gather.py"),
-    localrule: True
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
@@ -51,12 +51,12 @@ rule ensemble_chunk:
         sample=lambda w: sample(w, w.learner),
     output:
         LAYOUT.ensemble_chunk("{series}", "{learner}", "{chunk}"),
-    params:
-        code=made_from("ensemble.py"),
-        job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("ensemble.py"),
+        job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
     script:
@@ -71,9 +71,9 @@ rule ensemble:
         ],
     output:
         LAYOUT.ensemble("{series}", "{learner}"),
+    localrule: True
     params:
         code=made_from("concat.py"),
-    localrule: True
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
@@ -86,12 +86,12 @@ rule bench:
         samples=lambda w: [sample(w, learner) for learner in MEASURED],
     output:
         LAYOUT.bench,
-    params:
-        code=made_from("bench.py"),
-        job=lambda w: as_text(plan(w).speed(MEASURED)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("bench.py"),
+        job=lambda w: as_text(plan(w).speed(MEASURED)),
     message:
         "Measure the speed of moves and trainings"
     script:

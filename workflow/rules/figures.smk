@@ -13,14 +13,14 @@ rule figure:
     output:
         LAYOUT.figure("{figure}"),
         LAYOUT.figure("{figure}", ".png"),
-    params:
-        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
-        job=lambda w: as_text(figure_needs(w)),
     wildcard_constraints:
         figure="|".join(FIGURES),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
+        job=lambda w: as_text(figure_needs(w)),
     message:
         "Draw {wildcards.figure}"
     script:

@@ -9,12 +9,12 @@ rule study_mapping:
         coupling=LAYOUT.mapping("coupling"),
         propagation=LAYOUT.mapping("propagation"),
         quantisation=LAYOUT.mapping("quantisation"),
-    params:
-        code=made_from("study_mapping.py"),
-        job=lambda w: as_text(plan(w).true_mapping()),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("study_mapping.py"),
+        job=lambda w: as_text(plan(w).true_mapping()),
     message:
         "Measure what section 3 says of the cells, and sections 4 and 5 of the true mapping"
     script:
@@ -24,12 +24,12 @@ rule study_mapping:
 rule study_visits:
     output:
         LAYOUT.mapping("visits"),
-    params:
-        code=made_from("study_visits.py"),
-        job=lambda w: as_text(plan(w).visits()),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("study_visits.py"),
+        job=lambda w: as_text(plan(w).visits()),
     message:
         "Measure the expected learning of section 6"
     script:
@@ -42,12 +42,12 @@ rule study_replay:
         sample=lambda w: sample(w, "improved"),
     output:
         LAYOUT.mapping("replay"),
-    params:
-        code=made_from("study_replay.py"),
-        job=lambda w: as_text(plan(w).replay()),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        code=made_from("study_replay.py"),
+        job=lambda w: as_text(plan(w).replay()),
     message:
         "Teach the improved learner by a table instead of a robot"
     script:

@@ -1,6 +1,5 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
-
 @cache
 def recording_of(root, recording):
     """What is recorded: asked once, since it knows what stands in the meshes that are drawn."""
@@ -20,12 +19,12 @@ rule recording:
         ],
     output:
         LAYOUT.recording("{recording}"),
-    params:
-        code=made_from("record.py"),
-        job=lambda w: as_text(recorded(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("record.py"),
+        job=lambda w: as_text(recorded(w)),
     message:
         "Record {wildcards.recording}"
     script:
@@ -60,9 +59,9 @@ rule before_and_after:
             category="Pictures",
             labels={"picture": "2: after recalibration"},
         ),
+    localrule: True
     params:
         code=made_from("pictures.py"),
-    localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
@@ -74,9 +73,9 @@ rule film:
         recording=pictured,
     output:
         LAYOUT.figure("{recording}", ".webp"),
+    localrule: True
     params:
         code=made_from("film.py"),
-    localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:

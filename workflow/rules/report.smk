@@ -57,7 +57,9 @@ def title(page):
 def page_in_report(root, page, category):
     """A page as an output."""
     path = Layout(root).report_page(page)
-    return report(path, caption="../report/page.rst", category=category, labels={"page": title(page)})
+    return report(
+        path, caption="../report/page.rst", category=category, labels={"page": title(page)}
+    )
 
 
 def report_of(root):
@@ -89,11 +91,11 @@ for root_ in STUDIES:
                 for page in pages
             ],
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
+        localrule: True
         params:
             code=made_from("report_pages.py", reads=lambda w: sorted(TEXTS.iterdir())),
             kept=kept_in(root_),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
-        localrule: True
         message:
             "Write the pages of the report"
         script:

@@ -8,12 +8,12 @@ rule assignments:
     output:
         table=LAYOUT.assignments("{robot}"),
         assignment=LAYOUT.assignments("{robot}", ".json"),
-    params:
-        code=made_from("assign.py"),
-        job=lambda w: as_text(plan(w).assignments(w.robot)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("assign.py"),
+        job=lambda w: as_text(plan(w).assignments(w.robot)),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
     script:
@@ -32,12 +32,12 @@ rule scenario:
         assignment=assignment,
     output:
         LAYOUT.scenario("{scenario}"),
-    params:
-        code=made_from("scenario.py"),
-        job=lambda w: as_text(plan(w).scenario(w.scenario)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        code=made_from("scenario.py"),
+        job=lambda w: as_text(plan(w).scenario(w.scenario)),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"
     script:

@@ -27,12 +27,12 @@ rule search:
         scenario=own_scenario,
     output:
         LAYOUT.search_chunk("{training}", "{chunk}"),
-    params:
-        code=made_from("search.py"),
-        job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
+    params:
+        code=made_from("search.py"),
+        job=lambda w: as_text(plan(w).search(w.training, int(w.chunk))),
     message:
         "Search for {wildcards.training}, chunk {wildcards.chunk} of its searches"
     script:
@@ -47,10 +47,10 @@ rule search_sample:
         ],
     output:
         LAYOUT.searched("{training}"),
+    localrule: True
     params:
         code=made_from("search_sample.py"),
         job=lambda w: as_text(plan(w).sample(w.training)),
-    localrule: True
     message:
         "Keep all trials of the searches for {wildcards.training}"
     script:

@@ -41,8 +41,6 @@ onsuccess:
             print(Path(job.output[0]).read_text(encoding="utf-8"))
 
 
-
-
 def everything(root):
     """All results of a study, and what is made of them."""
     its = Layout(root)

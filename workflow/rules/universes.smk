@@ -56,12 +56,12 @@ wildcard_constraints:
 rule design:
     output:
         LAYOUT.campaign("design"),
-    params:
-        code=made_from("design.py"),
-        job=lambda w: as_text(plan(w).design()),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
+    params:
+        code=made_from("design.py"),
+        job=lambda w: as_text(plan(w).design()),
     message:
         "Draw the universes of the multiverse"
     script:
@@ -71,13 +71,13 @@ rule design:
 rule power:
     output:
         LAYOUT.campaign("power"),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
     params:
         code=made_from("power.py"),
         setups=lambda w: study(w).universes.count,
         replicates=lambda w: study(w).universes.replicates,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=60),
     message:
         "Try the model of the campaign in worlds whose truth is known"
     script:
@@ -87,12 +87,12 @@ rule power:
 rule universe:
     output:
         LAYOUT.campaign_chunk("outcomes", "{number}"),
-    params:
-        code=made_from("universe.py"),
-        job=lambda w: as_text(universe_of(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
+    params:
+        code=made_from("universe.py"),
+        job=lambda w: as_text(universe_of(w)),
     message:
         "Measure universe {wildcards.number}"
     script:
@@ -102,12 +102,12 @@ rule universe:
 rule horizon:
     output:
         LAYOUT.campaign_chunk("horizon", "{number}"),
-    params:
-        code=made_from("horizon.py"),
-        job=lambda w: as_text(universe_of(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
+    params:
+        code=made_from("horizon.py"),
+        job=lambda w: as_text(universe_of(w)),
     message:
         "Seek how long Ritter's takes in universe {wildcards.number}"
     script:
@@ -119,10 +119,10 @@ rule piece:
         chunks=piece_of,
     output:
         LAYOUT.campaign("{table}_{piece}"),
+    localrule: True
     params:
         code=made_from("piece.py"),
         design=lambda w: digest(ROOT / DESIGN),
-    localrule: True
     message:
         "Put piece {wildcards.piece} of the {wildcards.table} together"
     script:
@@ -148,12 +148,12 @@ rule reference_replicate:
         scenario=own_scenario,
     output:
         LAYOUT.campaign_chunk("reference", "{number}"),
-    params:
-        code=made_from("reference.py"),
-        study=lambda w: study(w).model_dump_json(),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
+    params:
+        code=made_from("reference.py"),
+        study=lambda w: study(w).model_dump_json(),
     message:
         "Measure replicate {wildcards.number} of the reference study"
     script:
@@ -166,12 +166,12 @@ rule efforts_of:
         sample=lambda w: sample_at(w.root, w.training),
     output:
         LAYOUT.campaign_chunk("efforts", "{training}"),
-    params:
-        code=made_from("efforts.py"),
-        job=lambda w: as_text(plan(w).efforts(w.training)),
     threads: 1
     resources:
         **room(mem_mb=4000, runtime=30),
+    params:
+        code=made_from("efforts.py"),
+        job=lambda w: as_text(plan(w).efforts(w.training)),
     message:
         "Train the winners of full and of rough searches for {wildcards.training}"
     script:
@@ -183,10 +183,10 @@ rule reference:
         chunks=[Layout(MAIN).campaign_chunk("reference", n) for n in range(REPLICATES)],
     output:
         Layout(MAIN).campaign("reference"),
+    localrule: True
     params:
         code=made_from("piece.py"),
         design="",  # they follow none
-    localrule: True
     script:
         "../scripts/piece.py"
 
@@ -196,9 +196,9 @@ rule efforts:
         chunks=[Layout(MAIN).campaign_chunk("efforts", name) for name in effort_trainings()],
     output:
         Layout(MAIN).campaign("efforts"),
+    localrule: True
     params:
         code=made_from("piece.py"),
         design="",  # they follow none
-    localrule: True
     script:
         "../scripts/piece.py"
