@@ -11,8 +11,10 @@ RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
+UV = .venv/bin/uv --quiet --no-python-downloads
+ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster lint test test-all slurm faults verify mutants laboratory peers check bench report docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster lint test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -49,6 +51,21 @@ lint: setup ## the linters and the types of the library
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
+	.venv/bin/snakefmt --check Snakefile workflow/rules
+
+dist: setup ## what is released, the sources and the wheel, in dist/
+	rm -rf dist
+	.venv/bin/python -m build --no-isolation --outdir dist
+	$(UV) tool run twine check --strict dist/*
+
+elsewhere: dist ## the sources that are released, unpacked elsewhere: make test and make quick; PYTHON=python3.13 for another Python
+	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
+	  make --directory "$$folder" PYTHON=$(PYTHON) test quick
+
+lowest: setup ## the library's tests with the lowest versions that pyproject.toml allows
+	$(ELSEWHERE) && $(UV) venv --python .venv/bin/python "$$folder" && \
+	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,dev] && \
+	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal)
 
 slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
@@ -127,8 +144,8 @@ horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 
 ship: setup ## make config.yaml, as it now is, the shipped study
 	.venv/bin/python -m recalib.study.ship
 
-lock: ## pin the dependencies of pyproject.toml anew (needs uv)
-	uv pip compile pyproject.toml --extra study --extra dev --extra docs --universal --generate-hashes \
+lock: setup ## pin the dependencies of pyproject.toml anew
+	.venv/bin/uv pip compile pyproject.toml --extra study --extra dev --extra docs --extra article --universal --generate-hashes \
 	  --no-emit-index-url --python-version 3.11 --custom-compile-command "make lock" \
 	  --output-file requirements.lock
 

@@ -9,6 +9,7 @@ import runpy
 import shutil
 import subprocess
 import sys
+import tarfile
 import venv
 from pathlib import Path
 
@@ -124,22 +125,46 @@ def link(names, site: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def empty(tmp_path_factory) -> Path:
+def committed() -> set[str]:
+    """The paths of all files that git holds, or would."""
+    listing = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(listing, cwd=ROOT, capture_output=True, text=True)
+    if listed.returncode:
+        pytest.skip("this copy is no git repository")
+    return {path for path in listed.stdout.splitlines() if (ROOT / path).is_file()}
+
+
+@pytest.fixture(scope="module")
+def released(committed, tmp_path_factory) -> Path:
+    """A folder with the sources that are released, and the wheel that is made of them."""
+    folder = tmp_path_factory.mktemp("released")
+    source = folder / "source"
+    for path in committed:
+        (source / path).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / path, source / path)
+    build = [sys.executable, "-m", "build", "--no-isolation", "--outdir", folder, source]
+    subprocess.run(build, cwd=folder, check=True)
+    return folder
+
+
+@pytest.mark.slow
+def test_the_sources_that_are_released_are_what_git_holds(released, committed):
+    (path,) = released.glob("*.tar.gz")
+    with tarfile.open(path) as archive:
+        files = {file.name.partition("/")[2] for file in archive if file.isfile()}
+    built = {file for file in files if file.startswith("recalib.egg-info/")}
+    assert files - built - {"PKG-INFO", "setup.cfg"} == committed
+
+
+@pytest.fixture(scope="module")
+def empty(released, tmp_path_factory) -> Path:
     """The Python of an environment with the wheel and what it declares to need, nothing else."""
-    folder = tmp_path_factory.mktemp("wheel")
-    source, environment = folder / "source", folder / "environment"
-    source.mkdir()
-    shutil.copytree(ROOT / "recalib", source / "recalib")
-    for name in ("pyproject.toml", "README.md", "LICENSE"):
-        shutil.copy(ROOT / name, source / name)
-    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    alone = ["--no-index", "--no-deps"]
-    subprocess.run(
-        [*pip, "wheel", *alone, "--no-build-isolation", "--wheel-dir", folder, source], check=True
-    )
+    environment = tmp_path_factory.mktemp("environment")
     venv.create(environment, symlinks=True)
     python = environment / "bin" / "python"
-    (wheel,) = folder.glob("*.whl")
+    (wheel,) = released.glob("*.whl")
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    alone = ["--no-index", "--no-deps"]
     subprocess.run([*pip, "--python", python, "install", *alone, wheel], check=True)
     (site,) = environment.glob("lib/python*/site-packages")
     (installed,) = importlib.metadata.distributions(path=[str(site)])

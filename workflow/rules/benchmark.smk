@@ -18,8 +18,14 @@ rule benchmark_run:
         sample=sample_of_competitor,
     output:
         "{root}/chunks/benchmark/{learner}.{batch}.parquet",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.experiments.benchmark.compete", reads=lambda w: [sample_of_competitor(w)]),
+        **calls(
+            "recalib.study.experiments.benchmark.compete",
+            reads=lambda w: [sample_of_competitor(w)],
+        ),
         arguments=lambda w: as_text(
             name=w.learner,
             rules=rules_unless_peer(study(w), w.learner),
@@ -29,9 +35,6 @@ rule benchmark_run:
             tests=study(w).training.tests,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
     script:
@@ -50,6 +53,7 @@ rule benchmark_table:
         errors="{root}/benchmark.csv",
         reached="{root}/benchmark_moves.csv",
         seconds="{root}/benchmark_seconds.csv",  # which differ from run to run
+    localrule: True
     params:
         **calls("recalib.study.evidence.benchmark.put_together"),
         arguments=lambda w: as_text(
@@ -59,7 +63,6 @@ rule benchmark_table:
             seed=study(w).seed,
         ),
         digits=6,
-    localrule: True
     message:
         "Put the benchmark together"
     script:
@@ -69,12 +72,12 @@ rule benchmark_table:
 rule real_data:
     output:
         table="{root}/real/{part}.csv",
-    params:
-        **calls("recalib.study.experiments.tracker.fetch"),
-        arguments=lambda w: as_text(source=getattr(study(w).real.data, w.part)),
     wildcard_constraints:
         part="fit|test",
     localrule: True
+    params:
+        **calls("recalib.study.experiments.tracker.fetch"),
+        arguments=lambda w: as_text(source=getattr(study(w).real.data, w.part)),
     message:
         "Bring the poses of the real arm to {wildcards.part}"
     script:
@@ -88,6 +91,9 @@ rule real_run:
         description=lambda w: study(w).real.description,
     output:
         "{root}/real/runs/{learner}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
         **calls(
             "recalib.study.experiments.real_arm.learn_from_tables",
@@ -100,9 +106,6 @@ rule real_run:
             subsets=study(w).real.subsets,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn from recorded poses of the real arm"
     script:
@@ -116,6 +119,9 @@ rule real_twin:
         sample=lambda w: sample(w, w.learner),
     output:
         "{root}/real/twin/{learner}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
         **calls(
             "recalib.study.experiments.real_arm.learn_on_twin",
@@ -130,9 +136,6 @@ rule real_twin:
             tests=study(w).training.tests,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Let {wildcards.learner} learn on a twin of the real arm"
     script:
@@ -147,11 +150,11 @@ rule real_table:
         ],
     output:
         "{root}/real.csv",
+    localrule: True
     params:
         **calls("recalib.study.evidence.real.put_together"),
         arguments=lambda w: as_text(seed=study(w).seed),
         digits=5,
-    localrule: True
     message:
         "Put the results on the real arm together"
     script:

@@ -7,9 +7,9 @@ rule check:
         expected=lambda w: study(w).expected,
     output:
         "{root}/check.txt",
+    localrule: True
     params:
         **calls("recalib.study.evidence.checks.report", reads=lambda w: [study(w).expected]),
-    localrule: True
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -21,10 +21,10 @@ rule expect:
         summary="{root}/summary.csv",
     output:
         "{root}/expected.csv",
+    localrule: True
     params:
         **calls("recalib.study.evidence.checks.propose"),
         digits=4,
-    localrule: True
     message:
         "Propose new bands for the check"
     script:

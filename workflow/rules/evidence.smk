@@ -31,11 +31,11 @@ rule summary:
         ],
     output:
         "{root}/summary.csv",
+    localrule: True
     params:
         **calls("recalib.study.evidence.summary.summarise"),
         arguments=lambda w: as_text(trainings=TRAININGS[w.root].runs, seed=study(w).seed),
         digits=6,
-    localrule: True
     message:
         "Put the final errors of every training into one table"
     script:
@@ -52,12 +52,12 @@ rule claims:
         files=judged_by,
     output:
         "{root}/claims.json",
-    params:
-        **calls("recalib.study.evidence.claims.judge", reads=judged_by),
-        arguments=lambda w: as_text(claims=judging(request(w.root))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("recalib.study.evidence.claims.judge", reads=judged_by),
+        arguments=lambda w: as_text(claims=judging(request(w.root))),
     message:
         "Judge every claim of the paper"
     script:
@@ -73,13 +73,13 @@ rule outcome:
         files=lambda w: outcome_evidence(w).inputs,
     output:
         "{root}/outcome.txt",
+    localrule: True
     params:
         **calls(
             "recalib.study.evidence.outcome.outcome",
             reads=lambda w: outcome_evidence(w).inputs,
         ),
         arguments=lambda w: as_text(evidence=outcome_evidence(w)),
-    localrule: True
     message:
         "Say what came out"
     script:
@@ -96,15 +96,15 @@ rule page:
         files=lambda w: page_evidence(w).inputs,
     output:
         "{root}/pages/{page}",
+    wildcard_constraints:
+        page="|".join(PAGES_OF_EVIDENCE),
+    localrule: True
     params:
         **calls(
             "recalib.study.evidence.pages.page",
             reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_evidence(w).inputs],
         ),
         arguments=lambda w: as_text(name=w.page, evidence=page_evidence(w)),
-    wildcard_constraints:
-        page="|".join(PAGES_OF_EVIDENCE),
-    localrule: True
     message:
         "Write the numbers into {wildcards.page}"
     script:

@@ -23,6 +23,12 @@ rule train:
     output:
         history="{root}/runs/{scenario}/{learner}.parquet",
         learned="{root}/runs/{scenario}/{learner}.npz",
+    wildcard_constraints:
+        root="|".join(AT_ONCE) or NOWHERE,
+    priority: 10
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     params:
         **calls(
             "recalib.study.experiments.campaign.train_seeds",
@@ -38,12 +44,6 @@ rule train:
             throughout=is_shown(study(w), w.scenario, w.learner),
             seed=study(w).seed,
         ),
-    wildcard_constraints:
-        root="|".join(AT_ONCE) or NOWHERE,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=20),
-    priority: 10
     message:
         "Train {wildcards.learner} on {wildcards.scenario}"
     script:
@@ -81,11 +81,11 @@ rule run:
     output:
         history="{root}/runs/{scenario}/{learner}.parquet",
         learned="{root}/runs/{scenario}/{learner}.npz",
-    params:
-        **calls("recalib.study.experiments.joining.training"),
     wildcard_constraints:
         root="|".join(IN_CHUNKS) or NOWHERE,
     localrule: True
+    params:
+        **calls("recalib.study.experiments.joining.training"),
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
@@ -102,6 +102,9 @@ rule ensemble_chunk:
         sample=lambda w: sample(w, w.learner),
     output:
         "{root}/chunks/ensemble/{series}.{learner}.{chunk}.parquet",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     params:
         **calls(
             "recalib.study.experiments.ensemble.train_draws",
@@ -118,9 +121,6 @@ rule ensemble_chunk:
             tests=study(w).training.tests,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=20),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
     script:
@@ -136,9 +136,9 @@ rule ensemble:
         ),
     output:
         "{root}/ensemble/{series}.{learner}.parquet",
+    localrule: True
     params:
         **calls("recalib.study.experiments.joining.put_together"),
-    localrule: True
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
@@ -158,14 +158,14 @@ rule bench:
         samples=samples_of_measured,
     output:
         "{root}/bench.txt",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     params:
         **calls("recalib.study.experiments.speed.measure_speed", reads=samples_of_measured),
         arguments=lambda w: as_text(
             learners={name: rules_of(study(w), name) for name in MEASURED},
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=20),
     message:
         "Measure the speed of moves and trainings"
     script:

@@ -13,6 +13,11 @@ rule figure:
     output:
         svg="{root}/figures/{figure}.svg",
         png="{root}/figures/{figure}.png",
+    wildcard_constraints:
+        figure="|".join(FIGURES),
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
         **calls(
             "recalib.study.plots.registry.publish",
@@ -20,11 +25,6 @@ rule figure:
             reads=lambda w: figure_evidence(w).inputs,
         ),
         arguments=lambda w: as_text(figure=w.figure, evidence=figure_evidence(w)),
-    wildcard_constraints:
-        figure="|".join(FIGURES),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Draw {wildcards.figure}"
     script:

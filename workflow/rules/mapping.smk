@@ -13,6 +13,9 @@ rule study_mapping:
         coupling="{root}/mapping/coupling.parquet",
         propagation="{root}/mapping/propagation.parquet",
         quantisation="{root}/mapping/quantisation.parquet",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     params:
         **calls("recalib.study.mapping.measured.measure"),
         arguments=lambda w: as_text(
@@ -23,9 +26,6 @@ rule study_mapping:
             scales=study(w).mapping.scales,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=20),
     message:
         "Measure what section 3 says of the cells, and sections 4 and 5 of the true mapping"
     script:
@@ -35,12 +35,12 @@ rule study_mapping:
 rule study_visits:
     output:
         "{root}/mapping/visits.parquet",
-    params:
-        **calls("recalib.study.mapping.visits.visits"),
-        arguments=lambda w: as_text(seed=study(w).seed),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("recalib.study.mapping.visits.visits"),
+        arguments=lambda w: as_text(seed=study(w).seed),
     message:
         "Measure the expected learning of section 6"
     script:
@@ -53,15 +53,15 @@ rule study_replay:
         sample=lambda w: sample(w, "improved"),
     output:
         "{root}/mapping/replay.parquet",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
     params:
         **calls(
             "recalib.study.experiments.replay.replay",
             reads=lambda w: [sample(w, "improved")],
         ),
         arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=20),
     message:
         "Teach the improved learner by a table instead of a robot"
     script:

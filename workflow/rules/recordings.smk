@@ -26,12 +26,12 @@ rule recording:
         ],
     output:
         rrd="{root}/recordings/{recording}.rrd",
-    params:
-        **calls("recalib.study.recording.writing.record", reads=samples_of_recorded),
-        arguments=lambda w: as_text(recording=recorded(w)),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
+    params:
+        **calls("recalib.study.recording.writing.record", reads=samples_of_recorded),
+        arguments=lambda w: as_text(recording=recorded(w)),
     message:
         "Record {wildcards.recording}"
     script:
@@ -66,9 +66,9 @@ rule before_and_after:
             category="Pictures",
             labels={"picture": "2: after recalibration"},
         ),
+    localrule: True
     params:
         **calls("recalib.study.recording.pictures.before_and_after"),
-    localrule: True
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
@@ -80,9 +80,9 @@ rule film:
         recording=pictured,
     output:
         film="{root}/figures/{recording}.webp",
+    localrule: True
     params:
         **calls("recalib.study.recording.pictures.take_film"),
-    localrule: True
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:

@@ -57,7 +57,9 @@ def title(page):
 def page_in_report(root, page, category):
     """A page as an output."""
     path = f"{root}/report/{page}.html"
-    return report(path, caption="../report/page.rst", category=category, labels={"page": title(page)})
+    return report(
+        path, caption="../report/page.rst", category=category, labels={"page": title(page)}
+    )
 
 
 def report_of(root):
@@ -94,6 +96,7 @@ for root_ in STUDIES:
                 for page in pages
             ],
             rst=f"{root_}/report/{report_.FRONT}.rst",
+        localrule: True
         params:
             **calls(
                 "recalib.study.evidence.report.write",
@@ -101,7 +104,6 @@ for root_ in STUDIES:
             ),
             kept=kept_in(root_),
             arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.needs)),
-        localrule: True
         message:
             "Write the pages of the report"
         script:

@@ -8,6 +8,9 @@ rule assignments:
     output:
         table="{root}/assignments/{robot}.parquet",
         chosen="{root}/assignments/{robot}.json",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
         **calls("recalib.study.assignments.assign"),
         arguments=lambda w: as_text(
@@ -15,9 +18,6 @@ rule assignments:
             damage=study(w).paper_damage,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Try every assignment of the paper's damage to the robot {wildcards.robot}"
     script:
@@ -41,6 +41,9 @@ rule scenario:
         assignment=assignment,
     output:
         "{root}/scenarios/{scenario}.json",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=10),
     params:
         **calls("recalib.study.plants.resolve"),
         arguments=lambda w: as_text(
@@ -50,9 +53,6 @@ rule scenario:
             poses=study(w).paper_damage.poses,
             seed=study(w).seed,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=10),
     message:
         "Resolve the damage of {wildcards.scenario} and measure its initial errors"
     script:

@@ -27,6 +27,9 @@ rule search:
         scenario=own_scenario,
     output:
         "{root}/chunks/search/{training}.{chunk}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=30),
     params:
         **calls("recalib.study.experiments.trials.search_for"),
         arguments=lambda w: as_text(
@@ -38,9 +41,6 @@ rule search:
             ),
             tests=study(w).training.tests,
         ),
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=30),
     message:
         "Search for {wildcards.training}, chunk {wildcards.chunk} of its searches"
     script:
@@ -59,10 +59,10 @@ rule search_sample:
         ),
     output:
         "{root}/search/{training}.csv",
+    localrule: True
     params:
         **calls("recalib.study.experiments.samples.put_together"),
         arguments=lambda w: as_text(sought=sought(study(w), w.training)),
-    localrule: True
     message:
         "Keep all trials of the searches for {wildcards.training}"
     script:

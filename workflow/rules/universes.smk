@@ -67,12 +67,12 @@ def setting(study):
 rule design:
     output:
         "{root}/universes/design.csv",
-    params:
-        **calls("recalib.study.multiverse.drawing.design"),
-        arguments=lambda w: as_text(setting=setting(study(w))),
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("recalib.study.multiverse.drawing.design"),
+        arguments=lambda w: as_text(setting=setting(study(w))),
     message:
         "Draw the universes of the multiverse"
     script:
@@ -82,6 +82,9 @@ rule design:
 rule power:
     output:
         "{root}/universes/power.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
     params:
         **calls("recalib.study.multiverse.power.power"),
         arguments=lambda w: as_text(
@@ -89,9 +92,6 @@ rule power:
             replicates=study(w).universes.replicates,
         ),
         digits=4,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=60),
     message:
         "Try the model of the campaign in worlds whose truth is known"
     script:
@@ -101,13 +101,13 @@ rule power:
 rule universe:
     output:
         "{root}/chunks/universes/outcomes/{number}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=30),
     params:
         **calls("recalib.study.multiverse.measuring.measure"),
         arguments=lambda w: as_text(universe=universe_of(w)),
         digits=6,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=30),
     message:
         "Measure universe {wildcards.number}"
     script:
@@ -117,13 +117,13 @@ rule universe:
 rule horizon:
     output:
         "{root}/chunks/universes/horizon/{number}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=60),
     params:
         **calls("recalib.study.multiverse.horizon.horizon"),
         arguments=lambda w: as_text(universe=universe_of(w)),
         digits=6,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=60),
     message:
         "Seek how long Ritter's takes in universe {wildcards.number}"
     script:
@@ -135,11 +135,11 @@ rule piece:
         chunks=piece_of,
     output:
         "{root}/universes/{table}_{piece}.csv",
+    localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
         arguments=lambda w: as_text(design=digest(ROOT / shipped.DESIGN)),
         digits=6,
-    localrule: True
     message:
         "Put piece {wildcards.piece} of the {wildcards.table} together"
     script:
@@ -165,13 +165,13 @@ rule reference_replicate:
         scenario=own_scenario,
     output:
         "{root}/chunks/universes/reference/{number}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=30),
     params:
         **calls("recalib.study.multiverse.reference.reference"),
         arguments=lambda w: as_text(study=study(w), number=int(w.number)),
         digits=6,
-    threads: 1
-    resources:
-        **room(mem_mb=2000, runtime=30),
     message:
         "Measure replicate {wildcards.number} of the reference study"
     script:
@@ -184,6 +184,9 @@ rule efforts_of:
         sample=lambda w: sample_at(w.root, w.training),
     output:
         "{root}/chunks/universes/efforts/{training}.csv",
+    threads: 1
+    resources:
+        **room(mem_mb=4000, runtime=30),
     params:
         **calls(
             "recalib.study.multiverse.efforts.efforts",
@@ -198,9 +201,6 @@ rule efforts_of:
             seed=study(w).seed,
         ),
         digits=4,
-    threads: 1
-    resources:
-        **room(mem_mb=4000, runtime=30),
     message:
         "Train the winners of full and of rough searches for {wildcards.training}"
     script:
@@ -212,10 +212,10 @@ rule reference:
         chunks=[f"{MAIN}/chunks/universes/reference/{n}.csv" for n in range(REPLICATES)],
     output:
         f"{MAIN}/universes/reference.csv",
+    localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
         digits=6,
-    localrule: True
     script:
         "../scripts/call.py"
 
@@ -225,9 +225,9 @@ rule efforts:
         chunks=[f"{MAIN}/chunks/universes/efforts/{name}.csv" for name in effort_trainings()],
     output:
         f"{MAIN}/universes/efforts.csv",
+    localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
         digits=6,
-    localrule: True
     script:
         "../scripts/call.py"

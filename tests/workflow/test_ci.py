@@ -1,0 +1,50 @@
+"""What is checked elsewhere is what is checked here, and a release has one version."""
+
+import re
+import tomllib
+
+import yaml
+
+import recalib
+from tests.conftest import ROOT
+
+# A command at the beginning of a line, without what depends on the machine.
+COMMAND = re.compile(
+    r"^(?:sudo )?((?:make|cp|git|cat|\.venv/bin/python)\b(?: (?!PYTHON=|\|\||#)\S+)*)", re.MULTILINE
+)
+WORKFLOWS = ROOT / ".github" / "workflows"
+
+
+def commands(text: str) -> set[str]:
+    return {*COMMAND.findall(text)}
+
+
+def checked() -> list[dict]:
+    """What the workflow for GitHub runs: a row for each job."""
+    workflow = yaml.safe_load((WORKFLOWS / "ci.yml").read_text(encoding="utf-8"))
+    return workflow["jobs"]["check"]["strategy"]["matrix"]["include"]
+
+
+def test_github_runs_what_the_check_of_a_change_runs():
+    elsewhere = set().union(*(commands(row["run"]) for row in checked()))
+    here = commands((ROOT / ".ci" / "run").read_text(encoding="utf-8"))
+    assert "make" in here and len(here) > 10
+    assert elsewhere == here
+
+
+def test_every_python_that_is_promised_runs_the_tests():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    python = "Programming Language :: Python :: "
+    promised = [
+        its.removeprefix(python) for its in project["classifiers"] if its.startswith(python)
+    ]
+    on_linux = [row for row in checked() if row["run"] == "make test" and "os" not in row]
+    assert [row.get("python", "3.11") for row in on_linux] == promised
+    assert project["requires-python"] == f">={promised[0]}"
+
+
+def test_files_that_name_the_version_name_the_same():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    newest = re.search(r"^## \[(.+?)\]", changelog, re.MULTILINE)[1]
+    assert {citation["version"], newest} == {recalib.__version__}
