@@ -95,6 +95,12 @@ bench: setup ## moves a second, and the ratio to a bare loop
 report: all ## everything in one file to look at, results/report.html
 	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)
 
+article: all ## the article, results/article.pdf
+	$(SNAKEMAKE) -- results/article.pdf
+
+archive: report article ## code, results, recordings and article in one file, results/archive.zip
+	.venv/bin/python -m workflow.archive results/archive.zip
+
 docs: setup ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
 

@@ -29,7 +29,7 @@ def project(made_up, tmp_path, monkeypatch):
         shutil.copy(ROOT / name, tmp_path)
     subprocess.run(["git", "init", "--quiet"], check=True)
     subprocess.run(["git", "add", *FEW], check=True)
-    shutil.copytree(made_up.layout.root, "results")
+    shutil.copytree(made_up.folder / "results", "results")
     archive.NOTES.mkdir(parents=True)
     note = {
         "rule": "claims",

@@ -109,3 +109,26 @@ rule page:
         "Write the numbers into {wildcards.page}"
     script:
         "../scripts/call.py"
+
+
+DRAWN = ["method", "figure1", "figure4", "figure9", "figure14", "figure15"]
+COMMITTED = ["figures/figure12.svg", "figures/figure13.svg"]  # other targets make them
+
+
+rule article:
+    input:
+        source=f"{RESULTS}/pages/article.typ",
+        references="workflow/article/references.bib",
+        figures=[f"figures/{name}.svg" for name in DRAWN],
+    output:
+        article=f"{RESULTS}/article.pdf",
+    localrule: True
+    params:
+        **calls(
+            "recalib.study.evidence.article.typeset",
+            reads=lambda w: ["workflow/article/references.bib", *COMMITTED],
+        ),
+    message:
+        "Set the article"
+    script:
+        "../scripts/call.py"

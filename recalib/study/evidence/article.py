@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from recalib.spelling import listed
+from recalib.storage import whole
 from recalib.study.evidence import all_results, choices, deviations, findings, readme
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
@@ -45,20 +46,25 @@ def context(evidence: Evidence) -> dict:
     }
 
 
-def typeset(source: Path, pdf: Path, project: Path) -> None:
+def typeset(source: Path, article: Path, project: Path = Path()) -> None:
     """Write the article, tagged for screen readers, with the fonts of its figures alone.
+
+    Args:
+        source: in Typst, below the project's folder.
+        article: a PDF.
 
     Raises typst.TypstError: a reference, a figure or a sign that Typst does not know.
     """
     import matplotlib
     import typst
 
-    fonts = Path(matplotlib.get_data_path(), "fonts", "ttf")
-    typst.compile(
-        source,
-        output=pdf,
-        root=project,
-        font_paths=[fonts],
-        ignore_system_fonts=True,
-        pdf_standards=["ua-1"],
-    )
+    with whole(article) as temporary:
+        typst.compile(
+            source,
+            output=temporary,
+            root=project,
+            format="pdf",
+            font_paths=[Path(matplotlib.get_data_path(), "fonts", "ttf")],
+            ignore_system_fonts=True,
+            pdf_standards=["ua-1"],
+        )

@@ -6,7 +6,6 @@ import pytest
 
 from recalib.study.evidence.article import typeset
 from recalib.study.evidence.pages import PAGES, render
-from recalib.study.evidence.results import Evidence
 from tests.conftest import ROOT
 
 TEMPLATE = ROOT / "workflow" / "templates" / "article.typ.j2"
@@ -16,7 +15,7 @@ GIVEN = {"1996", "2", "1"}  # numbers of the abstract that are no results: a yea
 @pytest.fixture(scope="module")
 def known(made_up):
     page = PAGES["article.typ"]
-    return page.context(Evidence(made_up.needs(page.needs)))
+    return page.context(made_up.evidence(page.needs))
 
 
 @pytest.fixture(scope="module")
