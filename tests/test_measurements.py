@@ -27,6 +27,7 @@ from recalib.measurements import OUTSIDE, WRAPPED, check_moves
 from recalib.nominal.poses import position_error
 from recalib.study.assignments import Ways
 from recalib.study.experiments.ensemble import feasible, scaled_arm
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search
 
@@ -141,7 +142,9 @@ def test_the_study_s_most_serious_damage_is_far_from_refused(controller, plan, s
     arms = [scaled_arm(controller.robot, each, scale) for each in damages]
     budget = study.search.model_copy(update={"rounds": 1, "trials": 8, "seeds": 1})
     rules = rules_of(study.learners["ritter"])
-    Search(lambda runs: Plant(controller, arms), rules, 40, budget, 5, "extreme").all_rounds()
+    words = {"number": 1, "training": "extreme", "scenario": "scaled"}
+    poses = Stream.SEARCH.draw(budget.seed, range(budget.seeds), 40, 5, **words)
+    Search(lambda runs: Plant(controller, arms), rules, budget, poses).all_rounds()
     assert 0 < max(farthest) < OUTSIDE / 3
 
 

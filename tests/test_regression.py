@@ -6,12 +6,8 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.regression import (
-    Process,
-    covariance_parts,
-    is_time_to_search,
-    likelihood_and_slope,
-)
+from recalib.covariance import Covariance
+from recalib.regression import Process, is_time_to_search
 
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
@@ -81,24 +77,18 @@ def test_few_points_constant_inputs_and_exact_data_warn_of_nothing(count):
     assert np.all(np.isfinite(predicted))
 
 
-def test_likelihood_slope_and_covariance_are_those_of_scikit_learn():
+def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
     theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
-    kernel = (
+    parts = (
         ConstantKernel(0.5) * DotProduct(1, "fixed")
         + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0])
         + WhiteKernel(0.01)
     )
-    assert np.allclose(kernel.theta, theta)
-    regressor = GaussianProcessRegressor(kernel, optimizer=None).fit(INPUTS, SMOOTH)
-    value, slope = regressor.log_marginal_likelihood(theta, eval_gradient=True)
-    found = likelihood_and_slope(INPUTS, SMOOTH, theta)
-    assert found[0] == pytest.approx(value, rel=1e-12)
-    assert found[1] == pytest.approx(slope, rel=1e-9)
-    apart = sum(covariance_parts(theta, INPUTS[:5], INPUTS))
-    assert np.allclose(apart, kernel(INPUTS[:5], INPUTS), atol=1e-12)
-
-
-def test_where_rounding_leaves_a_singular_matrix_nothing_is_likely():
-    theta = np.log([1e6, 1e6, 100.0, 100.0, 100.0, 1e-300])
-    value, slope = likelihood_and_slope(INPUTS, SMOOTH, theta)
-    assert value == -np.inf and not slope.any()
+    assert np.allclose(parts.theta, theta)
+    ours = Covariance(theta)
+    for own, theirs in zip(
+        ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True
+    ):
+        assert np.allclose(own, theirs, atol=1e-12)
+    assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
+    assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)

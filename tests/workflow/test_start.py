@@ -26,7 +26,8 @@ HEAVY = {
 ARMS = {"numba", "pinocchio", "scipy.spatial"}
 # Modules of recalib.study, by what they bring.
 STARTS = {
-    "evidence.claims evidence.outcome evidence.pages evidence.real evidence.report"
+    "evidence.article evidence.claims evidence.outcome evidence.pages evidence.real"
+    " evidence.report"
     " experiments.joining experiments.samples multiverse.design multiverse.power"
     " plots.registry": set(),
     "evidence.benchmark evidence.checks evidence.summary mapping.visits": {"pandas"},
