@@ -16,7 +16,6 @@ from recalib.storage import is_temporary
 MARK = ".running"
 NOTES = ".snakemake/identity"  # deleted with all else that Snakemake has noted
 OTHERS = "studies"  # below the shipped study's folder lie those of the others
-_held = []  # open files: the system lets go of them when the process ends, however it ends
 
 
 class Busy(RecalibError):
@@ -84,19 +83,18 @@ def hold(folders: Iterable[str]) -> None:
     """Keep other runs out of these folders until this process ends, tidy them up, and note whose
     they are.
 
-    Raises Busy.
+    The system lets go of them, however the process ends. Raises Busy.
     """
     for folder in folders:
         Path(folder).mkdir(parents=True, exist_ok=True)
-        mark = Path(folder, MARK).open("a", encoding="utf-8")  # noqa: SIM115 held to the end
+        mark = os.open(Path(folder, MARK), os.O_WRONLY | os.O_CREAT, 0o666)  # held to the end
         try:
             fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
+            os.close(mark)
             raise Busy(folder) from None
-        mark.truncate(0)
-        mark.write(_identity())
-        mark.flush()
-        _held.append(mark)
+        os.truncate(mark, 0)
+        os.write(mark, _identity().encode("ascii"))
         sweep(folder)
 
 

@@ -12,6 +12,8 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from recalib.study.layout import RESULTS
+
 ROOT = Path(__file__).parents[1]
 # Read as text: to parse all modules takes longer than all else that happens at the start.
 OURS = r"((?:recalib|workflow)[\w.]*)"
@@ -20,17 +22,18 @@ NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
 def made_from(script: str, *named: str, reads: Callable = lambda wildcards: ()) -> Callable:
-    """What gives a job's parameter: a digest of its code and of files of the project it reads.
+    """What gives a job's parameter: a digest of its code and of what it reads and no rule makes.
 
     It asks for wildcards alone: Snakemake compares no parameter that follows from inputs.
 
     Args:
         named: as for `code`.
-        reads: gives the paths of files that no rule makes, for some wildcards.
+        reads: gives the paths of files for some wildcards; results do not count among them.
     """
 
     def digest(wildcards: object) -> str:
-        return "".join([code(script, *named), *map(_digest, map(str, reads(wildcards)))])
+        given = [path for path in map(str, reads(wildcards)) if not path.startswith(f"{RESULTS}/")]
+        return "".join([code(script, *named), *map(_digest, given)])
 
     return digest
 

@@ -61,14 +61,17 @@ class Resolved(Kept):
         """The damaged arm of the nominal robot."""
         return apply(robot, damages_among(self.damages))
 
-    def plant(self, controller: Controller, seed: int, runs: Sequence[int]) -> Plant:
+    def plant(
+        self, controller: Controller, seed: int, runs: Sequence[int], stream: str = ""
+    ) -> Plant:
         """Robots for these runs, with the disturbances of their own.
 
         Args:
             controller: the scenario's.
             seed: of the study.
+            stream: name of that of their disturbances; the scenario's unless given.
         """
-        luck = [generator(seed, self.scenario, run, "disturbances") for run in runs]
+        luck = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
         arm = self.arm(controller.robot)
         return Plant(controller, [arm], disturbances_among(self.damages), luck)
 

@@ -11,7 +11,8 @@ from recalib.errors import UnknownName
 from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
 from recalib.study.configuration.switches import SWITCHES
-from recalib.study.experiments import campaign, samples, search
+from recalib.study.experiments import samples, search
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import best, build_tuned, rules_of
 from recalib.study.experiments.trials import Search, search_for
 from recalib.study.layout import SEARCHED
@@ -83,21 +84,20 @@ def test_the_score_is_the_part_left_of_the_initial_errors(study, score, expected
     assert search.scores(errors, budget).tolist() == expected
 
 
+def poses_of_a_search(budget, tests, order="random"):
+    words = {"number": 1, "training": "improved_8", "scenario": "luck"}
+    return Stream.SEARCH.draw(budget.seed, range(budget.seeds), 8, tests, order, **words)
+
+
 def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(plan, controller, robot):
     whole = plan.search("improved_200", 0)
     budget = whole.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
     arm = apply(robot, [EncoderShift("elbow_joint", 0.05)])
 
-    def found(**told):
-        trials = Search(
-            lambda runs: Plant(controller, [arm]),
-            rules_of(whole.learner),
-            8,
-            budget,
-            20,
-            "luck",
-            **told,
-        ).all_rounds()
+    def found(order="random", **told):
+        robots, rules = lambda runs: Plant(controller, [arm]), rules_of(whole.learner)
+        poses = poses_of_a_search(budget, 20, order)
+        trials = Search(robots, rules, budget, poses, **told).all_rounds()
         return trials["position_error_cm"], trials["orientation_error_deg"], trials["score"]
 
     usual, coordinates, even = found(), found(error="coordinates"), found(order="even")
@@ -149,18 +149,18 @@ def test_another_learner_is_searched_for_alike(plan, controller, damaged):
     given = {"rounds": 1, "trials": 4, "seeds": 2}
     budget = plan.budget().model_copy(update=given)
     rules = Rules(False, True, False, True)
-    args = (lambda runs: Plant(controller, [damaged]), rules, 8, budget, 5, "luck")
+    poses = poses_of_a_search(budget, 5)
+    args = (lambda runs: Plant(controller, [damaged]), rules, budget, poses)
     first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
     numbers = search.columns(rules)
     assert other[numbers].equals(first[numbers]) and list(other) == list(first)
     assert (other["score"] != first["score"]).all()
     trial = other.iloc[1]
-    seeds = range(given["seeds"])
     history = train(
         Plant(controller, [damaged]),
         RadialLearner(2, rules, search.schedule(trial, rules)),
-        campaign.desired_poses(budget.seed, "luck", seeds, 8),
-        campaign.test_poses(budget.seed, "luck", seeds, 5),
+        poses.desired,
+        poses.tests,
         [8],
     )
     error = np.exp(np.log(100 * history.position[:, 0, 0]).mean())

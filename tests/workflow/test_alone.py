@@ -1,11 +1,16 @@
+import gc
 import multiprocessing
 import os
 import shutil
 import signal
+import subprocess
+import sys
+import warnings
 
 import pytest
 
 from recalib.storage import whole
+from tests.conftest import ROOT
 from workflow.alone import MARK, NOTES, Busy, ReadOnly, Unknown, check_known, check_writable, hold
 
 
@@ -64,6 +69,28 @@ def test_a_folder_is_held_until_the_process_ends(tmp_path):
         process.start()
         process.join()
         assert answers.get(timeout=10) == expected
+
+
+def test_who_is_told_to_wait_leaves_no_file_open():
+    hold(["ours"])
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with pytest.raises(Busy):
+            hold(["ours"])
+        gc.collect()
+    assert not told
+
+
+def test_nothing_is_said_of_open_files_when_a_run_ends(tmp_path):
+    holding = "from workflow.alone import hold; hold(['ours'])"
+    ran = subprocess.run(
+        [sys.executable, "-W", "always::ResourceWarning", "-c", holding],
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert ran.stderr == ""
 
 
 def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_path, notes):

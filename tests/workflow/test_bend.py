@@ -45,6 +45,12 @@ def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     assert Trainings(mine).scenarios() == ["fall"]
 
 
+def test_the_page_names_every_study_to_begin_with():
+    row = next(line for line in PAGE.splitlines() if line.startswith("| `like` |"))
+    studies = {path.stem for path in (ROOT / "workflow" / "studies").glob("*.yaml")}
+    assert len(studies) > 4 and studies <= {*re.findall(r"\w+", row)}
+
+
 def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
     path = project / "my_arm.yaml"
     path.write_text(STUDY.replace("forearm_link", "forearm"), encoding="utf-8")

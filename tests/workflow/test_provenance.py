@@ -184,6 +184,7 @@ class Workflow:
             workflow._prepare_dag(forceall=True, ignore_incomplete=True, lock_warn_only=True)
             workflow._build_dag()
             self._jobs = [(job.rule, job.wildcards) for job in workflow.dag.jobs]
+            self._read = [[*map(str, job.input)] for job in workflow.dag.jobs]
         self._names = workflow.globals
 
     def _become(self, studies):
@@ -203,6 +204,18 @@ class Workflow:
         """Rule, inputs and parameters of every job, were these the studies, by folder."""
         self._become(studies)
         return [(rule.name, self._job(rule, wildcards)) for rule, wildcards in self._jobs]
+
+    def uncounted(self, studies):
+        """Rules with a script, and files that they read, no rule makes and no parameter counts."""
+        self._become(studies)
+        found = set()
+        for (rule, wildcards), paths in zip(self._jobs, self._read, strict=True):
+            if digest := dict(rule.params.items()).get("code"):
+                with mock.patch("workflow.dependencies._digest", "<{}>".format):
+                    counted = digest(wildcards)
+                given = (path for path in paths if not path.startswith("results/"))
+                found |= {(rule.name, path) for path in given if f"<{path}>" not in counted}
+        return found
 
     def _job(self, rule, wildcards):
         params = [its for name, its in rule.params.items() if name != "code"]
@@ -313,6 +326,11 @@ def test_every_leaf_makes_a_difference(depending):
     without = [leaf for leaf, rules in depending.items() if not rules]
     assert without == []
     assert len(depending) > 200
+
+
+@of_all_jobs
+def test_what_a_job_reads_and_no_rule_makes_counts_by_its_content(workflow, tree):
+    assert workflow.uncounted(studies_of(tree)) == set()
 
 
 # What scripts of the campaign see instead of a job.

@@ -9,9 +9,8 @@ import pytest
 
 from recalib.loading import load
 from recalib.study.entrants import make_peer
-from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plants import Resolved
-from recalib.training import train
 from tests.conftest import ROOT, copy_project
 from tests.workflow.conftest import TINY, snakemake
 from workflow import alone
@@ -121,11 +120,10 @@ def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_pat
     ]
     resolved, seed = Resolved.read(project / TINY / "scenarios" / "noise.json"), 1996
     controller, runs = resolved.controller(), range(2)
-    alone = train(
+    alone = train_for_results(
         resolved.plant(controller, seed, runs),
         make_peer("affine", 2, controller),
-        campaign.desired_poses(seed, "noise", runs, 2),
-        campaign.test_poses(seed, "noise", runs, 20),
+        Stream.SCENARIO.draw(seed, runs, 2, 20, scenario="noise"),
         [1, 2],
     )
     means = 100 * alone.position[..., 0].mean(axis=0)

@@ -36,16 +36,20 @@ rule summary:
         "../scripts/summarise.py"
 
 
+def judged_by(wildcards):
+    return judging(request(wildcards.root)).inputs
+
+
 rule claims:
     input:
-        evidence=lambda w: judging(request(w.root)).inputs,
+        evidence=judged_by,
     output:
         LAYOUT.claims,
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        code=made_from("claims.py"),
+        code=made_from("claims.py", reads=judged_by),
         job=lambda w: as_text(judging(request(w.root))),
     message:
         "Judge every claim of the paper"
@@ -64,7 +68,7 @@ rule outcome:
         LAYOUT.outcome,
     localrule: True
     params:
-        code=made_from("outcome.py"),
+        code=made_from("outcome.py", reads=lambda w: outcome_needs(w).inputs),
         job=lambda w: as_text(outcome_needs(w)),
     message:
         "Say what came out"
@@ -86,7 +90,9 @@ rule page:
         page="|".join(PAGES_OF_EVIDENCE),
     localrule: True
     params:
-        code=made_from("page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2"]),
+        code=made_from(
+            "page.py", reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_needs(w).inputs]
+        ),
         job=lambda w: as_text(page_needs(w)),
     message:
         "Write the numbers into {wildcards.page}"

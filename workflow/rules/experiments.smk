@@ -13,7 +13,7 @@ rule train:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        code=made_from("train.py"),
+        code=made_from("train.py", reads=lambda w: [sample(w, w.learner)]),
         job=lambda w: as_text(plan(w).training(w.scenario, w.learner, int(w.chunk))),
     message:
         "Train {wildcards.learner} on {wildcards.scenario}, chunk {wildcards.chunk} of its seeds"
@@ -55,7 +55,7 @@ rule ensemble_chunk:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        code=made_from("ensemble.py"),
+        code=made_from("ensemble.py", reads=lambda w: [sample(w, w.learner)]),
         job=lambda w: as_text(plan(w).draws(w.series, w.learner, int(w.chunk))),
     message:
         "Train {wildcards.learner} on other damages: {wildcards.series}, chunk {wildcards.chunk}"
@@ -90,7 +90,7 @@ rule bench:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        code=made_from("bench.py"),
+        code=made_from("bench.py", reads=lambda w: [sample(w, name) for name in MEASURED]),
         job=lambda w: as_text(plan(w).speed(MEASURED)),
     message:
         "Measure the speed of moves and trainings"

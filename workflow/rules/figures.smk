@@ -19,7 +19,9 @@ rule figure:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        code=lambda w: made_from("figure.py", FIGURES[w.figure].home)(w),
+        code=lambda w: made_from(
+            "figure.py", FIGURES[w.figure].home, reads=lambda w: figure_needs(w).inputs
+        )(w),
         job=lambda w: as_text(figure_needs(w)),
     message:
         "Draw {wildcards.figure}"

@@ -46,7 +46,7 @@ rule study_replay:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        code=made_from("study_replay.py"),
+        code=made_from("study_replay.py", reads=lambda w: [sample(w, "improved")]),
         job=lambda w: as_text(plan(w).replay()),
     message:
         "Teach the improved learner by a table instead of a robot"

@@ -10,10 +10,14 @@ def recorded(wildcards):
     return recording_of(wildcards.root, wildcards.recording)
 
 
+def samples_of_recorded(wildcards):
+    return [sample(wildcards, name) for name in recorded(wildcards).papers()]
+
+
 rule recording:
     input:
         scenario=lambda w: layout(w).scenario(recorded(w).scenario),
-        samples=lambda w: [sample(w, name) for name in recorded(w).papers()],
+        samples=samples_of_recorded,
         histories=lambda w: [
             layout(w).history(recorded(w).scenario, name) for name in recorded(w).papers()
         ],
@@ -23,7 +27,7 @@ rule recording:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        code=made_from("record.py"),
+        code=made_from("record.py", reads=samples_of_recorded),
         job=lambda w: as_text(recorded(w)),
     message:
         "Record {wildcards.recording}"

@@ -67,6 +67,11 @@ def report_of(root):
     return [Layout(root).report_page(page) for pages in pages_of(root).values() for page in pages]
 
 
+def read_by_report(root):
+    """Texts, pages and evidence."""
+    return [*sorted(TEXTS.iterdir()), *read_in(root).values(), *asked(root, report_.needs).inputs]
+
+
 # How many pages there are is known of each study by itself, hence a rule for each.
 for root_ in STUDIES:
     own_ = {*sum(pages_of(root_).values(), [])} - {*other_pages_of(root_)}
@@ -93,7 +98,7 @@ for root_ in STUDIES:
             front=Layout(root_).report_page(report_.FRONT, ".rst"),
         localrule: True
         params:
-            code=made_from("report_pages.py", reads=lambda w: sorted(TEXTS.iterdir())),
+            code=made_from("report_pages.py", reads=lambda w, root=root_: read_by_report(root)),
             kept=kept_in(root_),
             job=lambda w, root=root_: as_text(asked(root, report_.needs)),
         message:

@@ -170,7 +170,7 @@ rule efforts_of:
     resources:
         **room(mem_mb=4000, runtime=30),
     params:
-        code=made_from("efforts.py"),
+        code=made_from("efforts.py", reads=lambda w: [sample_at(w.root, w.training)]),
         job=lambda w: as_text(plan(w).efforts(w.training)),
     message:
         "Train the winners of full and of rough searches for {wildcards.training}"

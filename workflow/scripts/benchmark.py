@@ -6,5 +6,5 @@ from recalib.study.jobs import Benchmark
 from workflow.scripts.job import job
 
 with job(snakemake), whole(snakemake.output[0]) as path:
-    job_, sample = Benchmark.model_validate_json(snakemake.params.job), snakemake.input.sample
-    compete(job_, snakemake.input.scenarios, sample or None).to_parquet(path, index=False)
+    job_, samples = Benchmark.model_validate_json(snakemake.params.job), snakemake.input.samples
+    compete(job_, snakemake.input.scenarios, *samples).to_parquet(path, index=False)

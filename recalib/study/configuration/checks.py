@@ -11,7 +11,6 @@ from recalib.damaged.kinds import DISTURBANCES
 from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
-from recalib.study.configuration.sizes import check_sizes
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.entrants import MOVES, PEERS
@@ -20,7 +19,7 @@ from recalib.study.trainings import training
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _meanings, _amounts, check_sizes, _evidence):
+    for kind in (_names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []

@@ -15,7 +15,7 @@ from recalib.damaged.disturbances import Disturbances
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.words import Described, words
 from recalib.quantities import ANGLE, COMPLIANCE, LENGTH
-from recalib.spelling import nearest
+from recalib.spelling import listed, nearest
 from recalib.study.configuration.part import Frozen, Part
 from recalib.study.configuration.units import (
     Amount,
@@ -117,7 +117,11 @@ Entry = Annotated[
         *(_choice(kind, model) for kind, model in _MODELS.items()),
         Annotated[Assigned, Tag(Assigned.__name__)],
     ],
-    Discriminator(_name_of),
+    Discriminator(
+        _name_of,
+        custom_error_type="entry",
+        custom_error_message=f"a mapping that begins with {listed(_BY_KEY, 'or')}",
+    ),
     PlainSerializer(describe),
 ]
 

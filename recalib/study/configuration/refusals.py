@@ -1,113 +1,92 @@
-"""What the types refuse, as mistakes: pydantic's errors without its prose."""
+"""What the types refuse, as mistakes: the key, what stood there, and pydantic's own words."""
 
+import re
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import reduce
 from operator import getitem
 from typing import Any
 
 from pydantic import ValidationError
 
-from recalib.spelling import listed, nearest
-from recalib.study.configuration.messages import KeyPath, Mistake, shown, unlike
+from recalib.spelling import instead, listed, nearest
+from recalib.study.configuration.messages import EXPECTED, KeyPath, Mistake, unlike
 from recalib.study.configuration.schema import Schema, json_schema
+
+MISSING = " is missing: "
+KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
+# What it says of Python, said of YAML.
+SAID = {
+    r"^\w+ should (be|have) ": "",
+    r"a valid dictionary.*": "a mapping",
+    "a valid tuple": "a list",
+    "a valid boolean": "true or false",
+    " after validation, not .*": "",
+}
 
 
 def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
-    """What is wrong with the `whole` configuration: a mistake for what belongs together.
+    """What is wrong with the `whole` configuration: a mistake for each key.
 
     A misspelt key is no missing one, too.
     """
-    schema = Schema(json_schema())
-    errors = error.errors(include_url=False)
-    found: dict[KeyPath, Mistake] = {}
+    schema, found = Schema(json_schema()), {}
+    errors = sorted(error.errors(include_url=False), key=lambda each: each["type"] == "missing")
+    absent = [schema.find(each["loc"])[0] for each in errors if each["type"] == "missing"]
+    meant = set()
     for each in errors:
-        mistake = _refusal(schema, each)
-        found.setdefault(mistake.path, mistake)
-    for path, meant in _misspelt(schema, errors).items():
-        found[path] = Mistake(path, f": unknown key; did you mean {meant}?")
-        found.pop((*path[:-1], meant), None)
-    for mistake in (*_mixed(schema, errors), *_several(schema, errors, found, whole)):
-        for path in [path for path in found if path[:-1] == mistake.path]:
-            del found[path]
-        found[mistake.path] = mistake
-    return list(found.values())
+        if each["type"] == "too_short" and each["input"]:
+            continue  # since none of its values is valid, which each of them says
+        if each["type"] == "extra_forbidden":
+            mistake, key = _unknown(schema, each["loc"], absent)
+            meant.add(key)
+        else:
+            mistake = _refusal(schema, each, whole)
+        if mistake.path not in meant:
+            found.setdefault(mistake.path, mistake)
+    return [*_together(found.values(), whole)]
 
 
-def _misspelt(schema: Schema, errors: Iterable[Mapping]) -> dict[KeyPath, str]:
-    """Unknown keys, with those that they probably stand for: similar, or the only one missing."""
-    unknown, missing = (
-        [each["loc"] for each in errors if each["type"] == kind]
-        for kind in ("extra_forbidden", "missing")
-    )
-    meant = {}
-    for location in unknown:
-        *parent, key = location
-        absent = [each[-1] for each in missing if [*each[:-1]] == parent]
-        alone = len([each for each in unknown if [*each[:-1]] == parent]) == len(absent) == 1
-        path, its = schema.find(parent)
-        near = absent[0] if alone else nearest(key, absent) or nearest(key, schema.keys(its))
-        if near:
-            meant[*path, key] = near
-    return meant
+def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
+    """Several keys that one part lacks, and several wrong values of one list, told at once."""
+    groups = defaultdict(list)
+    for each in mistakes:
+        missing = each.fault.startswith(MISSING)
+        shared = missing or isinstance(each.path[-1], int)
+        groups[each.path[:-1] if shared else each.path, missing].append(each)
+    for (path, missing), its in groups.items():
+        if len(its) == 1:
+            yield its[0]
+        elif missing:
+            yield Mistake(path, f" lacks {listed((each.path[-1] for each in its), 'and')}")
+        else:
+            _, _, expected = its[0].fault.partition(EXPECTED)
+            yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
 
 
-def _mixed(schema: Schema, errors: Iterable[Mapping]) -> Iterator[Mistake]:
-    """Entries with words of two kinds: a shifted encoder that is shortened."""
-    unknown = (each["loc"] for each in errors if each["type"] == "extra_forbidden")
-    for *parent, kind, key in (location for location in unknown if len(location) > 1):
-        path, its = schema.find(parent)
-        kinds = [schema.keys(choice) for choice in schema.resolved(its).get("oneOf", ())]
-        if others := [keys for keys in kinds if key in keys]:
-            own = schema.keys(schema.find((*parent, kind))[1])
-            valid = listed((" + ".join(keys) for keys in (own, *others)), "or")
-            yield Mistake(path, f" has {own[0]} with {key}; valid: {valid}")
+def _unknown(
+    schema: Schema, location: tuple, absent: list[KeyPath]
+) -> tuple[Mistake, KeyPath | None]:
+    """An unknown key, and the path of the missing one that it probably stands for."""
+    *_, key = location
+    path, its = schema.find(location[:-1])
+    lacking = [each[-1] for each in absent if each[:-1] == path]
+    near = nearest(key, lacking)
+    fault = f"did you mean {near}?" if near else instead(key, schema.keys(its))
+    return Mistake((*path, key), f": unknown key; {fault}"), (*path, near) if near else None
 
 
-def _several(
-    schema: Schema, errors: Iterable[Mapping], found: Collection[KeyPath], whole: Any
-) -> Iterator[Mistake]:
-    """Several keys that one part lacks, and several values of one list that are none."""
-    lacking, wrong = defaultdict(list), defaultdict(list)
-    for each in errors:
-        path, _ = schema.find(each["loc"])
-        if path in found and each["type"] == "missing":
-            lacking[path[:-1]].append(path[-1])
-        elif path in found and isinstance(path[-1], int):
-            wrong[each["loc"][:-1]].append(path[-1])
-    for path, keys in lacking.items():
-        if len(keys) > 1:
-            yield Mistake(path, f" lacks {listed(keys, 'and')}; valid: with all of them")
-    for location, indices in wrong.items():
-        if len(indices) > 1:
-            path, its = schema.find(location)
-            yield unlike(path, reduce(getitem, path, whole), schema.valid(its))
-
-
-def _refusal(schema: Schema, error: Mapping) -> Mistake:
-    location, stood = error["loc"], error["input"]
-    if location[-1] == "[key]":
-        path, its = schema.find(location[:-2])
-        valid = schema.resolved(its)["propertyNames"]["patternErrorMessage"]
-        return Mistake((*path, location[-2]), f": no valid name; valid: {valid}")
-    path, its = schema.find(location)
-    match error["type"]:
-        case "extra_forbidden":
-            keys = schema.keys(schema.find(location[:-1])[1])
-            return Mistake(path, f": unknown key; valid: {listed(keys, 'and')}")
-        case "missing" if isinstance(path[-1], str):
-            meaning = its.get("description") or schema.resolved(its)["description"]
-            return Mistake(path, f" is missing: {meaning[0].lower()}{meaning[1:-1]}")
-        case "missing":  # the last of so many in a list
-            path, its = schema.find(location[:-1])
-        case "distinct":
-            return Mistake(path, f" has {shown(error['ctx']['twice'])} twice; valid: each once")
-        case "ordered":
-            return unlike(path, stood, "the lower value first")
-        case "union_tag_not_found" if stood and isinstance(stood, Mapping):
-            path = (*path, next(iter(stood)))
-            return Mistake(path, f": unknown key; valid: {schema.valid(its)}")
-    mistake = unlike(path, stood, schema.valid(its))
-    words = map(str, schema.resolved(its).get("enum", ()))
-    near = nearest(stood, words) if isinstance(stood, str) else None
-    return Mistake(path, f"{mistake.fault}; did you mean {near}?") if near else mistake
+def _refusal(schema: Schema, error: Mapping, whole: Any) -> Mistake:
+    *parents, last = location = error["loc"]
+    path, its = schema.find(parents if last == KEY else location)
+    if error["type"] == "missing" and isinstance(last, str):
+        meaning = its.get("description") or schema.resolved(its)["description"]
+        return Mistake(path, f"{MISSING}{meaning[0].lower()}{meaning[1:-1]}")
+    if error["type"] == "missing":  # the last of so many in a list
+        *parents, _ = path
+        stood = reduce(getitem, parents, whole)
+        return unlike(tuple(parents), stood, f"{last + 1} values or more")
+    expected = error["msg"]
+    for pattern, text in SAID.items():
+        expected = re.sub(pattern, text, expected)
+    return unlike(path, error["input"], expected)

@@ -1,4 +1,4 @@
-"""What the types say of every key: for editors as a JSON schema, and for messages in words.
+"""What the types say of every key: a JSON schema, for editors and for messages.
 
 `python -m recalib.study.configuration.schema` writes workflow/schemas/config.schema.json.
 """
@@ -13,7 +13,6 @@ from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema
 
-from recalib.spelling import listed
 from recalib.storage import whole
 from recalib.study.configuration.messages import KeyPath
 from recalib.study.configuration.part import Part
@@ -60,7 +59,7 @@ def text() -> str:
 
 
 class Schema:
-    """What a JSON schema says of a path: its meaning and what would be valid there.
+    """What a JSON schema says of a path: its meaning and its keys.
 
     Args:
         schema: as pydantic makes it.
@@ -101,51 +100,6 @@ class Schema:
     def keys(self, schema: Mapping) -> list[str]:
         """The keys of a mapping."""
         return list(self.resolved(schema).get("properties", {}))
-
-    def valid(self, schema: Mapping) -> str:
-        """What would be valid."""
-        if {"type": "null"} in schema.get("anyOf", ()):
-            return f"{self.valid(self.resolved(schema))}, or null"
-        schema = self.resolved(schema)
-        if "patternErrorMessage" in schema:
-            return schema["patternErrorMessage"]
-        if "enum" in schema:
-            return listed(map(str, schema["enum"]), "or")
-        if "oneOf" in schema:
-            return listed((" + ".join(self.keys(each)) for each in schema["oneOf"]), "or")
-        match schema.get("type"):
-            case "boolean":
-                return "true or false"
-            case "integer":
-                return f"a whole number{_limits(schema)}"
-            case "number":
-                return f"a number{_limits(schema)}"
-            case "array":
-                return self._valid_list(schema)
-            case "object" if "properties" in schema:
-                return f"a mapping of {listed(self.keys(schema), 'and')}"
-            case "object":
-                number = "one or more names" if schema.get("minProperties") else "names"
-                return f"a mapping of {number}, each with {self.valid(self.at(schema, ''))}"
-        return "text"
-
-    def _valid_list(self, schema: Mapping) -> str:
-        each = self.valid(self.at(schema, 0))
-        if "prefixItems" in schema:
-            return f"a list of {len(schema['prefixItems'])}, each {each}"
-        return f"a list{' of one or more' if schema.get('minItems') else ''}, each {each}"
-
-
-def _limits(schema: Mapping) -> str:
-    words = {
-        "minimum": " from {}",
-        "exclusiveMinimum": " above {}",
-        "maximum": " to {}" if "minimum" in schema else " and up to {}",
-        "exclusiveMaximum": " to below {}",
-    }
-    return "".join(
-        text.format(f"{schema[key]:.12g}") for key, text in words.items() if key in schema
-    )
 
 
 if __name__ == "__main__":

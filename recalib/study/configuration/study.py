@@ -285,7 +285,7 @@ class Budget(Part):
 
     rounds: Annotated[int, Field(strict=True, ge=1, le=9)]
     """Of trials, each around the best of those before."""
-    trials: Times
+    trials: Annotated[int, Field(strict=True, ge=1, le=1000)]
     """Trials of a round."""
     seeds: Times
     """Seeds over which a trial is averaged."""

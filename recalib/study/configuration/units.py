@@ -1,20 +1,21 @@
 """Values of the configuration as types: each knows its unit and range, and reads what it writes.
 
 Quantities are text such as `4 cm` and become SI numbers. Counts are whole numbers, no text, no 4.0.
-`patternErrorMessage` says what would be valid, to editors as to the messages of this project.
+What would be valid is said to editors (`patternErrorMessage`) as in messages.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, TypeVar
 
 from annotated_types import Ge, Gt, Le, Lt
 from pydantic import (
     AfterValidator,
-    BeforeValidator,
     Field,
     PlainSerializer,
     StringConstraints,
+    ValidationError,
     WithJsonSchema,
+    WrapValidator,
 )
 from pydantic_core import PydanticCustomError
 
@@ -25,24 +26,28 @@ MOST = 1_000_000  # iterations: more would run for days
 MOST_TIMES = 10_000  # of what is drawn, done or measured again and again
 
 
+def _expected(valid: str, read: Callable[[Any], Any] = lambda value: value) -> WrapValidator:
+    """Reads a value before its type does. Whatever is wrong with it, `valid` is what is said."""
+
+    def told(value: Any, validate: Callable[[Any], Any]) -> Any:
+        try:
+            return validate(read(value))
+        except (InvalidQuantity, ValidationError):
+            raise PydanticCustomError("expected", valid) from None
+
+    return WrapValidator(told)
+
+
 def _quantity(quantity: Quantity, limits: str, example: str, *bounds: Any) -> Any:
     """The type of text such as `4 cm` that becomes a number of SI units within the bounds."""
     valid = f"{quantity.name} {limits}, such as '{example}' ({', '.join(quantity.units)})"
     pattern = rf"^\s*[-+]?\d.*({'|'.join(quantity.units)})\s*$"
-    said = {"type": "string", "pattern": pattern, "patternErrorMessage": valid}
-
-    def read(text: Any) -> float:
-        try:
-            return quantity.read(text)
-        except InvalidQuantity:
-            raise PydanticCustomError("quantity", "no quantity") from None
-
     return Annotated[
         float,
-        BeforeValidator(read),
         *bounds,
+        _expected(valid, quantity.read),
         PlainSerializer(quantity.write, when_used="json"),
-        WithJsonSchema(said),
+        WithJsonSchema({"type": "string", "pattern": pattern, "patternErrorMessage": valid}),
     ]
 
 
@@ -51,6 +56,7 @@ def _text(pattern: str, valid: str, longest: int) -> Any:
     return Annotated[
         str,
         StringConstraints(strict=True, pattern=pattern, max_length=longest),
+        _expected(valid),
         Field(json_schema_extra={"patternErrorMessage": valid}),
     ]
 
@@ -89,13 +95,13 @@ Switch = Annotated[bool, Field(strict=True)]
 def _distinct(values: Sequence) -> Sequence:
     twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
     if twice is not None:
-        raise PydanticCustomError("distinct", "one of them twice", {"twice": twice})
+        raise PydanticCustomError("distinct", "each once, not {twice} twice", {"twice": twice})
     return values
 
 
 def _ordered(values: tuple[float, float]) -> tuple[float, float]:
     if values[0] > values[1]:
-        raise PydanticCustomError("ordered", "the higher value first")
+        raise PydanticCustomError("ordered", "the lower value first")
     return values
 
 

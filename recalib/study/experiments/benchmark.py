@@ -10,11 +10,10 @@ import numpy as np
 from recalib.interfaces import Learner
 from recalib.study import jobs
 from recalib.study.entrants import MOVES, make_peer
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet
 from recalib.study.progress import progress_bar
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -54,7 +53,7 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
 
 
 def compete(
-    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None
+    job: jobs.Benchmark, scenarios: Sequence[str | Path], sample: str | Path | None = None
 ) -> "pd.DataFrame":
     """Let a learner work through scenarios of one robot side by side.
 
@@ -76,13 +75,13 @@ def compete(
         iterations, moves = job.learner.iterations, MOVES
         searches = [run + 1 for run in runs] * len(scenarios)
         learner = Timed(build_tuned(job.learner, sample, searches))
-    desired, tests = (
-        np.concatenate([poses(job.seed, scenario, runs, count) for scenario in job.scenarios])
-        for poses, count in ((desired_poses, iterations), (test_poses, job.tests))
+    poses = ResultPoses.side_by_side(
+        Stream.SCENARIO.draw(job.seed, runs, iterations, job.tests, scenario=scenario)
+        for scenario in job.scenarios
     )
     budgets = measured_at([*job.moves, *job.longer], iterations, moves)
     with progress_bar(f"{job.name} on {', '.join(job.scenarios)}", iterations) as progress:
-        history = train(plants, learner, desired, tests, budgets, progress)
+        history = train_for_results(plants, learner, poses, budgets, progress=progress)
     frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     return frame.assign(
         scenario=np.array(job.scenarios)[frame["seed"] // len(runs)],

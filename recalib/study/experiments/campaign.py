@@ -1,51 +1,18 @@
-"""Trainings of one learner: their poses, and the chunks that the workflow makes."""
+"""Trainings of one learner, in the chunks that the workflow makes."""
 
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.robots import Robot
-from recalib.randomness import generator
 from recalib.study import jobs
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
 from recalib.study.progress import progress_bar
-from recalib.training import measuring_grid, train
-
-
-def desired_poses(
-    seed: int, scope: str, runs: Sequence[int], iterations: int, order: str = "random"
-) -> np.ndarray:
-    """Poses to learn from, (run, iteration, 6): the same for every learner.
-
-    Fewer iterations see the first of them.
-
-    Args:
-        scope: a scenario, or a word for another purpose.
-        order: "random": each by itself; "even": a scrambled Sobol sequence.
-    """
-    draw = {"random": _independent, "even": _spread_evenly}[order]
-    return np.stack([draw(generator(seed, scope, run, "desired"), iterations) for run in runs])
-
-
-def _independent(random: np.random.Generator, count: int) -> np.ndarray:
-    return random.uniform(-1, 1, (count, 6))
-
-
-def _spread_evenly(random: np.random.Generator, count: int) -> np.ndarray:
-    from scipy.stats import qmc  # a third of a second, which only this order needs
-
-    return 2 * qmc.Sobol(6, rng=random).random_base2((count - 1).bit_length())[:count] - 1
-
-
-def test_poses(seed: int, scope: str, runs: Sequence[int], count: int) -> np.ndarray:
-    """Poses to measure on, (run, pose, 6), never used for learning."""
-    return np.stack(
-        [generator(seed, scope, run, "tests").uniform(-1, 1, (count, 6)) for run in runs]
-    )
+from recalib.training import measuring_grid
 
 
 def measured_at(measuring: jobs.Measuring, iterations: int) -> list[int]:
@@ -73,15 +40,16 @@ def train_seeds(
     searches = 1 + seeds // job.seeds
     plant = resolved.plant(controller, job.seed, seeds)
     learner = build_tuned(job.learner, sample, searches)
+    tests = job.measuring.tests
+    poses = Stream.SCENARIO.draw(job.seed, seeds, iterations, tests, scenario=job.scenario)
     name = f"{Path(sample).stem} on {job.scenario}"
     with progress_bar(name, iterations) as progress:
-        history = train(
+        history = train_for_results(
             plant,
             learner,
-            desired_poses(job.seed, job.scenario, seeds, iterations),
-            test_poses(job.seed, job.scenario, seeds, job.measuring.tests),
+            poses,
             measured_at(job.measuring, iterations) if job.throughout else [0, iterations],
-            progress,
+            progress=progress,
         )
     if refused := history.refused[:, -1].sum():
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)

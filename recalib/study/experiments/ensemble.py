@@ -14,10 +14,9 @@ from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.assignments import Ways
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import nominal_controller
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,11 +55,10 @@ def train_draws(job: jobs.Draws, sample: str | Path) -> "pd.DataFrame":
     cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
     arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]
     runs = [job.first + index for index, _ in cases]
-    history = train(
+    history = train_for_results(
         Plant(controller, arms),
         build_tuned(job.learner, sample, [run + 1 for run in runs]),
-        desired_poses(job.seed, "ensemble", runs, iterations),
-        test_poses(job.seed, "ensemble", runs, job.tests),
+        Stream.ENSEMBLE.draw(job.seed, runs, iterations, job.tests),
         [0, iterations],
     )
     table = {

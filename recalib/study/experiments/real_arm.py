@@ -24,11 +24,10 @@ from recalib.nominal.robots import Robot
 from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.entrants import MOVES
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.plants import nominal_robot
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -181,11 +180,10 @@ def learn_on_twin(
     twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = job.learner.iterations, range(job.subsets)
     met = {poses // MOVES for poses in job.poses if poses // MOVES <= iterations}
-    history = train(
+    history = train_for_results(
         Plant(Controller(robot, job.nominal.controller.greatest_condition), [twin]),
         build_tuned(job.learner, sample, [run + 1 for run in runs]),
-        desired_poses(job.seed, "twin", runs, iterations),
-        test_poses(job.seed, "twin", runs, job.tests),
+        Stream.TWIN.draw(job.seed, runs, iterations, job.tests),
         sorted(met | {iterations}),
     )
     return pd.DataFrame(

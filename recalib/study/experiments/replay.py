@@ -7,7 +7,7 @@ import numpy as np
 
 from recalib.archives import flat
 from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses
+from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
 
@@ -26,7 +26,7 @@ def replay(job: jobs.Replay, scenario: str | Path, sample: str | Path) -> "pd.Da
 
     resolved, iterations = Resolved.read(scenario), job.learner.iterations
     plant = resolved.plant(resolved.controller(), job.seed, [0])
-    desired = desired_poses(job.seed, "replay", [0], iterations)
+    desired = Stream.REPLAY.draw(job.seed, [0], iterations, tests=0).desired
     table = {}
 
     def by_robot(commands):

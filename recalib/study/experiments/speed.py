@@ -12,10 +12,9 @@ from recalib.damaged.plant import Plant
 from recalib.nominal.kinematics import tool_frame
 from recalib.nominal.robots import Robot
 from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
 
@@ -65,11 +64,11 @@ def measure_speed(job: jobs.Speed, scenario: str | Path, samples: Mapping[str, s
         f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second",
         f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}",
     ]
-    desired = desired_poses(0, "bench", range(RUNS), ITERATIONS)
+    poses = Stream.SPEED.draw(0, range(RUNS), ITERATIONS, tests=1)
     for name, rules in job.learners.items():
         learner = build_tuned(rules, samples[name], range(1, RUNS + 1))
-        arguments = Plant(controller, [arm]), learner, desired, desired[:, :1], [ITERATIONS]
-        spent = seconds(train, *arguments) / (RUNS * ITERATIONS)
+        arguments = Plant(controller, [arm]), learner, poses, [ITERATIONS]
+        spent = seconds(train_for_results, *arguments) / (RUNS * ITERATIONS)
         lines.append(
             f"{name}: {1e6 * spent:.0f} us an iteration and seed,"
             f" {10_000 * spent:.2f} s for 10,000 iterations"

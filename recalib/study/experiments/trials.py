@@ -15,10 +15,9 @@ from recalib.randomness import generator
 from recalib.study import jobs
 from recalib.study.configuration.study import Budget
 from recalib.study.experiments import search
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import SearchPoses, Stream, train_on
 from recalib.study.experiments.settings import rules_of
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,16 +35,23 @@ def search_for(job: jobs.Searches, scenario: str | Path) -> "pd.DataFrame":
 
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(job.budget.seeds)]
-
-    def robots(runs: int) -> Commandable:
-        return resolved.plant(controller, job.budget.seed, seeds * (runs // len(seeds)))
-
     found = []
-    for number in range(job.first + 1, job.last + 1):
-        # nothing of a search is that of another one, or of a training
-        scope = f"search {number} for {job.training} on {resolved.scenario}"
-        rules, iterations = rules_of(job.learner), job.learner.iterations
-        trials = Search(robots, rules, iterations, job.budget, job.tests, scope).all_rounds()
+    for number in range(job.first + 1, job.last + 1):  # nothing is that of another, or of results
+        poses = Stream.SEARCH.draw(
+            job.budget.seed,
+            seeds,
+            job.learner.iterations,
+            job.tests,
+            number=number,
+            training=job.training,
+            scenario=resolved.scenario,
+        )
+
+        def robots(runs: int, stream: str = poses.name) -> Commandable:
+            each = seeds * (runs // len(seeds))
+            return resolved.plant(controller, job.budget.seed, each, stream)
+
+        trials = Search(robots, rules_of(job.learner), job.budget, poses).all_rounds()
         trials.insert(0, "search", number)
         found.append(trials)
     return pd.concat(found, ignore_index=True)
@@ -58,26 +64,24 @@ class Search:
     Attributes:
         robots: makes as many, for the runs of all seeds of the first trial, then of the next.
         rules: of the learner.
-        iterations: of a training.
         budget: what it may spend.
-        tests: poses on which a trial is measured.
-        scope: of its randomness.
+        poses: from which a trial learns, and on which it is measured, with each of its seeds.
+            Raises TypeError: they are for results. The randomness of trials goes by their name.
         fixed: numbers of a trial that are not sought.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
-        order: of the poses to learn from; see `desired_poses`.
         learner: makes one of so many runs, by the rules, with a schedule of each run.
     """
 
     robots: Callable[[int], Commandable]
     rules: Rules
-    iterations: int
     budget: Budget
-    tests: int
-    scope: str
+    poses: SearchPoses
     fixed: Mapping[str, float] = field(default_factory=dict)
     error: str = "norm"
-    order: str = "random"
     learner: Callable[[int, Rules, Schedule], Learner] = HierarchicalLearner
+
+    def __post_init__(self):
+        SearchPoses.only(self.poses)
 
     def all_rounds(self) -> "pd.DataFrame":
         """All trials, round after round, a row each."""
@@ -86,7 +90,7 @@ class Search:
         rounds: list[pd.DataFrame] = []
         for round_ in range(1, self.budget.rounds + 1):
             centre = best_of(pd.concat(rounds, ignore_index=True)) if rounds else None
-            random = generator(self.budget.seed, self.scope, "trials", round_)
+            random = generator(self.budget.seed, self.poses.name, "trials", round_)
             trials = self._tried(self._drawn(random, centre))
             trials.insert(0, "round", round_)
             rounds.append(trials)
@@ -96,7 +100,7 @@ class Search:
         """A trial, and others around it: as many as a round has, all in all."""
         import pandas as pd
 
-        random = generator(self.budget.seed, self.scope, "further trials")
+        random = generator(self.budget.seed, self.poses.name, "further trials")
         around = self._drawn(random, start)
         first = pd.DataFrame([{column: start[column] for column in around}])
         return self._tried(pd.concat([first, around.iloc[:-1]], ignore_index=True))
@@ -107,23 +111,20 @@ class Search:
 
     def _tried(self, trials: "pd.DataFrame") -> "pd.DataFrame":
         """The trials with their errors and scores."""
-        seeds = range(self.budget.seeds)
-        poses = desired_poses(self.budget.seed, self.scope, seeds, self.iterations, self.order)
-        tested = test_poses(self.budget.seed, self.scope, seeds, self.tests)
-        runs = len(trials) * len(seeds)
-        history = train(
+        seeds, iterations, _ = self.poses.desired.shape
+        runs = len(trials) * seeds
+        history = train_on(
             self.robots(runs),
-            self.learner(runs, self.rules, search.schedule(trials, self.rules, len(seeds))),
-            np.tile(poses, (len(trials), 1, 1)),
-            np.tile(tested, (len(trials), 1, 1)),
-            [self.iterations],
+            self.learner(runs, self.rules, search.schedule(trials, self.rules, seeds)),
+            SearchPoses.side_by_side([self.poses] * len(trials)),
+            [iterations],
             error=self.error,
         )
         for column, errors in (
             ("position_error_cm", 100 * history.position),
             ("orientation_error_deg", np.degrees(history.orientation)),
         ):
-            by_trial = np.log(errors[:, -1, 0]).reshape(len(trials), len(seeds))
+            by_trial = np.log(errors[:, -1, 0]).reshape(len(trials), seeds)
             trials[column] = _short(np.exp(by_trial.mean(axis=1)))  # geometric, over the seeds
         trials["score"] = _short(search.scores(trials, self.budget))
         return trials

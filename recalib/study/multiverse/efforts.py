@@ -4,19 +4,17 @@ A full search is one of workflow/search. Its first round holds several rough one
 quasi-random trials each as a rough search has.
 """
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.study import jobs
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
 from recalib.study.lengths import LONG
 from recalib.study.plants import Resolved
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,11 +61,10 @@ def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -
     if iterations >= LONG:
         grid = np.geomspace(FIRST, iterations, WATCHED).round().astype(int).tolist()
     settings = np.repeat(winners.to_dict("records"), job.seeds)
-    history = train(
+    history = train_for_results(
         resolved.plant(resolved.controller(), job.seed, seeds),
         build(job.learner, settings),
-        _of(desired_poses, job.seed, seeds, iterations),
-        _of(test_poses, job.seed, seeds, job.tests),
+        Stream.EFFORTS.draw(job.seed, seeds, iterations, job.tests),
         grid,
     )
     runs = np.arange(len(seeds))
@@ -81,7 +78,3 @@ def _trained(job: jobs.Efforts, scenario: str | Path, winners: "pd.DataFrame") -
             "orientation_error_deg": np.degrees(history.orientation[..., 0]).ravel(),
         }
     )
-
-
-def _of(poses, seed: int, seeds: Sequence[int], count: int) -> np.ndarray:
-    return poses(seed, "efforts", seeds, count)

@@ -17,12 +17,11 @@ from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
-from recalib.study.experiments.campaign import desired_poses, test_poses
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
 from recalib.study.plants import nominal_controller
-from recalib.training import train
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,16 +61,22 @@ class World:
             kind: of the learner.
         """
         universe, arm = self.universe, self.arm(self.universe.own)
+        poses = Stream.SEARCH_OF_REPLICATE.draw(
+            universe.budget.seed,
+            range(universe.budget.seeds),
+            iterations,
+            universe.tests,
+            universe.order,
+            training=f"{like or learner}_{iterations}",
+            replicate=self.replicate,
+        )
         return Search(
             robots=lambda runs: Plant(self.controller, [arm]),
             rules=rules_in(universe, learner),
-            iterations=iterations,
             budget=universe.budget,
-            tests=universe.tests,
-            scope=f"search for {like or learner}_{iterations}, replicate {self.replicate}",
+            poses=poses,
             fixed=fixed,
             error=universe.error,
-            order=universe.order,
             learner=kind,
         )
 
@@ -90,12 +95,18 @@ class World:
         """
         universe, seeds = self.universe, range(self.universe.seeds)
         arm, rules = self.arm(scenario or universe.own), rules_in(universe, learner)
-        scope = f"replicate {self.replicate}"
-        history = train(
+        poses = Stream.REPLICATE.draw(
+            universe.seed,
+            seeds,
+            iterations,
+            universe.tests,
+            universe.order,
+            replicate=self.replicate,
+        )
+        history = train_for_results(
             Plant(self.controller, [arm]),
             kind(len(seeds), rules, search.schedule(best_of(trials), rules)),
-            desired_poses(universe.seed, scope, seeds, iterations, universe.order),
-            test_poses(universe.seed, scope, seeds, universe.tests),
+            poses,
             [0, iterations],
             error=universe.error,
         )

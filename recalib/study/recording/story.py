@@ -10,9 +10,10 @@ from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
+from recalib.study.experiments.poses import ResultPoses, train_for_results
 from recalib.study.recording.acts import ACT, FRAMES_A_SECOND, LEARNING, POSES
 from recalib.study.recording.cells import Cells, CellWatch
-from recalib.training import History, train
+from recalib.training import History
 
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
@@ -54,20 +55,19 @@ def watch(
     controller: Controller,
     plant: Plant,
     learner: Learner,
-    desired: np.ndarray,
-    tests: np.ndarray,
+    poses: ResultPoses,
     measure_at: Sequence[int],
 ) -> Watched:
-    """Train a fresh learner of one run on the desired poses (iteration, 6) and watch it.
+    """Train a fresh learner of one run and watch it.
 
     Args:
         plant: one run of the controller's robot.
-        tests: (test, 6) poses to measure the errors at; the first few are shown.
+        poses: of one run; the first few of those to measure on are shown.
         measure_at: numbers of iterations after which to measure.
     """
-    workspace, shown = controller.robot.workspace, visiting_order(tests[:POSES])
+    workspace, shown = controller.robot.workspace, visiting_order(poses.tests[0, :POSES])
     has_cells = isinstance(learner, HierarchicalLearner)
-    cells = CellWatch(learner, workspace, desired) if has_cells else None
+    cells = CellWatch(learner, workspace, poses.desired[0]) if has_cells else None
     commands = []
 
     def look(iteration: int, *_: float) -> None:
@@ -75,20 +75,20 @@ def watch(
         if cells:
             cells.look(iteration)
 
-    history = train(plant, learner, desired[None], tests[None], measure_at, look)
-    poses, home = workspace.to_poses(shown), controller.robot.home
+    history = train_for_results(plant, learner, poses, measure_at, progress=look)
+    goals, home = workspace.to_poses(shown), controller.robot.home
     targets = controller.targets(np.concatenate(commands)[None])
     angles = np.where(targets.executed[..., None], targets.angles, home)  # at home where refused
-    achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *poses.shape)
+    achieved = plant.achieve_targets(targets)[0].reshape(len(commands), *goals.shape)
     repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
     measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
     return Watched(
         history=history,
-        desired=poses,
+        desired=goals,
         achieved=achieved,
         angles=angles.reshape(len(commands), len(shown), -1),
-        misses=position_error(achieved, poses),
-        tilts=orientation_error(achieved, np.broadcast_to(poses, achieved.shape)),
+        misses=position_error(achieved, goals),
+        tilts=orientation_error(achieved, np.broadcast_to(goals, achieved.shape)),
         scatter=(measured - achieved[-1][:, None])[..., :3, 3],
         cells=cells and cells.seen(),
     )

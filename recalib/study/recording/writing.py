@@ -11,6 +11,7 @@ from recalib.storage import whole
 from recalib.study import jobs
 from recalib.study.configuration.damages import damages_among, disturbances_among
 from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream
 from recalib.study.plants import Resolved
 from recalib.study.recording import about, arms, colours, corrections, errors, scatter, scene, story
 from recalib.study.recording.blueprint import arrange
@@ -42,10 +43,11 @@ def write_recording(
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
         measure_at = _measured_at(job, name)
-        desired = campaign.desired_poses(job.seed, job.scenario, [seed], measure_at[-1])[0]
-        tests = campaign.test_poses(job.seed, job.scenario, [seed], job.measuring.tests)[0]
+        poses = Stream.SCENARIO.draw(
+            job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
+        )
         plant = resolved.plant(controller, job.seed, [seed])
-        watched[name] = story.watch(controller, plant, learner, desired, tests, measure_at)
+        watched[name] = story.watch(controller, plant, learner, poses, measure_at)
         if name in measured:
             check_errors(path, name, watched[name].history.columns(), measured[name])
 

@@ -44,7 +44,7 @@ NAMED = "robots", "scenarios", "home"  # mappings whose keys are names
 REFUSAL = re.compile(
     r"(the command line|config\.yaml:\d+:\d+): [a-z]\S*"
     r"(: (unknown|no valid) \w+; .+|: a name with another meaning; valid: a new one"
-    r"| (is|has|lacks|moves) .+; (valid: .+|did you mean [\w.]+\?)"
+    r"| (is|has|lacks|moves) .+; ((valid|expected): .+|did you mean [\w.]+\?)"
     r"|: .+ again; valid: once| is missing: .+| does not fit: .+)",
     re.DOTALL,
 )

@@ -1,4 +1,4 @@
-"""A mistake in a study of one's own is told in one sentence, of the file that one wrote.
+"""A mistake in a study of one's own is told in a sentence, of the file that one wrote.
 
 The sentences are those of the function that the workflow calls before anything else.
 """
@@ -9,6 +9,7 @@ import yaml
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.studies import read_studies
 from tests.conftest import ROOT
+from tests.study.configuration.test_config import says
 
 TABLE = yaml.safe_load((ROOT / "tests" / "mistakes_of_studies.yaml").read_text(encoding="utf-8"))
 HOME = ["0 deg", "-45 deg", "0 deg", "-120 deg", "0 deg", "75 deg", "45 deg"]
@@ -33,10 +34,12 @@ def test_there_are_sixty_and_more_and_each_says_what_for():
 
 
 @pytest.mark.parametrize("row", TABLE, ids=[row["why"] for row in TABLE])
-def test_a_mistake_is_told_in_one_sentence(row, tmp_path, monkeypatch):
+def test_a_mistake_is_told_of_the_file_that_one_wrote(row, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "workflow").symlink_to(ROOT / "workflow")  # with the URDF of a robot
-    (said,) = mistakes_of(row, tmp_path)
-    source, _, sentence = said.partition(":")
-    assert (source, sentence.strip()) == (row.get("file", "mine.yaml"), row["says"])
-    assert "config.yaml" not in said
+    sentences = []
+    for line in mistakes_of(row, tmp_path):
+        source, _, sentence = line.partition(":")
+        assert source == row.get("file", "mine.yaml") and "config.yaml" not in sentence
+        sentences.append(sentence.strip())
+    assert sentences == says(row)

@@ -2,12 +2,15 @@
 
 import json
 import math
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study.evidence.claims import CLAIMS, judging, missing
+from recalib.errors import UnknownName
+from recalib.study.evidence.claims import CLAIMS, figure_1, judging, maps, missing
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.needs import Needs
@@ -68,6 +71,7 @@ def test_what_is_measured_is_what_was_made_up(judged):
         "identity": {
             "largest position error [cm]": 1e-9,
             "largest orientation error [degrees]": 1e-9,
+            "improved system": 1e-9,
         },
         "grid": {
             "grid / after Kohonen's rule": 0.5 / 0.55,
@@ -410,3 +414,16 @@ def test_adding_a_claim_touches_its_file_and_the_list_alone(supporting):
     assert judged["statement"] == "There are 200." and judged["criterion"] == "At most 1000."
     assert (judged["verdict"], judged["published"]) == ("supported", "no number")
     assert judged["universes"] == {"status": "cannot vary"} and judged["measured"] == {"n": 200}
+
+
+@pytest.mark.parametrize("claim", [figure_1.CLAIM, maps.SEPARATE], ids=lambda claim: claim.id)
+def test_a_system_that_nobody_measures_is_named(claim):
+    """A mistyped label had no reference, and the setups were judged without one."""
+    finding = Finding({name: Estimate(0.5, 0.4, 0.6) for name in claim.across})
+    first, *others = claim.across
+    across = {f"{first}s": claim.across[first]} | {name: claim.across[name] for name in others}
+    mistyped = replace(claim, across=across, measure=lambda *_: finding)
+    evidence = SimpleNamespace(setups=lambda table: None, facts={"iterations": 200})
+    with pytest.raises(UnknownName, match=f"{claim.id} .*{first}s.*did you mean {first}"):
+        mistyped.judge(evidence)
+    assert replace(mistyped, across=claim.across).judge(evidence)["verdict"]

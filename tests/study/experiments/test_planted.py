@@ -14,11 +14,10 @@ from recalib.learners.cells import Cells
 from recalib.learners.nets import Nets
 from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
-from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan import Plan
 from recalib.study.trainings import rules, training
-from recalib.training import train
 from tests.conftest import ROOT
 
 
@@ -36,14 +35,19 @@ def final_errors(study, controller, learner="improved"):
     seeds = np.arange(plan.seeds(learner))  # those of the bands
     searches = 1 + seeds // study.training.seeds
     sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
-    history = train(
+    history = train_for_results(
         Plant(
             controller,
             [apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages))],
         ),
         build_tuned(settings, sample, searches),
-        campaign.desired_poses(study.seed, "links_encoders", seeds, settings.iterations),
-        campaign.test_poses(study.seed, "links_encoders", seeds, study.training.tests),
+        Stream.SCENARIO.draw(
+            study.seed,
+            seeds,
+            settings.iterations,
+            study.training.tests,
+            scenario="links_encoders",
+        ),
         [settings.iterations],
     )
     summary = pd.DataFrame(

@@ -6,7 +6,7 @@ from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
 from recalib.randomness import generator
 from recalib.study import jobs
-from recalib.study.experiments import campaign
+from recalib.study.experiments.poses import Stream
 from recalib.study.plants import resolve
 from recalib.study.trainings import scenario_of
 
@@ -20,27 +20,29 @@ def test_a_scenario_may_name_its_robot(study):
         scenario_of(study, "links-ur7")
 
 
+def drawn(runs, iterations, scenario="links", **how):
+    return Stream.SCENARIO.draw(1, runs, iterations, 20, scenario=scenario, **how)
+
+
 def test_compared_learners_see_the_same_poses_and_never_the_tests():
-    short, long = (
-        campaign.desired_poses(1, "links", range(3), 20),
-        campaign.desired_poses(1, "links", range(1, 3), 200),
-    )
-    assert np.array_equal(short[1:], long[:, :20])
-    tests = campaign.test_poses(1, "links", range(3), 20)
-    assert not np.isclose(tests, short).any()
-    assert not np.isclose(short, campaign.desired_poses(1, "encoders", range(3), 20)).any()
-    assert not np.isclose(short[0], short[1]).any()
+    short, long = drawn(range(3), 20), drawn(range(1, 3), 200)
+    assert np.array_equal(short.desired[1:], long.desired[:, :20])
+    assert np.array_equal(short.tests[1:], long.tests)
+    assert not np.isclose(short.tests, short.desired).any()
+    others = drawn(range(3), 20, scenario="encoders")
+    assert not np.isclose(short.desired, others.desired).any()
+    assert not np.isclose(short.desired[0], short.desired[1]).any()
 
 
 def test_poses_are_independent_by_default_or_spread_evenly():
     same = generator(1, "links", 2, "desired").uniform(-1, 1, (20, 6))
-    assert np.array_equal(campaign.desired_poses(1, "links", [2], 20)[0], same)
-    short, long = (campaign.desired_poses(1, "links", [2, 3], n, "even") for n in (20, 200))
+    assert np.array_equal(drawn([2], 20).desired[0], same)
+    short, long = (drawn([2, 3], n, order="even").desired for n in (20, 200))
     assert np.array_equal(short, long[:, :20])
     assert (
         not np.isclose(long[0], long[1]).any() and -1 < long.min() < -0.98 < 0.98 < long.max() < 1
     )
-    random = campaign.desired_poses(1, "links", [2, 3], 200)
+    random = drawn([2, 3], 200).desired
     for one, other in zip(long, random, strict=True):
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
 

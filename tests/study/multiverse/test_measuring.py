@@ -8,11 +8,11 @@ import pytest
 
 from recalib.learners.radial import RadialLearner
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.experiments import search, trials
+from recalib.study.experiments import poses, search
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.layout import DESIGN
-from recalib.study.multiverse import horizon, measuring, world
+from recalib.study.multiverse import horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
@@ -58,8 +58,7 @@ def untrained(monkeypatch) -> list:
         errors = np.ones((len(desired), len(grid), 2))
         return SimpleNamespace(position=errors, orientation=errors)
 
-    for module in (world, trials):
-        monkeypatch.setattr(module, "train", train)
+    monkeypatch.setattr(poses, "train", train)
     return asked
 
 
@@ -95,14 +94,14 @@ def test_every_search_of_a_replicate_has_the_effort_of_its_setup_and_luck_of_its
     names = [name for name, _ in searches]
     assert {*each.learners} <= {*names}
     # one map and two, three times; Ritter's once more; the improved system with a wide g_k
-    assert len(searches) - len({its.scope for _, its in searches}) == 3 + 1 + 1
+    assert len(searches) - len({its.poses.name for _, its in searches}) == 3 + 1 + 1
 
 
 def test_radial_units_are_sought_for_increments_and_for_values(replicate, each):
     _, searches = replicate
     radial = [(name, its) for name, its in searches if its.learner is RadialLearner]
     assert [name for name, _ in radial] == ["improved", "improved_theta_values"]
-    assert len({its.scope for _, its in radial}) == 2
+    assert len({its.poses.name for _, its in radial}) == 2
     ours, theirs = (its.rules for _, its in radial)
     assert ours.theta_increments and not theirs.theta_increments
 
@@ -124,16 +123,16 @@ def test_replicates_share_neither_poses_nor_trials_and_what_is_compared_shares_p
         for name in ("improved", "ritter"):
             its.train(name, ITERATIONS, trial(rules_in(each, name)))
         searching, ours, theirs = untrained[-3:]
-        for poses in ("desired", "tests"):
-            assert np.array_equal(getattr(ours, poses), getattr(theirs, poses))
-            seen = getattr(searching, poses), getattr(ours, poses)
+        for use in ("desired", "tests"):
+            assert np.array_equal(getattr(ours, use), getattr(theirs, use))
+            seen = getattr(searching, use), getattr(ours, use)
             found += [np.unique(each.reshape(-1, each.shape[-1]), axis=0) for each in seen]
         found.append(drawn[["initial_width"]].to_numpy())
     first, second = found[:5], found[5:]
     for one, other in zip(first, second, strict=True):
         assert not {*map(tuple, one)} & {*map(tuple, other)}
-    for poses in (first, second):  # nor does a search know what its winner is trained on
-        assert not {*map(tuple, poses[0])} & {*map(tuple, poses[1])}
+    for its in (first, second):  # nor does a search know what its winner is trained on
+        assert not {*map(tuple, its[0])} & {*map(tuple, its[1])}
 
 
 def test_the_search_for_two_maps_has_the_poses_and_the_trials_of_that_for_one(each, untrained):
@@ -160,7 +159,7 @@ def test_two_maps_of_equal_widths_are_one_map_bit_for_bit(each):
             one, two = measuring.one_and_two_maps(its, *pair, ITERATIONS)
         assert np.array_equal(one, two) and one.shape == (each.seeds, 2)
         (alone, _), (both, start) = seen[-2:]
-        assert alone.scope == both.scope
+        assert alone.poses.name == both.poses.name
         for kind in ("position", "orientation"):
             for net in search.NETS:
                 assert (start[f"{kind}/{net}"] == start[f"pose/{net}"]).all()

@@ -26,6 +26,7 @@ from recalib.nominal.poses import position_error
 from recalib.study import jobs
 from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign, search
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import write_sample
 from recalib.study.measured import ERRORS, errors_of
 from recalib.study.plants import resolve
@@ -38,7 +39,6 @@ from recalib.study.recording.seal import SEAL, BrokenRecording, check_recording,
 from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import write_recording
 from recalib.study.statistics import typical
-from recalib.training import train
 from tests.conftest import changed
 
 SEED, ITERATIONS, TESTS = 7, 40, 30
@@ -103,11 +103,7 @@ def resolved(plan):
 
 
 def poses(runs=1, tests=TESTS):
-    seeds = range(runs)
-    return (
-        campaign.desired_poses(SEED, "links_encoders", seeds, ITERATIONS),
-        campaign.test_poses(SEED, "links_encoders", seeds, tests),
-    )
+    return Stream.SCENARIO.draw(SEED, range(runs), ITERATIONS, tests, scenario="links_encoders")
 
 
 def experiment(job, resolved, runs=2):
@@ -115,8 +111,8 @@ def experiment(job, resolved, runs=2):
     controller, measured = resolved.controller(), {}
     for name in job.learners:
         plant = resolved.plant(controller, SEED, range(runs))
-        desired, tests = poses(runs, job.measuring.tests)
-        history = train(plant, learner(name, runs), desired, tests, MEASURE_AT)
+        its = poses(runs, job.measuring.tests)
+        history = train_for_results(plant, learner(name, runs), its, MEASURE_AT)
         frame = pd.DataFrame(history.columns())
         measured[name] = frame[frame["run"] == 0]
     return measured
@@ -189,13 +185,13 @@ def test_recorded_errors_are_those_of_the_experiment(columns, results):
 
 
 def test_landings_are_where_the_damaged_arm_lands(resolved, controller, columns):
-    desired, tests = poses()
-    shown = story.visiting_order(tests[0, :POSES])
+    its = poses()
+    shown = story.visiting_order(its.tests[0, :POSES])
     plant = resolved(DAMAGES).plant(controller, SEED, [0])
     goals = controller.robot.workspace.to_poses(shown)
     untrained, _ = plant.achieve(shown[None])
     improved = learner("improved")
-    train(plant, improved, desired, tests, MEASURE_AT)
+    train_for_results(plant, improved, its, MEASURE_AT)
     trained, _ = plant.achieve(improved.command(shown[None]))
 
     moves, axes = columns("/improved/achieved", "LineStrips3D:strips", "moves")
@@ -317,7 +313,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
     assert (
         np.mean(arrows[-1], axis=0) @ misses < -0.5 * misses @ misses
     )  # they make up for the misses
-    last = controller.robot.workspace.to_poses(poses()[0][0, -1])[:3, 3]
+    last = controller.robot.workspace.to_poses(poses().desired[0, -1])[:3, 3]
     winner = np.linalg.norm(training.cells.centres - last, axis=-1).argmin()
     weights = training.cells.weights
     assert weights[-1].argmax() == winner and weights[-1, winner] == 1

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from recalib.errors import UnknownName
 from recalib.study.evidence.claims.across import (
     CANNOT_VARY,
     NOT_MEASURED,
@@ -56,7 +57,7 @@ class Finding:
         """As the contract of claims.json has it.
 
         A bound is the end of what could be measured, and `bounds` says which numbers are bounds. An
-        interval that is not known, as that of a single search, is left out.
+        interval that is not known, as that of a single search or of an extreme, is left out.
         """
         measured, interval, bounds = {}, {}, {}
         for label, estimate in self.estimates.items():
@@ -64,7 +65,7 @@ class Finding:
             within = [
                 least if np.isnan(each) or each < least else min(each, most) for each in estimate
             ]
-            known = label in self.ends or not np.isnan(estimate[1:]).any()
+            known = label in self.ends or estimate.low < estimate.high
             measured[label] = within[0]
             if known:
                 interval[label] = [rounded(each) for each in within[1:]]
@@ -132,7 +133,10 @@ class Claim:
             request.setups(table)
 
     def judge(self, evidence: Evidence) -> dict:
-        """What was measured and the verdict, as the contract of claims.json has them."""
+        """What was measured and the verdict, as the contract of claims.json has them.
+
+        Raises UnknownName: a system of `across` that the study does not measure.
+        """
         finding = self.measure(evidence, self.limits) if self.measure else self._from(evidence)
         setups = self.setups(evidence)
         systems = {
@@ -176,6 +180,8 @@ class Claim:
 
     def _verdict(self, system: str, finding: Finding, setups: Mapping[str, Setups]) -> Verdict:
         """Of a system: by the setups, or by the study itself where they are not measured."""
+        if finding.verdict is None and system not in finding.estimates:
+            raise UnknownName(f"system of the claim {self.id}", system, finding.estimates)
         estimate = finding.estimates.get(system, Estimate(np.nan, np.nan, np.nan))
         if system in setups:
             return setups[system].verdict(estimate)

@@ -32,8 +32,8 @@ CLAIM = Claim(
     section="6",
     quotation="The second equality results from assuming Gaussian neighborhoods and a uniform p(w),"
     " and it is valid for w_r's not too close to the border",
-    statement="A formula, (10), says how much a cell learns in an iteration.",
-    short="off by {number} at most",
+    statement="A formula predicts how much a cell learns in an iteration.",
+    short="within {percent} of Monte Carlo",
     published="equation (10)",
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
     criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"

@@ -1,0 +1,35 @@
+"""Arms of example-robot-data that config.yaml does not know, from their URDF to what came out."""
+
+import pandas as pd
+import pytest
+import yaml
+
+from tests.conftest import copy_project
+from tests.study.configuration.test_own_robots import ARMS, entry_of
+from tests.workflow.conftest import snakemake
+
+LESS = {
+    "experiments": {"scenarios": ["links_encoders"], "switches": False},
+    "training": {"seeds": 2, "tests": 20},
+    "search": {"searches": 2},
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
+def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
+    """One of six joints and one of seven, with the paper's damage."""
+    project, row = copy_project(tmp_path), next(row for row in ARMS if row["urdf"] == urdf)
+    mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}} | LESS
+    (project / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
+    finished = snakemake(project, "--configfile", "mine.yaml", small=False)
+    assert finished.returncode == 0, finished.stdout
+    results = project / "results" / "studies" / "mine"
+    table = pd.read_csv(results / "summary.csv").set_index("learner")
+    assert {*table.index} == {"improved", "ritter_200"} and {*table["robot"]} == {"mine"}
+    improved = table.loc["improved"]
+    for error in ("position_error_cm", "orientation_error_deg"):
+        assert improved[f"final_{error}"] < 0.2 * improved[f"initial_{error}"]
+    assert (results / "recordings" / "links_encoders.rrd").stat().st_size > 1e5
+    for made in ("claims.json", "figures/figure1.svg", "report/front.rst"):
+        assert (results / made).exists()
