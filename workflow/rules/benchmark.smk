@@ -19,7 +19,10 @@ rule benchmark_run:
     output:
         "{root}/chunks/benchmark/{learner}.{batch}.parquet",
     params:
-        **calls("recalib.study.experiments.benchmark.compete", reads=lambda w: [sample_of_competitor(w)]),
+        **calls(
+            "recalib.study.experiments.benchmark.compete",
+            reads=lambda w: [sample_of_competitor(w)],
+        ),
         arguments=lambda w: as_text(
             name=w.learner,
             rules=rules_unless_peer(study(w), w.learner),
