@@ -1,17 +1,13 @@
 """Train every learner on its scenarios: at once, or in chunks of seeds where there are many."""
 
 
-def training_chunks(root, learner):
-    its = STUDIES[root]
-    return chunks(seeds(its, learner), its.training.seeds_per_job)
+def in_chunks(study):
+    """Whether a training may have more seeds than a job trains."""
+    most = study.training.seeds * max(study.search.searches, study.search.searches_long)
+    return most > study.training.seeds_per_job
 
 
-def in_chunks(root):
-    """Whether a study has a training with more seeds than a job trains."""
-    return any(len(training_chunks(root, learner)) > 1 for _, learner in TRAININGS[root].runs)
-
-
-IN_CHUNKS = [root for root in STUDIES if in_chunks(root)]
+IN_CHUNKS = [root for root in STUDIES if in_chunks(STUDIES[root])]
 AT_ONCE = [root for root in STUDIES if root not in IN_CHUNKS]
 NOWHERE = "(?!)"
 
@@ -66,16 +62,21 @@ def is_shown(study, scenario, learner):
     return scenario_of(study, scenario)[1] == study.robot and learner in shown
 
 
+def training_chunks(wildcards):
+    its = study(wildcards)
+    return chunks(seeds(its, wildcards.learner), its.training.seeds_per_job)
+
+
 rule run:
     input:
         histories=lambda w: expand(
             "{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
-            chunk=training_chunks(w.root, w.learner),
+            chunk=training_chunks(w),
             **w,
         ),
         parts=lambda w: expand(
             "{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
-            chunk=training_chunks(w.root, w.learner),
+            chunk=training_chunks(w),
             **w,
         ),
     output:

@@ -56,10 +56,8 @@ def title(page):
 
 def page_in_report(root, page, category):
     """A page as an output."""
-    path = f"{root}/report/{page}.html"
-    return report(
-        path, caption="../report/page.rst", category=category, labels={"page": title(page)}
-    )
+    path, labels = f"{root}/report/{page}.html", {"page": title(page)}
+    return report(path, caption="../report/page.rst", category=category, labels=labels)
 
 
 def report_of(root):

@@ -1,4 +1,4 @@
-"""The rough searches for widths and rates: no part of a run that finds its samples in workflow/search."""
+"""The rough searches for widths and rates: no part of a run with samples in workflow/search."""
 
 from functools import cache
 

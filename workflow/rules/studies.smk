@@ -44,9 +44,7 @@ onsuccess:
 def everything(root):
     """All results of a study, and what is made of them."""
     wanted = [f"{root}/{name}" for name in ("summary.csv", "claims.json", "outcome.txt")]
-    wanted += [
-        f"{root}/runs/{scenario}/{learner}.npz" for scenario, learner in TRAININGS[root].runs
-    ]
+    wanted += [f"{root}/runs/{on}/{learner}.npz" for on, learner in TRAININGS[root].runs]
     if STUDIES[root].expected:
         wanted.append(f"{root}/check.txt")
     if STUDIES[root].experiments.evidence:

@@ -95,18 +95,13 @@ class Published(Part):
     """In degrees."""
 
 
-class Amounts(Part):
-    """By how much the paper's robot was damaged (section 7)."""
+class PaperDamage(Part):
+    """The damage of section 7, whose links, encoders and signs are not published."""
 
     shorten: Annotated[tuple[Size, ...], Filled]
     """Lengths taken off as many links."""
     shift: Annotated[tuple[Annotated[Turn, Field(gt=0)], ...], Filled]
     """Angles by which as many encoders are shifted, in either direction."""
-
-
-class PaperDamage(Amounts):
-    """The damage of section 7, whose links, encoders and signs are not published."""
-
     published: Published
     """Initial errors in the paper."""
     poses: Times
