@@ -37,7 +37,7 @@ CHOSEN = (
     "figures/*",
     "mapping/*",
     "ensemble/*",
-    "runs/**/*",
+    "runs/*/*.parquet",
     "scenarios/*",
     "recordings/*.rrd",
 )

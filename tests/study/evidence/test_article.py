@@ -87,7 +87,7 @@ def test_another_verdict_changes_abstract_text_and_table(known, claim):
     by = {verdict: [its for its in changed if its["verdict"] == verdict] for verdict in known["by"]}
     of = {its["id"]: its for its in changed}
     after = render(TEMPLATE, known | {"claims": changed, "by": by, "of": of})
-    statement = of[claim]["statement"]
+    statement = of[claim]["statement"].rstrip(".")
     assert statement in abstract(after) and statement not in abstract(before)
     assert after.count("*Contradicted*") == 1 and "*Contradicted*" not in before
     assert len(re.findall(r"^\*[A-Z]", after, re.MULTILINE)) < len(
