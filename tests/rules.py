@@ -15,6 +15,12 @@ from tests.conftest import ROOT
 from workflow.scripts.call import checked
 
 
+def function_of(rule):
+    """The function that a rule calls."""
+    module, _, name = rule.params.function.rpartition(".")
+    return getattr(import_module(module), name)
+
+
 class Rules:
     """The rules, as the Snakefile in a folder has them."""
 
@@ -41,15 +47,16 @@ class Rules:
         """The arguments of a job, as Snakemake tracks them."""
         self.become({"results": study})
         wildcards = Wildcards(fromdict={"root": "results"} | wildcards)
-        return self.workflow.get_rule(rule).params.arguments(wildcards)
+        its = self.workflow.get_rule(rule).params
+        return its.arguments(wildcards) if "arguments" in its.keys() else "{}"  # noqa: SIM118
 
     def arguments(self, study, rule: str, **wildcards: object) -> dict:
         """The arguments of a job, as its function gets them: without the paths of files."""
         given = json.loads(self.text(study, rule, **wildcards))
-        module, _, name = self.workflow.get_rule(rule).params.function.rpartition(".")
-        function = getattr(import_module(module), name)
+        function = function_of(self.workflow.get_rule(rule))
         parameters = inspect.signature(function).parameters
-        missing = {name for name, its in parameters.items() if name not in given}
+        asked = {name for name, its in parameters.items() if its.default is its.empty}
+        missing = asked - {*given}
         lists = {name for name in missing if "list" in str(parameters[name].annotation)}
         paths = {name: [] if name in lists else "" for name in missing}
         typed = checked(function, paths | given)
