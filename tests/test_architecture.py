@@ -22,7 +22,6 @@ FOR_STUDIES_ALONE = {
     "pyarrow",
     "pydantic",
     "rerun",
-    "sklearn",
     "snakemake",
     "tqdm",
     "yaml",
