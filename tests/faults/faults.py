@@ -273,7 +273,7 @@ def clock(yard: Yard) -> str:
     if not shutil.which("faketime"):
         raise NotTried("faketime is not installed")
     project = yard.bare()
-    project.run("--until", "train").well()
+    project.run("--until", "train_chunk").well()
     project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")
     project.run().well()
     yard.finished(project)
