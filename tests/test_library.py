@@ -76,9 +76,9 @@ def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examp
         text=True,
         capture_output=True,
     )
-    faults = [line.split(":")[:2] for line in ran.stdout.splitlines() if ": error:" in line]
-    misuse = str(tmp_path / "misuse.py")
-    assert faults == [[misuse, "8"], [misuse, "8"], [misuse, "9"]], ran.stdout
+    # not the whole path: of the same text, mypy's cache still knows the one of the last run
+    faults = re.findall(r"(\w+)\.py:(\d+): error:", ran.stdout)
+    assert faults == [("misuse", "8"), ("misuse", "8"), ("misuse", "9")], ran.stdout
     assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
 
 
