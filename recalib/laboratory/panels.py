@@ -27,7 +27,8 @@ class Axis:
 
     def __init__(self, label: str, numbers: ArrayLike, least: float | None = None):
         self.label, self._least = label, least
-        low, high = self.places(np.array([np.min(numbers), np.max(numbers)]))
+        values = np.asarray(numbers, dtype=float)
+        low, high = self.places(np.array([values.min(), values.max()]))
         margin = MARGIN * (high - low) or 0.5
         self.ends = low - margin, high + margin
 
