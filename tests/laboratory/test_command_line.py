@@ -165,8 +165,9 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
     assert "could not be told" not in capsys.readouterr().err
-    other = folder / "seen_in_the_base.csv"
-    main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={other}"])
+    write(folder / "base.csv", {"x [m]": [0.6], "y [m]": [0.0], "z [m]": [0.4]})
+    other = folder / "base_commands.csv"
+    main(["correct", str(calibrated), str(folder / "base.csv"), f"--out={other}"])
     told = capsys.readouterr().err
     assert "warning: the arm's base and the tool link could not be told from errors" in told
 
