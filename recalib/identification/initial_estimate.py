@@ -64,8 +64,8 @@ def initial_frames(
     tool = arm.forward(observations.joints)
     if observations.measured is not None and base is None and _is_open(tool, observations, target):
         raise NoInitialEstimate(
-            "the targets were seen along a line, which leaves open how the instrument is turned"
-            " about it; valid: positions that span an area"
+            "the targets lie along a line, so the instrument's rotation about this line is not"
+            " identifiable; try: positions that span an area"
             + ", or postures that turn the tool about several axes"
             * (observations.kinds == 2)
         )
@@ -80,7 +80,7 @@ def initial_frames(
     error = median_error(best, tool, observations)
     if not error <= FARTHEST:
         raise NoInitialEstimate(
-            "no place of instrument and target explains what was seen: the best leaves"
+            "no place of instrument and target explains the measurements: the best leaves"
             f" {1e3 * error:.0f} mm; valid: up to {1e3 * FARTHEST:.0f} mm, from an arm as its"
             " description has it, with the same joints, signs, zeros and units"
         )

@@ -17,5 +17,5 @@ class HybridLearner(GeometricLearner):
     def _calibrate(
         self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
     ) -> Calibration:
-        arm, seen = self._controller.robot.arm, Observations(angles, measured)
-        return calibrate(arm, (OFFSETS, JOINT_ERRORS), seen, last=last)
+        arm, observations = self._controller.robot.arm, Observations(angles, measured)
+        return calibrate(arm, (OFFSETS, JOINT_ERRORS), observations, last=last)

@@ -57,8 +57,8 @@ class PolynomialLearner(Observer):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
             gain = reach / (1 + reach @ features.swapaxes(1, 2)) * executed[:, [move], None]
-            missed = (commands - achieved)[:, [move]] - features @ self._coefficients
-            self._coefficients += gain.swapaxes(1, 2) @ missed
+            residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
+            self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 
     @classmethod

@@ -159,11 +159,11 @@ class Controller:
         return solution.angles
 
     def _check_reach(self, poses: np.ndarray, residuals: np.ndarray) -> None:
-        missed, worst = np.sum(residuals > TOLERANCE), residuals.argmax()
-        if missed:
+        beyond, worst = np.sum(residuals > TOLERANCE), residuals.argmax()
+        if beyond:
             example = Unreachable(poses[worst], residuals[worst], NOT_REACHED)
             raise UnfitWorkspace(
-                f"the {self.robot.name} cannot reach {missed} of the {len(poses)} poses on a grid"
+                f"the {self.robot.name} cannot reach {beyond} of the {len(poses)} poses on a grid"
                 f" over its workspace. {example}. Make its workspace smaller or move its home"
             )
 

@@ -130,7 +130,7 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
         (lambda observations: observations[np.zeros(20, dtype=int)], "along a line"),
         (
             lambda observations: Observations(observations.joints[::-1], observations.measured),
-            "explains what was seen",
+            "explains the measurements",
         ),
     ],
     ids=["too few", "one posture", "rows mixed up"],

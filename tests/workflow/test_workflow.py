@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from recalib.loading import load
-from recalib.study.entrants import make_peer
+from recalib.study.competitors import make_peer
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plants import Resolved
 from tests.conftest import ROOT, copy_project

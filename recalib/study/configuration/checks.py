@@ -9,11 +9,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from recalib.damaged.damage import BaseShift
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.errors import UnknownName
+from recalib.study.competitors import MOVES, PEERS
 from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
-from recalib.study.entrants import MOVES, PEERS
 from recalib.study.trainings import training
 
 

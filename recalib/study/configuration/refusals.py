@@ -71,9 +71,9 @@ def _unknown(
     *_, key = location
     path, its = schema.find(location[:-1])
     lacking = [each[-1] for each in absent if each[:-1] == path]
-    near = nearest(key, lacking)
-    fault = f"did you mean {near}?" if near else instead(key, schema.keys(its))
-    return Mistake((*path, key), f": unknown key; {fault}"), (*path, near) if near else None
+    meant = nearest(key, lacking)
+    fault = f"did you mean {meant}?" if meant else instead(key, schema.keys(its))
+    return Mistake((*path, key), f": unknown key; {fault}"), (*path, meant) if meant else None
 
 
 def _refusal(schema: Schema, error: Mapping, whole: Any) -> Mistake:

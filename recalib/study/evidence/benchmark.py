@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.randomness import generator
-from recalib.study.entrants import needs_of
+from recalib.study.competitors import needs_of
 from recalib.study.measured import ERRORS
 from recalib.study.statistics import bootstrap
 
@@ -29,8 +29,8 @@ def put_together(
 
 def _entrants(history: pd.DataFrame, scenarios: Names, learners: Names):
     groups = history.groupby(["scenario", "learner"])
-    for entrant in product(scenarios, learners):
-        yield *entrant, groups.get_group(entrant)
+    for competitor in product(scenarios, learners):
+        yield *competitor, groups.get_group(competitor)
 
 
 def errors(history: pd.DataFrame, scenarios: Names, learners: Names, seed: int) -> pd.DataFrame:

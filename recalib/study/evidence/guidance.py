@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.study.entrants import PEERS, label_of
+from recalib.study.competitors import PEERS, label_of
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.measured import ERRORS

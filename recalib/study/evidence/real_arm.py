@@ -1,6 +1,6 @@
 """What the page of the real arm says."""
 
-from recalib.study.entrants import label_of
+from recalib.study.competitors import label_of
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.real import ERROR
 from recalib.study.evidence.results import Evidence

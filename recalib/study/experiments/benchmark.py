@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib import interfaces
+from recalib.study.competitors import MOVES, make_peer
 from recalib.study.configuration.study import Learner
-from recalib.study.entrants import MOVES, make_peer
 from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plants import Resolved, fleet

@@ -22,8 +22,8 @@ from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.randomness import generator
+from recalib.study.competitors import MOVES
 from recalib.study.configuration.study import Learner
-from recalib.study.entrants import MOVES
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from itertools import cycle
 from typing import Any
 
-from recalib.study.entrants import ENTRANTS, label_of
+from recalib.study.competitors import COMPETITORS, label_of
 from recalib.study.measured import ERRORS, KINDS, UNITS
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
@@ -60,7 +60,7 @@ NEUTRAL = "black"
 BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 STYLES = {
     name: Style(its.color, its.marker, DASHED if name == "ritter" else SOLID, its.label)
-    for name, its in ENTRANTS.items()
+    for name, its in COMPETITORS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.

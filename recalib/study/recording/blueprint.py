@@ -6,7 +6,7 @@ import numpy as np
 import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
-from recalib.study.entrants import label_of
+from recalib.study.competitors import label_of
 from recalib.study.recording.errors import PUBLISHED
 from recalib.study.recording.phases import ARM
 from recalib.study.recording.watched import Watched

@@ -5,8 +5,8 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from recalib.study.competitors import label_of
 from recalib.study.configuration.damages import Entry, damages_among, describe
-from recalib.study.entrants import label_of
 from recalib.study.measured import ERRORS
 from recalib.study.plants import Resolved
 from recalib.study.recording.landings import enlarged

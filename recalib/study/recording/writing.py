@@ -14,8 +14,8 @@ from rerun.error_utils import RerunWarning
 from recalib.errors import RecalibError
 from recalib.interfaces import Learner
 from recalib.storage import whole
+from recalib.study.competitors import make_peer
 from recalib.study.configuration.damages import damages_among, disturbances_among
-from recalib.study.entrants import make_peer
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned

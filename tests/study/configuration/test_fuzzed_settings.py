@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 
 from recalib.study.chunks import bounds, chunks, searches_per_job
+from recalib.study.competitors import MOVES, PEERS
 from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.robot_checks import check_robots
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import from_file
-from recalib.study.entrants import MOVES, PEERS
 from recalib.study.evidence.claims import judging
 from recalib.study.evidence.needs import Request
 from recalib.study.experiments.search import draw

@@ -210,6 +210,13 @@ def test_the_system_for_which_the_paper_makes_a_claim_decides(few, tmp_path):
     assert judged["verdict"] == "supported"
 
 
+def test_the_intact_robot_is_judged_by_the_setups_too(few, tmp_path):
+    made_up = MadeUp(tmp_path, few)
+    made_up.campaign(outcomes=made_up.outcomes({"intact": 0.01}))
+    with few_resamples():
+        assert made_up.verdict("identity") == "undecided", "the reference study says the opposite"
+
+
 OF_SETUPS = [claim for claim in CLAIMS if claim.measure is None]
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from recalib.errors import UnknownName
 from recalib.interfaces import Outcome
-from recalib.study.entrants import PEERS, make_peer
+from recalib.study.competitors import PEERS, make_peer
 from recalib.study.evidence.benchmark import moves_to_reach
 from recalib.study.evidence.guidance import moves_text, where_worse
 from recalib.study.experiments.benchmark import Timed, measured_at

@@ -11,7 +11,7 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.nominal_checks import WrongNominal
-from recalib.study.entrants import PEERS
+from recalib.study.competitors import PEERS
 from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
 from recalib.study.experiments.tracker import read_of, read_whole_description
 from recalib.study.plants import nominal_robot

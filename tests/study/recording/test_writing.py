@@ -11,7 +11,7 @@ from recalib import meshes
 from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
-from recalib.study.entrants import make_peer
+from recalib.study.competitors import make_peer
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.measured import ERRORS, errors_of

@@ -20,7 +20,7 @@ POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
 TWO_MOVES = f"{POSES}, two moves for each"
 
 
-class Entrant(NamedTuple):
+class Competitor(NamedTuple):
     """A learner that is compared.
 
     Attributes:
@@ -76,31 +76,31 @@ def _hybrid(runs: int, controller: "Controller") -> "Learner":
     return HybridLearner(controller, runs=runs)
 
 
-ENTRANTS: Mapping[str, Entrant] = {
-    "improved": Entrant("improved", "#0072B2", "o"),
-    "ritter": Entrant("Ritter", "#D55E00", "P"),
-    "uncorrected": Entrant("uncorrected", "0.5", "", "nothing", _uncorrected),
-    "affine": Entrant("affine", "#CC79A7", "v", POSES, _affine),
-    "quadratic": Entrant("quadratic", "#E69F00", "^", POSES, _quadratic),
-    "gaussian_process": Entrant("Gaussian process", "#009E73", "D", POSES, _gaussian_process),
-    "geometric": Entrant("geometric", "#56B4E9", "s", KINEMATICS, _geometric),
-    "hybrid": Entrant("hybrid", "#000000", "*", KINEMATICS, _hybrid),
+COMPETITORS: Mapping[str, Competitor] = {
+    "improved": Competitor("improved", "#0072B2", "o"),
+    "ritter": Competitor("Ritter", "#D55E00", "P"),
+    "uncorrected": Competitor("uncorrected", "0.5", "", "nothing", _uncorrected),
+    "affine": Competitor("affine", "#CC79A7", "v", POSES, _affine),
+    "quadratic": Competitor("quadratic", "#E69F00", "^", POSES, _quadratic),
+    "gaussian_process": Competitor("Gaussian process", "#009E73", "D", POSES, _gaussian_process),
+    "geometric": Competitor("geometric", "#56B4E9", "s", KINEMATICS, _geometric),
+    "hybrid": Competitor("hybrid", "#000000", "*", KINEMATICS, _hybrid),
 }
-PEERS = [name for name, entrant in ENTRANTS.items() if entrant.make]  # today's learners
+PEERS = [name for name, competitor in COMPETITORS.items() if competitor.make]  # today's learners
 
 
 def make_peer(name: str, runs: int, controller: "Controller") -> "Learner":
     """The peer of this name, which has learned nothing yet. Raises UnknownName."""
     if name not in PEERS:
         raise UnknownName("peer", name, PEERS)
-    return ENTRANTS[name].make(runs, controller)
+    return COMPETITORS[name].make(runs, controller)
 
 
 def needs_of(name: str) -> str:
     """What a learner needs to know."""
-    return ENTRANTS[name].needs if name in ENTRANTS else TWO_MOVES
+    return COMPETITORS[name].needs if name in COMPETITORS else TWO_MOVES
 
 
 def label_of(name: str) -> str:
     """What a learner is called."""
-    return ENTRANTS[name].label if name in ENTRANTS else name.replace("_", " ")
+    return COMPETITORS[name].label if name in COMPETITORS else name.replace("_", " ")
