@@ -1,7 +1,7 @@
 # make: set up and replicate everything. make test: linters and most tests. make help: what else there is.
 PYTHON ?= python3
 CORES ?= 2
-COUNT ?= 100
+COUNT ?= 20
 PORT ?= 9090
 STUDY ?= replication
 RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
@@ -33,6 +33,8 @@ study: setup ## a study of workflow/studies or of your own: make study STUDY=my_
 setup: .venv/installed ## the environment, from the lock file
 
 .venv/installed: requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; (3, 11) <= sys.version_info < (3, 14) or sys.exit(f"$(PYTHON) is Python \
+	{sys.version.split()[0]}; expected: 3.11 to 3.13; try: make PYTHON=python3.12")'
 	$(PYTHON) -m venv .venv
 	$(PIP) --require-hashes -r requirements.lock
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .

@@ -23,7 +23,6 @@ from recalib.errors import UnfitWorkspace as UnfitWorkspace
 from recalib.errors import UnknownName as UnknownName
 from recalib.errors import Unreachable as Unreachable
 from recalib.errors import UnsuitableRobot as UnsuitableRobot
-from recalib.external import ExternalRobot as ExternalRobot
 from recalib.identification.calibration import Calibration as Calibration
 from recalib.identification.calibration import calibrate as calibrate
 from recalib.identification.design import information_gains as information_gains
@@ -33,27 +32,31 @@ from recalib.identification.error_model import OFFSETS as OFFSETS
 from recalib.identification.initial_estimate import initial_frames as initial_frames
 from recalib.identification.observations import Distance as Distance
 from recalib.identification.observations import Observations as Observations
-from recalib.interfaces import Commandable as Commandable
-from recalib.interfaces import ForwardKinematics as ForwardKinematics
-from recalib.interfaces import Learner as Learner
-from recalib.interfaces import Outcome as Outcome
-from recalib.interfaces import Savable as Savable
 from recalib.laboratory.calibrate import calibrate_arm as calibrate_arm
 from recalib.laboratory.correct import correct as correct
 from recalib.laboratory.measurements import Measurements as Measurements
 from recalib.laboratory.summary import verdict as verdict
-from recalib.learned import save as save
 from recalib.learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner as GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner as HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner as HybridLearner
+from recalib.learners.learned import save as save
+from recalib.learners.loading import load as load
 from recalib.learners.polynomial import PolynomialLearner as PolynomialLearner
 from recalib.learners.radial import RadialLearner as RadialLearner
 from recalib.learners.rules import IMPROVED as IMPROVED
 from recalib.learners.rules import Rules as Rules
 from recalib.learners.schedules import Schedule as Schedule
 from recalib.learners.uncorrected import UncorrectedLearner as UncorrectedLearner
-from recalib.loading import load as load
+from recalib.loop.external import ExternalRobot as ExternalRobot
+from recalib.loop.interfaces import Commandable as Commandable
+from recalib.loop.interfaces import ForwardKinematics as ForwardKinematics
+from recalib.loop.interfaces import Learner as Learner
+from recalib.loop.interfaces import Outcome as Outcome
+from recalib.loop.interfaces import Savable as Savable
+from recalib.loop.training import History as History
+from recalib.loop.training import corrected as corrected
+from recalib.loop.training import train as train
 from recalib.nominal.arms import load_arm as load_arm
 from recalib.nominal.chain import Chain as Chain
 from recalib.nominal.controller import Controller as Controller
@@ -65,8 +68,5 @@ from recalib.nominal.poses import orientation_error as orientation_error
 from recalib.nominal.poses import position_error as position_error
 from recalib.nominal.robots import Robot as Robot
 from recalib.nominal.robots import load_robot as load_robot
-from recalib.training import History as History
-from recalib.training import corrected as corrected
-from recalib.training import train as train
 
 __version__: str

@@ -15,7 +15,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """A name that is not among the valid ones, of which the nearest is told."""
+    """A name that is not among the valid ones; tells the nearest of them."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -39,7 +39,7 @@ class InvalidSetting(RecalibError):
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
         said = "missing" if value is None else repr(value)
-        super().__init__(f"{key} is {said}; valid: {valid}")
+        super().__init__(f"{key} is {said}; expected: {valid}")
 
 
 class BadMeasurement(RecalibError):
@@ -51,7 +51,7 @@ class BadMeasurement(RecalibError):
     def __init__(self, which: str, measured: Iterable[float], valid: str):
         self.which, self.measured, self.valid = which, [*measured], valid
         numbers = ", ".join(f"{number:.4g}" for number in self.measured)
-        super().__init__(f"{which} measured ({numbers}); valid: {valid}")
+        super().__init__(f"{which} measured ({numbers}); expected: {valid}")
 
 
 class UnsuitableRobot(RecalibError):

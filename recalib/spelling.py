@@ -33,10 +33,10 @@ def _edits(word: str, other: str) -> int:
 def instead(name: str, valid: Iterable[str]) -> str:
     """What to say in the place of a name: the nearest one, the valid ones, or some of many."""
     valid = list(valid)
-    meant = f"did you mean {near}?" if (near := nearest(name, valid)) else ""
+    meant = f"did you mean {other}?" if (other := nearest(name, valid)) else ""
     if len(valid) > MOST:
-        return meant or f"valid: one of {len(valid)}, such as {listed(valid[:SOME], 'and')}"
-    return f"valid: {listed(valid, 'or') or 'none'}" + (meant and f"; {meant}")
+        return meant or f"expected: one of {len(valid)}, such as {listed(valid[:SOME], 'and')}"
+    return f"expected: {listed(valid, 'or') or 'none'}" + (meant and f"; {meant}")
 
 
 def listed(words: Iterable[str], last: str) -> str:

@@ -4,6 +4,8 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,12 +17,17 @@ import pytest
 from hypothesis import settings
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
+from recalib.learners.kinds import class_of
+from recalib.learners.rules import Rules
+from recalib.learners.schedules import Schedule
+from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller
+from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
-from recalib.study.nominal import Nominal, nominal
-from recalib.study.plants import Resolved, nominal_controller, resolve
+from recalib.study.scenarios.nominal import Nominal, nominal
+from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
 from tests.made_up import NOISE, MadeUp
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
@@ -51,6 +58,19 @@ def rules():
     from tests.rules import Rules
 
     return Rules()
+
+
+@pytest.fixture
+def roots(monkeypatch) -> list[tuple]:
+    """What random numbers follow from, as `generator` notes it: the seed, and hashed keys."""
+    noted, begin = [], np.random.SeedSequence
+
+    def beginning(words):
+        noted.append(tuple(words))
+        return begin(words)
+
+    monkeypatch.setattr(np.random, "SeedSequence", beginning)
+    return noted
 
 
 class Plan(NamedTuple):
@@ -117,6 +137,33 @@ def controller(plan) -> Controller:
 @pytest.fixture(scope="session")
 def robot(controller) -> Robot:
     return controller.robot
+
+
+@pytest.fixture(scope="session")
+def makers(controller) -> dict[str, Callable]:
+    """Of each kind a learner, which takes `runs`."""
+    rules = Rules(True, True, True, True, subnet=(3, 2, 1))
+    widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
+    schedule = Schedule(4.0, widths, 0.8, 0.4)
+    return {
+        "hierarchical": partial(class_of("hierarchical"), rules=rules, schedule=schedule),
+        "polynomial": partial(class_of("polynomial"), degree=2),
+        "gaussian_process": class_of("gaussian_process"),
+        "geometric": partial(class_of("geometric"), controller=controller),
+        "hybrid": partial(class_of("hybrid"), controller=controller),
+    }
+
+
+@pytest.fixture
+def load(tmp_path):
+    """Loads an arm from the text of a URDF."""
+
+    def from_text(text: str, *links: str) -> Arm:
+        path = tmp_path / "small.urdf"
+        path.write_text(text)
+        return load_arm(path, *links)
+
+    return from_text
 
 
 @pytest.fixture(scope="session")

@@ -16,32 +16,34 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 
-from recalib.randomness import generator
-from recalib.study import lengths, statistics
-from recalib.study.configuration.study import Study
-from recalib.study.configuration.switches import SWITCHES
-from recalib.study.evidence import effects
-from recalib.study.evidence.benchmark import errors, reached
-from recalib.study.evidence.claims import CLAIMS, judge, judging
-from recalib.study.evidence.needs import Request
-from recalib.study.evidence.real import real_errors
-from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.summary import summarise
-from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.mapping.quantisation import ITERATIONS
-from recalib.study.measured import ERRORS
-from recalib.study.plots.registry import FIGURES
-from recalib.study.shipped import (
+from recalib.numerics.randomness import generator
+from recalib.study.configuration import lengths
+from recalib.study.configuration.shipped import (
     DESIGN,
     DEVIATIONS,
     EFFORTS,
+    FACTORS,
     FIRST,
     PIECES,
     POWER,
     REFERENCE,
     pieces,
 )
-from recalib.study.trainings import Trainings, searches, training
+from recalib.study.configuration.study import Study
+from recalib.study.configuration.switches import SWITCHES
+from recalib.study.evidence import effects
+from recalib.study.evidence.benchmark import errors, reached
+from recalib.study.evidence.claims import CLAIMS, judge, judging
+from recalib.study.evidence.needs import Request
+from recalib.study.evidence.real_arm import real_errors
+from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.summary import summarise
+from recalib.study.experiments.samples import sample_of, sought
+from recalib.study.inference import intervals
+from recalib.study.inference.measured import ERRORS
+from recalib.study.mapping.quantisation import ITERATIONS
+from recalib.study.plan.trainings import Trainings, searches, training
+from recalib.study.plots.registry import FIGURES
 
 ROOT = Path(__file__).parents[1]
 INITIAL = np.array([8.3, 4.7])
@@ -65,9 +67,26 @@ LUCK, OWN = 0.1, 0.05
 
 def evidence_of(figure: str, results: "MadeUp") -> Evidence:
     """What a figure may read."""
-    ask = results.request()
-    FIGURES[figure].needs(ask)
-    return ask.evidence
+    return results.request().read(FIGURES[figure].needs).evidence
+
+
+class Noted(dict):
+    """Notes which of its entries are read."""
+
+    def __init__(self, its: Mapping):
+        super().__init__(its)
+        self.read: set[str] = set()
+
+    def __getitem__(self, name: str):
+        self.read.add(name)
+        return super().__getitem__(name)
+
+
+def unread(evidence: Evidence, use: Callable[[Evidence], object]) -> set[str]:
+    """What was declared and is not used."""
+    noted = {kind: Noted(getattr(evidence, kind)) for kind in ("files", "facts")}
+    use(evidence.model_copy(update=noted))
+    return {name for its in noted.values() for name in its.keys() - its.read}
 
 
 def without_one(evidence: Evidence) -> Iterator[tuple[str, Evidence]]:
@@ -83,7 +102,7 @@ def without_one(evidence: Evidence) -> Iterator[tuple[str, Evidence]]:
 def few_resamples() -> Iterator[None]:
     """A tenth of them: where intervals have to be there, and that is all."""
     with (
-        mock.patch.object(statistics, "RESAMPLES", 2000),
+        mock.patch.object(intervals, "RESAMPLES", 2000),
         mock.patch.object(effects, "RESAMPLES", 200),
     ):
         yield
@@ -119,7 +138,13 @@ class MadeUp:
                 self._tables[path] = partial(self.ensemble, plan)
         for scenario in self.trainings.scenarios():
             self.scenario(scenario)
-        for name in (DESIGN, POWER, DEVIATIONS, f"{FIRST}/outcomes.csv"):  # as they are shipped
+        for name in (
+            DESIGN,
+            POWER,
+            DEVIATIONS,
+            f"{FIRST}/counted.csv",
+            FACTORS,
+        ):  # as they are shipped
             self.path(name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.path(name))
 
@@ -138,10 +163,9 @@ class MadeUp:
         """How to ask for these results."""
         return Request(self.study, self.trainings, f"{self.folder}/results", self.sample_at)
 
-    def evidence(self, needs: Callable[[Request], None]) -> Evidence:
+    def evidence(self, needs: str) -> Evidence:
         """What something reads of them, made up where it is not there."""
-        ask = self.request()
-        needs(ask)
+        ask = self.request().read(needs)
         assert ask.lacking == []
         return self.made(ask.evidence)
 
@@ -184,8 +208,8 @@ class MadeUp:
         luck = luck + OF_SEEDS * rng.normal(size=(count, seeds, 2))
         last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
         parts = np.array([0, 0.1, 0.4, 1])
-        each = parts[:, None, None]
-        measured = (initial * (1 - each) + last * each).reshape(-1, 2)
+        part = parts[:, None, None]
+        measured = (initial * (1 - part) + last * part).reshape(-1, 2)
         done = np.repeat(np.rint(which.iterations * parts).astype(int), len(last))
         return pd.DataFrame(
             {
@@ -359,10 +383,8 @@ class MadeUp:
 
     def judged(self, claim: str) -> dict:
         """One claim, judged by these results, of which it may lack some."""
-        home = next(each for each in CLAIMS if each.id == claim)
-        ask = self.request()
-        home.ask(ask)
-        return home.judge(self.made(ask.evidence))
+        home = next(its for its in CLAIMS if its.id == claim)
+        return home.judge(self.made(self.request().read(home.all_needs).evidence))
 
     def verdict(self, claim: str) -> str:
         """The verdict on one claim."""
@@ -374,15 +396,20 @@ class MadeUp:
         self.campaign()
         for path, table in self._tables.items():
             self.write(path, table())
-        runs, plan, seed = self.trainings.runs, self.study.benchmark, self.study.seed
+        runs, seed = self.trainings.runs, self.study.seed
         histories = [self.path(f"runs/{on}/{learner}.parquet") for on, learner in runs]
         scenarios = [self.path(f"scenarios/{name}.json") for name in self.trainings.scenarios()]
         self.write("summary.csv", summarise(histories, scenarios, runs, seed))
-        history = self.benchmark(), plan.scenarios, plan.learners
-        self.write("benchmark.csv", errors(*history, seed))
-        self.write("benchmark_moves.csv", reached(*history, plan.thresholds))
+        self.compare()
         self.write("real.csv", real_errors(self.real(), seed))
         self.path("claims.json").write_text(json.dumps(self.judge()), encoding="utf-8")
+
+    def compare(self) -> None:
+        """Make the tables of the benchmark."""
+        plan = self.study.benchmark
+        history = self.benchmark(), plan.scenarios, plan.learners
+        self.write("benchmark.csv", errors(*history, self.study.seed))
+        self.write("benchmark_moves.csv", reached(*history, plan.thresholds))
 
     def benchmark(self) -> pd.DataFrame:
         plan, rng = self.study.benchmark, np.random.default_rng(5)

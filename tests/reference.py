@@ -100,12 +100,12 @@ def identify(linearise, deviations, measured):
                 s = sum(r[i][k] @ r[i][k] / noise[k] ** 2 for k in range(kinds))
                 weights[i] = 1 if s <= limit else limit / s
         H, g = np.diag(1 / v), -p / v
-        each = np.zeros((kinds, count, count))
+        by_kind = np.zeros((kinds, count, count))
         for i in range(len(measured)):
             for k in range(kinds):
-                each[k] += weights[i] * J[i, k].T @ J[i, k] / noise[k] ** 2
+                by_kind[k] += weights[i] * J[i, k].T @ J[i, k] / noise[k] ** 2
                 g = g + weights[i] * J[i, k].T @ r[i][k] / noise[k] ** 2
-        H = H + each.sum(axis=0)
+        H = H + by_kind.sum(axis=0)
         change, C = np.linalg.solve(H, g), np.linalg.inv(H)
         p = p + change
         r = [r[i] - J[i] @ change for i in range(len(measured))]
@@ -118,7 +118,7 @@ def identify(linearise, deviations, measured):
                 total[k] = np.median(squares) / chi2.ppf(0.5, 3) * free[k]
             else:
                 free[k], total[k] = 3 * (weights**2).sum(), (weights**2) @ squares
-            free[k] = max(free[k] - np.trace(C @ each[k]), 1e-3 * free[k])
+            free[k] = max(free[k] - np.trace(C @ by_kind[k]), 1e-3 * free[k])
         shared = total.sum() / free.sum()  # believed alike, as by ten measurements
         last, noise = noise, np.maximum(np.sqrt((total + 10 * shared) / (free + 10)), 1e-6)
         # variances: a belief of 0.05 degrees of freedom in a common scale, of 20 more in that

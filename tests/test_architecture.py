@@ -2,36 +2,83 @@ import ast
 import re
 import subprocess
 import sys
+import tomllib
+from functools import cache
 
 import pytest
 
+from recalib.study.plots.registry import FIGURES
 from tests.conftest import ROOT, loaded_with
 
-LIBRARY = "nominal", "damaged", "identification", "learners", "laboratory"
-STUDY = "mapping", "experiments", "evidence", "multiverse", "plots", "recording"
+# Packages and loose modules, from the ground up: each imports those before it alone.
+LIBRARY = """
+    spelling errors numerics files nominal loop damaged identification learners laboratory __main__
+""".split()  # noqa: SIM905
+STUDY = """
+    inference configuration scenarios plan mapping experiments evidence checks multiverse plots
+    recording studies ship
+""".split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
     "laboratory/page.py": {"jinja2"},
     "laboratory/watching.py": {"rerun"},
-    "viewing.py": {"rerun"},
+    "laboratory/viewing.py": {"rerun"},
 }
-FOR_STUDIES_ALONE = {
+# What the library needs beside Python, by the name under which it is installed.
+NEEDED = {
+    "example-robot-data": "example_robot_data",
+    "numba": "numba",
+    "numpy": "numpy",
+    "pin": "pinocchio",
+    "scikit-learn": "sklearn",
+    "scipy": "scipy",
+}
+# Each takes a tenth of a second or more to import: who waits for it needs it.
+HEAVY = {
     "jinja2",
     "matplotlib",
+    "numba",
     "pandas",
-    "pyarrow",
-    "pydantic",
+    "pinocchio",
     "rerun",
+    "scipy.optimize",
+    "scipy.spatial",
+    "scipy.stats",
+    "sklearn",
     "snakemake",
-    "tqdm",
-    "yaml",
+}
+ARMS = {"numba", "pinocchio", "scipy.spatial"}
+# What modules bring when they are imported: of the library, and those with a function for a rule.
+BRINGS = {
+    "recalib recalib.laboratory.command_line recalib.damaged.kinds": set(),
+    "recalib.laboratory.files recalib.laboratory.page recalib.numerics.regression": {
+        "jinja2",
+        "pinocchio",
+        "scipy.optimize",
+        "scipy.spatial",
+    },
+    "recalib.study.multiverse.universe": set(),  # the workflow, whenever it starts
+    "evidence.article evidence.claims evidence.outcome evidence.pages evidence.real_arm"
+    " evidence.report"
+    " experiments.joining experiments.samples multiverse.design multiverse.power"
+    " plots.registry": set(),
+    "evidence.benchmark evidence.checks evidence.summary mapping.visits": {"pandas"},
+    "scenarios.assignments experiments.benchmark experiments.ensemble experiments.real_arm"
+    " experiments.speed experiments.trials multiverse.drawing scenarios.plants": ARMS,
+    "experiments.campaign experiments.replay mapping.measured multiverse.efforts"
+    " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"},
+    "experiments.tracker": ARMS - {"numba"},
+    "recording.pictures": {"rerun"},
+    "recording.writing": ARMS | {"pandas", "rerun"},
 }
 
 
-def imported(path) -> set[str]:
-    """The dotted names of all that a module imports."""
+@cache
+def imported(path, at_once: bool = False) -> set[str]:
+    """The dotted names of all that a module imports; or of what it imports when it is."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     names = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in tree.body if at_once else ast.walk(tree):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -40,34 +87,77 @@ def imported(path) -> set[str]:
     return names
 
 
+def files_of(name: str) -> set[str]:
+    """The files of the project that an import of a dotted name goes through."""
+    parts = name.split(".")
+    stems = ["/".join(parts[: count + 1]) for count in range(len(parts))]
+    paths = {f"{stem}{end}" for stem in stems for end in (".py", "/__init__.py")}
+    return {path for path in paths if (ROOT / path).is_file()}
+
+
+def brought(names: set[str]) -> set[str]:
+    """What is heavy of all that an import of these modules imports, by way of others of ours."""
+    known, waiting = set(), names
+    while waiting:
+        known |= waiting
+        paths = set().union(*map(files_of, waiting))
+        waiting = set().union(*(imported(ROOT / path, at_once=True) for path in paths)) - known
+    return {its for its in HEAVY if any(f"{name}.".startswith(f"{its}.") for name in known)}
+
+
+def called() -> set[str]:
+    """The modules of the functions that rules call."""
+    texts = (path.read_text(encoding="utf-8") for path in (ROOT / "workflow/rules").glob("*.smk"))
+    names = re.findall(r'calls\(\s*"recalib\.study\.([\w.]+)\.\w+"', "".join(texts))
+    return {*names}
+
+
+@pytest.mark.parametrize("modules", BRINGS)
+def test_an_import_brings_what_is_needed(modules):
+    names = {name if "recalib" in name else f"recalib.study.{name}" for name in modules.split()}
+    script = set() if "recalib" in modules else {"workflow.scripts.call"}
+    assert brought(names | script) == BRINGS[modules]
+
+
+def test_for_every_function_it_is_said_what_it_brings():
+    assert called() == {name for name in " ".join(BRINGS).split() if "recalib" not in name}
+
+
+def test_a_figure_of_results_moves_no_arm():
+    homes = {its.home for its in FIGURES.values()}
+    assert brought(homes) == {"matplotlib", "pandas"}
+
+
+@pytest.mark.parametrize("name", ["recalib", "recalib.laboratory.command_line"])
+def test_what_is_imported_first_waits_for_nothing(name):
+    assert loaded_with(f"import {name}", {"numpy", *HEAVY}) == set()
+
+
 @pytest.mark.parametrize(
-    ("root", "layers"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"]
+    ("root", "order"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"]
 )
-def test_imports_point_one_way(root, layers):
-    folder = ROOT.joinpath(*root.split("."))
-    for index, layer in enumerate(layers):
-        above = tuple(f"{root}.{each}." for each in layers[index + 1 :])
-        paths = sorted((folder / layer).glob("*.py"))
-        assert paths
-        for path in paths:
-            assert not [name for name in imported(path) if name.startswith(above)], path
+def test_imports_point_one_way(root, order):
+    folder, seen = ROOT.joinpath(*root.split(".")), set()
+    for path in folder.rglob("*.py"):
+        unit = path.relative_to(folder).parts[0].removesuffix(".py")
+        if unit in ("__init__", "study"):
+            continue
+        seen.add(unit)
+        above = tuple(f"{root}.{other}." for other in order[order.index(unit) + 1 :])
+        assert not [name for name in imported(path) if f"{name}.".startswith(above)], path
+    assert seen == {*order}
 
 
-def test_every_package_has_its_layer():
-    packages = {path.parent.name for path in (ROOT / "recalib").glob("*/__init__.py")}
-    assert packages == {*LIBRARY, "study"}
-    assert {*STUDY} <= {
-        path.parent.name for path in (ROOT / "recalib" / "study").glob("*/__init__.py")
-    }
-
-
-def test_the_library_knows_of_no_study_and_needs_none_of_its_packages():
+def test_the_library_knows_of_no_study_and_needs_what_it_declares():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert [its.partition(">=")[0] for its in project["dependencies"]] == [*NEEDED]
     for path in (ROOT / "recalib").rglob("*.py"):
         if "study" not in path.relative_to(ROOT).parts:
             names = imported(path)
             assert not [name for name in names if name.startswith("recalib.study")], path
-            heavy = {name.split(".")[0] for name in names} & FOR_STUDIES_ALONE
-            assert heavy <= LOOKS.get(path.relative_to(ROOT / "recalib").as_posix(), set()), path
+            tops = {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"recalib"}
+            looks = LOOKS.get(path.relative_to(ROOT / "recalib").as_posix(), set())
+            assert tops <= {*NEEDED.values()} | looks, path
 
 
 @pytest.mark.parametrize("package", sorted(set().union(*LOOKS.values())))
@@ -84,29 +174,6 @@ def test_what_draws_a_calibration_is_not_needed_to_make_one(package):
         [sys.executable, "-c", text], cwd=ROOT, text=True, capture_output=True, check=True
     )
     assert ran.stdout.startswith("1 ") and f"{package} is missing; pip install" in ran.stdout
-
-
-def test_rerun_is_imported_by_the_recordings_alone():
-    for path in (ROOT / "recalib").rglob("*.py"):
-        uses = any(name.split(".")[0] == "rerun" for name in imported(path))
-        allowed = path.parent.name == "recording" or path.name in ("viewing.py", "watching.py")
-        assert not uses or allowed, path
-
-
-def test_declaring_what_is_needed_loads_no_tables_and_draws_nothing():
-    """The workflow does it whenever it starts."""
-    declaring = "import recalib.study.evidence.pages, recalib.study.evidence.report"
-    declaring += ", recalib.study.plots.registry"
-    declaring += ", recalib.study.multiverse.universe, recalib.study.multiverse.design"
-    heavy = {"pandas", "scipy", "matplotlib", "jinja2", "pinocchio", "numba"}
-    assert loaded_with(declaring, heavy) == set()
-
-
-def test_calibrating_an_arm_loads_no_tables_and_compiles_nothing():
-    """Each takes a tenth of a second or more, and neither a calibration nor its page needs it."""
-    heavy = {"pandas", "sklearn", "scipy.stats", "numba", "pydantic", "matplotlib"}
-    calibrating = "import recalib.laboratory.files, recalib.laboratory.page, recalib.regression"
-    assert loaded_with(calibrating, heavy) == set()
 
 
 def test_what_no_type_can_say_is_rare_and_has_its_reason():
@@ -126,7 +193,7 @@ CHANGES = {"DamagedArm", "Finding"}  # what is gathered part by part
 
 
 def decorators(node) -> list[str]:
-    return [ast.unparse(each) for each in node.decorator_list if "dataclass" in ast.unparse(each)]
+    return [ast.unparse(its) for its in node.decorator_list if "dataclass" in ast.unparse(its)]
 
 
 def test_what_is_made_once_cannot_be_changed_afterwards():

@@ -1,12 +1,10 @@
 """An archive comes back as it was written, or is refused by its name."""
 
-import itertools
-
 import numpy as np
 import pytest
 
-from recalib.archives import flat, read_archive, write_archive
 from recalib.errors import InvalidFile
+from recalib.files.archives import flat, read_archive, write_archive
 
 KIND = "an archive", 1
 GROUPS = {"0": {"near": {"theta": np.arange(3.0)}}, "1": {"moves": np.int64(3)}}
@@ -33,18 +31,18 @@ def test_groups_come_back_with_their_header(path):
 
 def test_whichever_bit_of_its_directory_is_flipped_nothing_else_is_read_in_silence(path):
     """Some hide an array, or have it seem encrypted. All before it has sums of its own."""
-    written, whole = path.read_bytes(), read(path)
+    written, whole, rng = path.read_bytes(), read(path), np.random.default_rng(1)
     directory = range(written.index(b"PK\x01\x02"), len(written))
     refused = 0
-    for place, bit in itertools.product(directory, range(8)):
+    for place in directory:
         damaged = bytearray(written)
-        damaged[place] ^= 1 << bit
+        damaged[place] ^= 1 << rng.integers(8)
         path.write_bytes(damaged)
         try:
-            assert read(path) == whole, (place, bit)
+            assert read(path) == whole, place
         except InvalidFile:
             refused += 1
-    assert refused > len(directory)
+    assert refused > len(directory) / 8
 
 
 def test_a_file_that_is_not_there_is_refused_with_the_reason(tmp_path):
@@ -52,3 +50,9 @@ def test_a_file_that_is_not_there_is_refused_with_the_reason(tmp_path):
         read(tmp_path / "a.npz")
     with pytest.raises(InvalidFile, match="Is a directory"):
         read(tmp_path)
+
+
+def test_numbers_that_are_none_are_refused(path):
+    write_archive(path, {"format": KIND[0], "version": KIND[1]}, {"a": {"b": np.array([np.nan])}})
+    with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are none"):
+        read(path)

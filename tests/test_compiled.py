@@ -10,12 +10,12 @@ import pytest
 from numba import config
 from numba.core import caching
 
-from recalib.compiled import compiled
 from recalib.learners.cells import Cells
-from recalib.monomials import monomials, polynomial
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import COORDINATES, Workspace
+from recalib.numerics.compiled import compiled
+from recalib.numerics.monomials import monomials, polynomial
 
 ROOT = Path(__file__).parents[1]
 

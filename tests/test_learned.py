@@ -16,38 +16,21 @@ from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
-from recalib.interfaces import Outcome
-from recalib.learned import VERSION, join, read, save
-from recalib.learners.gaussian_process import GaussianProcessLearner
-from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.hybrid import HybridLearner
 from recalib.learners.kinds import KINDS
+from recalib.learners.learned import VERSION, join, read, save
+from recalib.learners.loading import load
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.learners.uncorrected import UncorrectedLearner
-from recalib.loading import load
+from recalib.loop.interfaces import Outcome
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.poses import Workspace
 from tests.spoiling import spoil
 
 RUNS = 2
-SCHEDULE = Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4)
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 20, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
-
-
-@pytest.fixture(scope="module")
-def makers(controller) -> dict:
-    rules = Rules(True, True, True, True, subnet=(3, 2, 1))
-    return {
-        "hierarchical": partial(HierarchicalLearner, rules=rules, schedule=SCHEDULE),
-        "polynomial": partial(PolynomialLearner, degree=2),
-        "gaussian_process": GaussianProcessLearner,
-        "geometric": partial(GeometricLearner, controller=controller),
-        "hybrid": partial(HybridLearner, controller=controller),
-    }
 
 
 @pytest.fixture(scope="module")
@@ -71,8 +54,8 @@ def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_
     assert type(loaded) is type(learner)
     assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
-    for each in (learner, loaded):
-        train(each, plant, 20, first=moves)
+    for its in (learner, loaded):
+        train(its, plant, 20, first=moves)
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
 
 
@@ -85,7 +68,7 @@ def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
     for run, path in enumerate(paths):
         alone, taken = load(path, robot), load(tmp_path / "both.npz", robot, run)
         assert np.array_equal(taken.command(TESTS[[run]]), alone.command(TESTS[[run]]))
-    with pytest.raises(InvalidSetting, match="run is 2; valid: 0 to 1"):
+    with pytest.raises(InvalidSetting, match="run is 2; expected: 0 to 1"):
         load(tmp_path / "both.npz", robot, 2)
 
 
@@ -112,44 +95,41 @@ def test_the_file_of_another_learner_cannot_be_joined(makers, robot, tmp_path):
     assert not (tmp_path / "both.npz").exists()
 
 
-def otherwise(robot, change):
+def longer(model) -> None:
+    model.jointPlacements[3].translation[0] += 1e-3
+
+
+def renamed(model) -> None:
+    model.names[1] = "waist"
+
+
+def with_arm(robot, change=lambda model: None, tool="tool0"):
     model = robot.arm.model.copy()
-    match change:
-        case "a longer link":
-            model.jointPlacements[3].translation[0] += 1e-3
-            return replace(robot, arm=Arm(model, "tool0", "base_link")), "kinematics differs"
-        case "another tool":
-            arm = Arm(model, "ee_link", "base_link")
-            return replace(robot, arm=arm), "tool is tool0, not ee_link"
-        case "other joints":
-            model.names[1] = "waist"
-            arm = Arm(model, "tool0", "base_link")
-            return replace(robot, arm=arm), "joints are .*, not .*waist"
-        case "another home":
-            return replace(robot, home=robot.home + 0.1), r"home differs by up to 0\.1 m or rad"
-        case "other coordinates":
-            turned = replace(robot.workspace, coordinates="rotation_vector")
-            return replace(robot, workspace=turned), "workspace differs"
-    wider = Workspace(robot.workspace.centre, 1.1 * robot.workspace.half_ranges)
-    return replace(robot, workspace=wider), "workspace differs"
+    change(model)
+    return replace(robot, arm=Arm(model, tool, "base_link"))
 
 
-@pytest.mark.parametrize(
-    "change",
-    [
-        "a longer link",
-        "another tool",
-        "other joints",
-        "another home",
-        "another workspace",
-        "other coordinates",
-    ],
-)
-def test_another_robot_is_refused_with_what_differs(change, robot, tmp_path):
+def with_workspace(robot, **changes):
+    return replace(robot, workspace=replace(robot.workspace, **changes))
+
+
+OTHERS = {
+    "kinematics differs": lambda robot: with_arm(robot, longer),
+    "tool is tool0, not ee_link": lambda robot: with_arm(robot, tool="ee_link"),
+    "joints are .*, not .*waist": lambda robot: with_arm(robot, renamed),
+    r"home differs by up to 0\.1 m or rad": lambda robot: replace(robot, home=robot.home + 0.1),
+    "workspace differs": lambda robot: with_workspace(robot, coordinates="rotation_vector"),
+    "workspace differs.*": lambda robot: with_workspace(
+        robot, half_ranges=1.1 * robot.workspace.half_ranges
+    ),
+}
+
+
+@pytest.mark.parametrize("message", OTHERS)
+def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
-    other, message = otherwise(robot, change)
     with pytest.raises(OtherRobot, match=rf"a\.npz is of another robot: its {message}"):
-        load(tmp_path / "a.npz", other)
+        load(tmp_path / "a.npz", OTHERS[message](robot))
 
 
 def test_another_name_is_no_other_robot(robot, tmp_path):
@@ -157,29 +137,28 @@ def test_another_name_is_no_other_robot(robot, tmp_path):
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))
 
 
-@pytest.mark.parametrize("left", [0.0, 0.01, 0.5, 0.99, 0.9999])
-def test_a_truncated_file_is_refused_by_its_name(left, robot, tmp_path):
+def truncated(path, left: float) -> None:
+    path.write_bytes(path.read_bytes()[: int(left * path.stat().st_size)])
+
+
+SPOILT = (
+    *(partial(truncated, left=left) for left in (0.0, 0.01, 0.5, 0.9999)),
+    lambda path: path.write_text("seed,iteration\n0,1\n"),
+    lambda path: np.savez(path, theta=np.zeros(3)),
+    lambda path: np.savez(path, header="{}"),
+    lambda path: np.savez(path, header="[]"),
+    lambda path: np.savez(path, header=np.array({"a": 1}, dtype=object)),
+    lambda path: path.write_bytes(b"\x93NUMPY"),
+)
+
+
+@pytest.mark.parametrize("spoil", SPOILT)
+def test_a_file_of_something_else_or_a_part_of_one_is_refused_by_its_name(spoil, robot, tmp_path):
     path = tmp_path / "a.npz"
     save(path, PolynomialLearner(2, runs=3), robot)
-    path.write_bytes(path.read_bytes()[: int(left * path.stat().st_size)])
-    with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole"):
+    spoil(path)
+    with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole, or not written by"):
         load(path, robot)
-
-
-def test_a_file_of_something_else_is_refused_by_its_name(robot, tmp_path):
-    path = tmp_path / "a.npz"
-    writers = [
-        lambda: path.write_text("seed,iteration\n0,1\n"),
-        lambda: np.savez(path, theta=np.zeros(3)),
-        lambda: np.savez(path, header="{}"),
-        lambda: np.savez(path, header="[]"),
-        lambda: np.savez(path, header=np.array({"a": 1}, dtype=object)),
-        lambda: path.write_bytes(b"\x93NUMPY"),
-    ]
-    for write in writers:
-        write()
-        with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole, or not written by"):
-            load(path, robot)
 
 
 def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
@@ -189,7 +168,7 @@ def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):
     header = json.loads(str(arrays.pop("header"))) | {"version": VERSION + 1}
     np.savez(path, header=json.dumps(header), **arrays)
     with pytest.raises(
-        InvalidFile, match=rf"format \('recalib learner', {VERSION + 1}\); valid: .* {VERSION}\)"
+        InvalidFile, match=rf"format \('recalib learner', {VERSION + 1}\); expected: .* {VERSION}\)"
     ):
         load(path, robot)
 
@@ -215,7 +194,7 @@ def test_a_file_that_was_tampered_with_is_refused_or_of_use(written, robot, data
 
 
 def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
-    with pytest.raises(UnknownName, match="UncorrectedLearner.*valid: gaussian_process"):
+    with pytest.raises(UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
         save(tmp_path / "a.npz", UncorrectedLearner(), robot)
     assert not [*tmp_path.iterdir()]
 

@@ -1,24 +1,20 @@
 """The library by itself: its public names, its examples, and its wheel where nothing else is."""
 
 import ast
-import importlib
-import importlib.metadata
 import inspect
+import os
 import re
 import runpy
 import shutil
 import subprocess
 import sys
 import tarfile
-import venv
 from pathlib import Path
 
 import pytest
-from packaging.requirements import Requirement
-from packaging.utils import canonicalize_name
 
 import recalib
-from tests.conftest import ROOT, loaded_with
+from tests.conftest import ROOT
 
 ALONE = "ur10", "notebook"  # the robot of the examples, and tests/test_notebook.py
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem not in ALONE)
@@ -82,12 +78,6 @@ def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examp
     assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
 
 
-def test_the_packages_come_with_the_names_that_need_them():
-    assert (
-        loaded_with("import recalib", {"numpy", "scipy", "pinocchio", "numba", "sklearn"}) == set()
-    )
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
@@ -101,27 +91,6 @@ def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
     assert 0 <= errors[-1] < 0.1 * errors[0]
     if name == "save_and_load":
         assert "is of another robot: its home differs by up to 0.1" in told
-
-
-def closure(names) -> set[str]:
-    """These distributions and all that they need, extras left out."""
-    needed, waiting = set(), {canonicalize_name(name) for name in names}
-    while waiting:
-        name = waiting.pop()
-        needed.add(name)
-        for text in importlib.metadata.requires(name) or []:
-            requirement = Requirement(text)
-            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-                waiting |= {canonicalize_name(requirement.name)} - needed
-    return needed
-
-
-def link(names, site: Path) -> None:
-    """Put what these distributions installed here into another environment, by links."""
-    for each in map(importlib.metadata.distribution, names):
-        for top in {file.parts[0] for file in each.files} - {"..", "__pycache__"}:
-            if not (site / top).exists():  # Pinocchio's distributions share a folder
-                (site / top).symlink_to(each.locate_file(top))
 
 
 @pytest.fixture(scope="module")
@@ -156,39 +125,24 @@ def test_the_sources_that_are_released_are_what_git_holds(released, committed):
     assert files - built - {"PKG-INFO", "setup.cfg"} == committed
 
 
-@pytest.fixture(scope="module")
-def empty(released, tmp_path_factory) -> Path:
-    """The Python of an environment with the wheel and what it declares to need, nothing else."""
-    environment = tmp_path_factory.mktemp("environment")
-    venv.create(environment, symlinks=True)
-    python = environment / "bin" / "python"
+@pytest.mark.slow
+def test_the_wheel_works_where_nothing_of_the_studies_is(released, tmp_path):
     (wheel,) = released.glob("*.whl")
     pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
-    alone = ["--no-index", "--no-deps"]
-    subprocess.run([*pip, "--python", python, "install", *alone, wheel], check=True)
-    (site,) = environment.glob("lib/python*/site-packages")
-    (installed,) = importlib.metadata.distributions(path=[str(site)])
-    needed = map(Requirement, installed.requires)
-    declared = [
-        each.name for each in needed if not each.marker or each.marker.evaluate({"extra": ""})
-    ]
-    link(closure(declared), site)
-    return python
-
-
-@pytest.mark.slow
-def test_the_wheel_works_where_nothing_of_the_studies_is(empty, tmp_path):
+    alone = "--no-index", "--no-deps", "--target", tmp_path
+    subprocess.run([*pip, "install", *alone, wheel], check=True)
     code = f"""
-import importlib.util
+import runpy, sys
+from pathlib import Path
+sys.modules |= dict.fromkeys({FOR_STUDIES})
 import recalib
-assert "environment" in recalib.__file__, recalib.__file__
-assert [name for name in {FOR_STUDIES} if importlib.util.find_spec(name)] == []
+assert recalib.__file__.startswith("{tmp_path}"), recalib.__file__
+assert not Path(recalib.__file__).with_name("study").exists()
 for name in recalib.__all__:
     getattr(recalib, name)
+runpy.run_path("save_and_load.py")
 """
-    subprocess.run([empty, "-I", "-c", code], cwd=tmp_path, check=True)
-    example = shutil.copytree(ROOT / "examples", tmp_path / "examples") / "save_and_load.py"
-    told = subprocess.run(
-        [empty, example], cwd=tmp_path, check=True, capture_output=True, text=True
-    ).stdout
+    examples = shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    only = os.environ | {"PYTHONPATH": str(tmp_path)}
+    told = subprocess.check_output([sys.executable, "-c", code], cwd=examples, env=only, text=True)
     assert "commanded corrected: 0.0000" in told

@@ -6,8 +6,8 @@ import pytest
 import rerun as rr
 from rerun.chunk import RrdReader
 
-from recalib.meshes import with_own_meshes
-from recalib.viewing import log_meshes
+from recalib.laboratory.viewing import log_meshes
+from recalib.nominal.meshes import with_own_meshes
 
 MESH = """solid SECRET
 facet normal 0 0 1

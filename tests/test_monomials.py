@@ -3,7 +3,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
-from recalib.monomials import monomials
+from recalib.numerics.monomials import monomials
 
 
 @pytest.mark.parametrize(("dimensions", "degree"), [(1, 4), (3, 0), (6, 1), (6, 3)])

@@ -50,7 +50,7 @@ def test_what_is_drawn_ends_where_the_tool_arrives(cells):
 @pytest.mark.parametrize("end", ["start", "stop"])
 def test_at_the_ends_of_the_sliders_the_arm_learns_as_well(notebook, cells, end):
     sliders = cells["damage"].elements
-    stand = SimpleNamespace(value={name: getattr(each, end) for name, each in sliders.items()})
+    stand = SimpleNamespace(value={name: getattr(slider, end) for name, slider in sliders.items()})
     _, moved = notebook.run(defs={"damage": stand})
     assert moved["damaged"].offsets.any() and moved["misses"] != cells["misses"]
     for history in moved["histories"].values():

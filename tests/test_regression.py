@@ -6,8 +6,8 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.covariance import Covariance
-from recalib.regression import Process, is_time_to_search
+from recalib.numerics.covariance import Covariance
+from recalib.numerics.regression import Process, is_time_to_search
 
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
@@ -22,9 +22,8 @@ def test_a_smooth_function_is_found_where_it_was_not_seen():
 
 
 def test_noise_is_no_gain():
-    for _ in range(10):
+    for _ in range(4):
         assert Process(INPUTS[:20], GENERATOR.standard_normal((20, 1))).gain < 0
-    assert Process(INPUTS, GENERATOR.standard_normal((60, 2))).gain < 0
 
 
 def test_the_gain_is_over_white_noise_less_what_hyperparameters_gain_by_chance():
@@ -58,13 +57,6 @@ def test_the_unit_and_the_origin_of_outputs_and_the_origin_of_inputs_do_not_matt
     # a search ends where the likelihood is flat: rounding moves its place, hardly what it is worth
     gain, predicted = differences(None)
     assert abs(gain) < 1e-2 and predicted < 1e-4
-
-
-def test_known_hyperparameters_are_used_as_they_are():
-    found = Process(INPUTS, SMOOTH)
-    again = Process(**found.state())
-    assert np.array_equal(again.predict(INPUTS), found.predict(INPUTS))
-    assert np.array_equal(again.hyperparameters, found.hyperparameters)
 
 
 @pytest.mark.parametrize("count", [1, 2, 5, 6, 20])

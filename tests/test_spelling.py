@@ -32,9 +32,9 @@ def test_edits_are_counted(word, edits):
 
 
 def test_few_names_are_listed_and_of_many_some():
-    assert instead("on", ["off", "no"]) == "valid: off or no"
-    assert instead("offf", ["off", "no"]) == "valid: off or no; did you mean off?"
-    assert instead("x", []) == "valid: none"
+    assert instead("on", ["off", "no"]) == "expected: off or no"
+    assert instead("offf", ["off", "no"]) == "expected: off or no; did you mean off?"
+    assert instead("x", []) == "expected: none"
     many = [f"joint_{number}" for number in range(68)]
     assert instead("jiont_67", many) == "did you mean joint_67?"
-    assert instead("elbow", many) == "valid: one of 68, such as joint_0, joint_1 and joint_2"
+    assert instead("elbow", many) == "expected: one of 68, such as joint_0, joint_1 and joint_2"

@@ -11,7 +11,7 @@ from pathlib import Path
 from uuid import uuid4
 
 from recalib.errors import RecalibError
-from recalib.storage import is_temporary
+from recalib.files.storage import is_temporary
 
 MARK = ".running"
 NOTES = ".snakemake/identity"  # deleted with all else that Snakemake has noted
@@ -33,7 +33,7 @@ class Unknown(RecalibError):
         self.folder = folder
         super().__init__(
             f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can say"
-            f" whether it is up to date; valid: remove {folder}, or, if nothing was changed since,"
+            f" whether it is up to date; try: remove {folder}, or, if nothing was changed since,"
             f" {folder}/{MARK}"
         )
 
@@ -43,7 +43,7 @@ class ReadOnly(RecalibError):
 
     def __init__(self, folder: str):
         self.folder = folder
-        super().__init__(f"nothing can be written in {folder}; valid: a copy of the project")
+        super().__init__(f"nothing can be written in {folder}; try: a copy of the project")
 
 
 def check_writable(folder: str) -> None:

@@ -23,7 +23,7 @@ from rocrate.model.computationalworkflow import ComputationalWorkflow
 from rocrate.rocrate import ROCrate
 
 import recalib
-from recalib.storage import whole
+from recalib.files.storage import whole
 
 RESULTS, PUBLISHED = Path("results"), Path("published")  # here, and in the archive
 NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it made

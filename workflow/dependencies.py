@@ -12,7 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
-from recalib.study.shipped import RESULTS
+from recalib.study.configuration.shipped import RESULTS
 
 ROOT = Path(__file__).parents[1]
 SCRIPT = "workflow/scripts/call.py"
@@ -94,7 +94,7 @@ def _files(name: str) -> list[str]:
     """The files behind a dotted name: the packages on the way, and the module if it is one."""
     parts = name.strip(".").split(".")
     folders = ["/".join(parts[: end + 1]) for end in range(len(parts))]
-    possible = [path for each in folders for path in (f"{each}/__init__.py", f"{each}.py")]
+    possible = [path for folder in folders for path in (f"{folder}/__init__.py", f"{folder}.py")]
     return [path for path in possible if _exists(path)]
 
 

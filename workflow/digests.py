@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from recalib.errors import RecalibError
-from recalib.storage import whole
+from recalib.files.storage import whole
 
 FOLDER = ".digests"  # beside the results
 

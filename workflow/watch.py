@@ -19,8 +19,8 @@ from urllib.request import urlopen
 import jinja2
 
 from recalib.errors import RecalibError
+from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.recording.viewer import HERE, answer, free_port, viewer
-from recalib.study.shipped import RESULTS, SHIPPED
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
 VIEWER = ("index.html", "re_viewer.js", "re_viewer_bg.wasm", "favicon.ico")

@@ -12,7 +12,7 @@ import numpy as np
 
 from recalib.damaged.words import Described, said, words
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.quantities import ANGLE, LENGTH
+from recalib.files.quantities import ANGLE, LENGTH
 
 # Pinocchio and SciPy take a second, and whoever only reads a configuration needs neither of them:
 # they are imported where an arm is made.

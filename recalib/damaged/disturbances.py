@@ -8,7 +8,7 @@ import numpy as np
 
 from recalib.damaged.words import Described, said
 from recalib.errors import InvalidSetting
-from recalib.quantities import ANGLE, LENGTH
+from recalib.files.quantities import ANGLE, LENGTH
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Disturbances:
     def of_joints(
         self, generators: Sequence[np.random.Generator], shape: tuple[int, int]
     ) -> np.ndarray:
-        """By how much each joint stops beside its angle, (run, *shape) rad.
+        """By how much each joint misses its angle, (run, *shape) rad.
 
         Args:
             generators: one for each run.
@@ -79,14 +79,13 @@ class Disturbances:
         from scipy.spatial.transform import Rotation
 
         moves = poses.shape[1]
-        # Every number is drawn whatever the sizes are: runs that differ in one size share all the
-        # rest of their luck.
-        luck = [
-            (each.standard_normal((3, moves, 3)), each.uniform(size=(moves, 1)))
-            for each in generators
+        # Every number is drawn, also where its size is zero: runs that differ in one size share
+        # all other numbers.
+        draws = [
+            (rng.standard_normal((3, moves, 3)), rng.uniform(size=(moves, 1))) for rng in generators
         ]
-        shift, turn, direction = np.stack([normal for normal, _ in luck], axis=1)
-        is_outlier = np.stack([uniform for _, uniform in luck]) < self.outliers.share
+        shift, turn, direction = np.stack([normal for normal, _ in draws], axis=1)
+        is_outlier = np.stack([uniform for _, uniform in draws]) < self.outliers.share
         gross = self.outliers.size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
         measured = poses.copy()
         measured[..., :3, 3] += self.noise.position * shift + np.where(is_outlier, gross, 0.0)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from recalib.damaged.plant import Plant
-from recalib.interfaces import Outcome
+from recalib.loop.interfaces import Outcome
 from recalib.nominal.controller import Controller, Targets
 from recalib.nominal.poses import Workspace
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from recalib.damaged.damage import Damage, DamagedArm, joint_index
 from recalib.damaged.words import said
-from recalib.quantities import ANGLE, COMPLIANCE
+from recalib.files.quantities import ANGLE, COMPLIANCE
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot

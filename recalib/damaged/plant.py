@@ -6,7 +6,7 @@ import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
-from recalib.interfaces import ForwardKinematics, Outcome
+from recalib.loop.interfaces import ForwardKinematics, Outcome
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
 from recalib.nominal.poses import Workspace

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from recalib.errors import InvalidSetting
-from recalib.quantities import Quantity
+from recalib.files.quantities import Quantity
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,11 @@ from recalib.identification.frames import HELD, Frames
 from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.identification.parameters import Parameter, parameters_of, table_of
-from recalib.interfaces import State
+from recalib.loop.interfaces import State
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
-from recalib.randomness import generator
-from recalib.regression import Process, is_time_to_search
+from recalib.numerics.randomness import generator
+from recalib.numerics.regression import Process, is_time_to_search
 
 STEPS = 10
 TOLERANCE = 1e-9  # m, rad
@@ -86,19 +86,6 @@ class Calibration:
         predicted = self.predict(observations.joints, observations.targets)
         return displacements(predicted, observations.reached(self.frames.sockets))
 
-    def spreads(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
-        """How far off (n,) [m] what is measured of positions should be, root mean square.
-
-        By the noise and what is not known of the parameters; of errors that no parameter can hold
-        it knows nothing.
-        """
-        model, estimate = self.model, self.estimate
-        terms = model.terms(joints)
-        _, jacobians = model.linearise(estimate.parameters, joints, terms, targets)
-        rows = jacobians[:, :3]
-        unknown = np.sum((rows @ estimate.covariance) * rows, axis=(1, 2))
-        return np.sqrt(unknown + 3 * estimate.noise[0] ** 2)
-
     @property
     def parameters(self) -> dict[str, Parameter]:
         """What is known of each parameter that is not held at nominal, by name."""
@@ -162,10 +149,13 @@ class Calibration:
 
     @classmethod
     def restore(cls, arm: Arm, state: State) -> "Calibration":
-        """What `state` returned, for the same nominal arm."""
+        """What `state` returned, for the same nominal arm; ValueError where parts do not fit."""
         terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
         estimate, pattern = Estimate(**state["estimate"]), state.get("residual")
         model = ErrorModel(arm, terms, Frames(**state["frames"]))
+        shape = model.deviations.shape
+        if estimate.parameters.shape != shape or estimate.covariance.shape != 2 * shape:
+            raise ValueError("parameters of another error model")
         return cls(model, estimate, pattern and Process(**pattern))
 
 

@@ -8,7 +8,7 @@ errors,
   products (Shah 2013, Solving the robot-world/hand-eye calibration problem using the Kronecker
   product), then the translations by linear least squares;
 - positions y_i = X (t_i + R_i z_k): linear in the inverse of X and in z_k if its rotation may be
-  any matrix, of which the nearest rotation is taken; or, with z_k = 0, by aligning points;
+  any matrix, replaced by the nearest rotation; or, with z_k = 0, by aligning points;
 - a ball in socket s, c_s = t_i + R_i z_k: linear.
 
 Where one of X and Z_k is known, the other follows by aligning points and axes, or linearly.

@@ -12,7 +12,7 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.estimation import DOUBTFUL, Estimate, identify
 from recalib.identification.linearisation import LEVER, Linearisation
 from recalib.identification.observations import Observations
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 SUSPICIOUS = 1e-3  # m along an axis: few instruments are so bad
 SETS, BEST = 100, 3  # small sets of rows, and how many of them are gone on from
@@ -51,5 +51,5 @@ def identify_by_consensus(model: ErrorModel, observations: Observations) -> Esti
 
 
 def _by_chance(model: ErrorModel) -> float:
-    """How many numbers an arm could fit whatever they are: 4 for each joint, 6 for its ends."""
+    """How many numbers an arm can fit exactly: 4 for each joint, 6 for its ends."""
     return AMPLE * (4 * len(model.nominal.slides) + 6)

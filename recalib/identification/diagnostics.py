@@ -12,7 +12,7 @@ NAMED = 5  # rows to look at first
 
 
 class Untrustworthy(RecalibError):
-    """An identification of which nobody can say what it is worth, or that is worth nothing."""
+    """An identification whose accuracy cannot be known, or that has none."""
 
 
 def check_postures(postures: Postures) -> Postures:
@@ -20,7 +20,7 @@ def check_postures(postures: Postures) -> Postures:
     if len(postures) < FEWEST:
         raise Untrustworthy(
             f"there are {len(postures.numbers)} rows of {len(postures)}"
-            f" posture{'s' * (len(postures) != 1)}; valid: at least {FEWEST} postures, all over"
+            f" posture{'s' * (len(postures) != 1)}; expected: at least {FEWEST} postures, all over"
             " the joints' ranges"
         )
     return postures
@@ -32,13 +32,13 @@ def check_estimate(estimate: Estimate) -> None:
     if not estimate.converged:
         raise Untrustworthy(
             "the geometry was still changing when its identification was stopped, with a noise of"
-            f" {1e3 * noise[0]:.2g} mm; valid: more rows, in postures less alike"
+            f" {1e3 * noise[0]:.2g} mm; try: more rows, in postures less alike"
         )
     if (noise > NOISIEST[: len(noise)]).any():
         found = [f"{1e3 * noise[0]:.1f} mm", *(f"{np.degrees(turn):.1f} deg" for turn in noise[1:])]
         rows = np.argsort(estimate.weights, kind="stable")[:NAMED] + 1
         raise Untrustworthy(
             f"the best arm still misses by {' and '.join(found)} along each axis, most of all in"
-            f" rows {', '.join(map(str, rows))} (the first is 1); valid: up to"
+            f" rows {', '.join(map(str, rows))} (the first is 1); expected: up to"
             f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg"
         )

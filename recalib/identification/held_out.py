@@ -15,7 +15,7 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
 from recalib.identification.postures import Postures
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 FOLDS = 5
 COVERED = 0.95  # of what is measured should lie within the intervals
@@ -30,16 +30,14 @@ class HeldOut:
 
     Attributes:
         residuals: (n, 3) m, or (n, 6) m and rad, along the axes of the instrument.
-        spreads: (n,) m, how far off it should be; see `Calibration.spreads`.
         folds: (n,) the number of the part in which a row was held out.
     """
 
     residuals: np.ndarray
-    spreads: np.ndarray
     folds: np.ndarray
 
     def __getitem__(self, rows: np.ndarray) -> "HeldOut":
-        return HeldOut(self.residuals[rows], self.spreads[rows], self.folds[rows])
+        return HeldOut(self.residuals[rows], self.folds[rows])
 
     @property
     def errors(self) -> np.ndarray:
@@ -51,29 +49,29 @@ class HeldOut:
         """(n,) m, a turn of one rad as `LEVER`."""
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
-    def factor(self) -> float:
-        """The radius that covers 95 % of measured positions in each part, over their spreads.
+    def radius(self) -> float:
+        """Within how much [m] of their predictions 95 % of measured positions lie, in each part.
 
-        The spreads know of noise and of what data left open, not of what no parameter can hold:
+        A covariance knows of noise and of what data left open, not of what no parameter can hold:
         that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
         apart, that differs from one to the next, and a new place may be as bad as the worst.
         """
-        ratios = self.errors[:, 0] / self.spreads
-        return max(_covering(ratios[self.folds == fold]) for fold in np.unique(self.folds))
+        off = self.errors[:, 0]
+        return max(_covering(off[self.folds == fold]) for fold in np.unique(self.folds))
 
     def coverage(self) -> float:
-        """The part of positions within intervals whose factor is that of the other folds."""
-        inside = np.empty(len(self.folds), dtype=bool)
-        for fold in np.unique(self.folds):
-            own = self.folds == fold
-            inside[own] = self[own].errors[:, 0] <= self[~own].factor() * self.spreads[own]
-        return float(inside.mean())
+        """The part of positions within the radius of the other folds."""
+        within = [
+            self[self.folds == fold].errors[:, 0] <= self[self.folds != fold].radius()
+            for fold in np.unique(self.folds)
+        ]
+        return float(np.concatenate(within).mean())
 
 
-def _covering(ratios: np.ndarray) -> float:
+def _covering(errors: np.ndarray) -> float:
     """The least of them that covers 95 % of others like them."""
-    rank = min(len(ratios), int(np.ceil((len(ratios) + 1) * COVERED)))
-    return float(np.sort(ratios)[rank - 1])
+    rank = min(len(errors), int(np.ceil((len(errors) + 1) * COVERED)))
+    return float(np.sort(errors)[rank - 1])
 
 
 def random_folds(observations: Observations, postures: Postures) -> np.ndarray:
@@ -124,11 +122,9 @@ def hold_out(
     fit: Fit, observations: Observations, weights: np.ndarray, folds: np.ndarray
 ) -> HeldOut:
     """Identify without each fold in turn, and predict it."""
-    count = len(observations)
-    residuals, spreads = np.empty((count, 3 * observations.kinds)), np.empty(count)
+    residuals = np.empty((len(observations), 3 * observations.kinds))
     for fold in np.unique(folds):
         held = folds == fold
-        calibration, asked = fit(observations[~held], weights[~held]), observations[held]
-        residuals[held] = calibration.residuals(asked)
-        spreads[held] = calibration.spreads(asked.joints, asked.targets)
-    return HeldOut(residuals, spreads, folds)
+        calibration = fit(observations[~held], weights[~held])
+        residuals[held] = calibration.residuals(observations[held])
+    return HeldOut(residuals, folds)

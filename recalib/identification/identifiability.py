@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.linalg
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import ErrorModel
@@ -18,7 +17,7 @@ from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
 POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
@@ -49,14 +48,14 @@ def unidentifiable_parameters(
     """The parameters of geometry that observations leave open, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
-    information = _information(calibration, observations, estimate.weights)[np.ix_(order, order)]
+    root = _root(calibration, observations, estimate.weights)[:, order]
     anywhere = _anywhere(calibration, observations)
-    more = _information(calibration, anywhere, np.ones(len(anywhere)))[np.ix_(order, order)]
-    least = ROUNDING * np.maximum(np.diag(more), TOLD)
+    more = _root(calibration, anywhere, np.ones(len(anywhere)))[:, order]
+    least = ROUNDING * np.maximum(np.sum(more**2, axis=0), TOLD)
     lasting = {number for number, _ in _dependent(more, least)}
     return [
         Unidentifiable(int(order[number]), tuple(order[partners].tolist()), number in lasting)
-        for number, partners in _dependent(information, np.full(len(order), TOLD))
+        for number, partners in _dependent(root, np.full(len(order), TOLD))
     ]
 
 
@@ -70,15 +69,19 @@ def _order(model: ErrorModel) -> np.ndarray:
     return order[model.deviations[order] > HELD]
 
 
-def _information(
-    calibration: Calibration, observations: Observations, weights: np.ndarray
-) -> np.ndarray:
-    """That of the data (P, P) on parameters over their prior deviations."""
+def _root(calibration: Calibration, observations: Observations, weights: np.ndarray) -> np.ndarray:
+    """R (P, P) with R' R the data's information on parameters over their prior deviations.
+
+    R is of the slopes themselves: in their squares, what is next to nothing is lost to rounding.
+    """
     model, estimate = calibration.model, calibration.estimate
     parameters, terms = estimate.parameters / model.deviations, model.terms(observations.joints)
     linear = Linearisation(model, parameters, observations, terms)
-    by_kind, _ = linear.normal_equations(weights)
-    return np.einsum("k,kpq->pq", estimate.noise**-2.0, by_kind)
+    root = np.empty((0, len(parameters)))
+    for jacobians, noise in zip(linear.jacobians, estimate.noise, strict=True):
+        rows = jacobians * (np.sqrt(weights) / noise)[:, None, None]
+        root = np.linalg.qr(np.concatenate([root, rows.reshape(-1, len(parameters))])).R
+    return root
 
 
 def _anywhere(calibration: Calibration, observations: Observations) -> Observations:
@@ -120,19 +123,16 @@ def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> 
     return Observations(found[reached], None, targets[reached], sockets[reached])
 
 
-def _dependent(information: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:
-    """Each row (p,) that those before it leave less than `least` of, with its partners."""
+def _dependent(root: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[int]]]:
+    """Each column that those before it leave less information of than `least` (p,); partners."""
     accepted: list[int] = []
-    for number in range(len(information)):
-        across = information[accepted, number]
-        makes_up = np.zeros(0)
-        if accepted:
-            among = information[np.ix_(accepted, accepted)]
-            makes_up = scipy.linalg.cho_solve(scipy.linalg.cho_factor(among), across)
-        if information[number, number] - across @ makes_up >= least[number]:
+    for number, column in enumerate(root.T):
+        makes_up = np.linalg.lstsq(root[:, accepted], column, rcond=None)[0]
+        left = column - root[:, accepted] @ makes_up
+        if left @ left >= least[number]:
             accepted.append(number)
             continue
-        effects = np.abs(makes_up) * np.sqrt(np.diag(information)[accepted])
+        effects = np.abs(makes_up) * np.linalg.norm(root[:, accepted], axis=0)
         largest = effects.max(initial=0.0)
         weakest = SHARE * largest if largest**2 >= least[number] else np.inf
         strongest = np.argsort(-effects, kind="stable")[:PARTNERS]

@@ -17,7 +17,7 @@ from recalib.identification.frames import HELD, Frames
 from recalib.identification.linearisation import LEVER, Linearisation, displacements
 from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
 MOST = 200  # rows to estimate from: more tell little more
@@ -56,7 +56,7 @@ def initial_frames(
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
             f"{len(observations)} rows leave open where instrument and target are;"
-            f" valid: at least {fewest(observations)}"
+            f" expected: at least {fewest(observations)}"
         )
     rng = generator(0, "first guess")
     if len(observations) > MOST:
@@ -81,7 +81,7 @@ def initial_frames(
     if not error <= FARTHEST:
         raise NoInitialEstimate(
             "no place of instrument and target explains the measurements: the best leaves"
-            f" {1e3 * error:.0f} mm; valid: up to {1e3 * FARTHEST:.0f} mm, from an arm as its"
+            f" {1e3 * error:.0f} mm; expected: up to {1e3 * FARTHEST:.0f} mm, from an arm as its"
             " description has it, with the same joints, signs, zeros and units"
         )
     return best

@@ -5,7 +5,7 @@ import numpy as np
 from recalib.errors import BadMeasurement
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.observations import Observations
-from recalib.measurements import FARTHEST
+from recalib.loop.measurements import FARTHEST
 
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 

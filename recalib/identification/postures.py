@@ -43,6 +43,6 @@ def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postu
     tree, numbers = KDTree(places), np.full(len(places), -1)
     for row, place in enumerate(places):
         if numbers[row] < 0:  # a posture is no chain: all its rows are near the first of them
-            near = np.array(tree.query_ball_point(place, radius))
-            numbers[near[numbers[near] < 0]] = numbers.max() + 1
+            alike = np.array(tree.query_ball_point(place, radius))
+            numbers[alike[numbers[alike] < 0]] = numbers.max() + 1
     return Postures(numbers, np.ptp(places, axis=0) <= radius)

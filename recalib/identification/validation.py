@@ -74,16 +74,16 @@ class Validation:
         """Of position [m], over the rows that count."""
         return float(self.errors(way, kind)[self.counted, 0].mean())
 
-    def radii(self, joints: np.ndarray) -> np.ndarray:
-        """Within how much (n,) [m] of its prediction 95 % of measured positions lie.
+    @property
+    def radius(self) -> float:
+        """Within how much [m] of their predictions 95 % of measured positions lie.
 
         For the calibration that is chosen, also in postures away from those measured.
         """
-        held = self.held_out[BLOCKWISE][self.chosen][self.counted]
-        return held.factor() * self.calibration.spreads(joints)
+        return self.held_out[BLOCKWISE][self.chosen][self.counted].radius()
 
     def coverage(self, way: str) -> float:
-        """The part of held-out positions that lie within such radii, made without them."""
+        """The part of held-out positions that lie within such a radius, made without them."""
         return self.held_out[way][self.chosen][self.counted].coverage()
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
+from recalib.files.storage import read_file
 from recalib.identification.calibration import Calibration
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
@@ -26,7 +27,6 @@ from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
-from recalib.storage import read_file
 
 
 @dataclass(frozen=True)

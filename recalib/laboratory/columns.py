@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.quantities import ANGLE, LENGTH, Quantity
+from recalib.files.quantities import ANGLE, LENGTH, Quantity
+from recalib.files.storage import read_file
 from recalib.spelling import instead
-from recalib.storage import read_file
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
@@ -58,12 +58,12 @@ class Table:
             valid = ", ".join(
                 f"{column} [{unit}]" if unit else column for unit in sorted(quantity.units)
             )
-            raise InvalidFile(self.path, f"column {column!r} {given}; valid: {valid}")
+            raise InvalidFile(self.path, f"column {column!r} {given}; expected: {valid}")
         numbers = np.array([_number(cell) for cell in self.cells[column]])
-        self._check(column, np.isfinite(numbers), "valid: a number")
+        self._check(column, np.isfinite(numbers), "expected: a number")
         numbers *= quantity.units[unit]
         most, text = FARTHEST.get(quantity, (np.inf, ""))
-        valid = f"valid: up to {text}. Is its unit right?"
+        valid = f"expected: up to {text}. Is its unit right?"
         self._check(column, np.abs(numbers) <= most, valid, unit)
         return numbers
 
@@ -115,7 +115,7 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = No
         raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
     headings = [cell.strip() for cell in rows[0]]
     if len(headings) == 1 and ";" in headings[0]:
-        raise InvalidFile(path, "its columns are separated by semicolons; valid: commas")
+        raise InvalidFile(path, "its columns are separated by semicolons; expected: commas")
     if unknown := [heading for heading in columns if heading not in headings]:
         raise InvalidFile(
             path, f"its description names column {unknown[0]!r}; it has {', '.join(headings)}"
@@ -123,7 +123,8 @@ def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = No
     for row, line in enumerate(rows[1:], 1):
         if len(line) != len(headings):
             raise InvalidFile(
-                path, f"row {row} has {len(line)} cells; valid: {len(headings)}, as in the header"
+                path,
+                f"row {row} has {len(line)} cells; expected: {len(headings)}, as in the header",
             )
     units: dict[str, str] = {}
     cells: dict[str, list[str]] = {}

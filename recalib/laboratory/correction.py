@@ -1,8 +1,8 @@
 """What was identified of an arm, in one file that needs no other: enough to correct commands.
 
-The file is an archive (`recalib.archives`). Its header holds the format's version, the nominal
-arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's URDF,
-the calibration's, and the joint coordinates learned from.
+The file is an archive (`recalib.files.archives`). Its header holds the format's version, the
+nominal arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's
+URDF, the calibration's, and the joint coordinates learned from.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.archives import read_archive, refused, write_archive
+from recalib.files.archives import read_archive, refused, write_archive
 from recalib.identification.calibration import Calibration
 from recalib.nominal.arms import arm_of
 from recalib.nominal.kinematics import Arm
@@ -70,8 +70,9 @@ def load_correction(path: str | PathLike[str]) -> Correction:
 def _fits(correction: Correction) -> bool:
     """Whether the parts belong to one another; where they do not, it may raise anything."""
     calibration, learned = correction.calibration, correction.learned
-    poses, jacobians = calibration.forward_and_jacobian(learned[:1])
-    numbers = poses, jacobians, calibration.spreads(learned[:1])
+    estimate = calibration.estimate
+    unknown = estimate.parameters @ estimate.covariance @ estimate.parameters
+    numbers = *calibration.forward_and_jacobian(learned[:1]), unknown, estimate.noise
     return learned.shape[1:] == (len(correction.arm.joints),) and all(
         array.size and np.isfinite(array).all() for array in numbers
     )

@@ -10,9 +10,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.files.quantities import ANGLE, LENGTH, Quantity
+from recalib.files.storage import read_file
 from recalib.laboratory.columns import FARTHEST
-from recalib.quantities import ANGLE, LENGTH, Quantity
-from recalib.storage import read_file
 
 PARTS = "columns", "instrument", "target", "distance"
 MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them

@@ -7,7 +7,7 @@ from recalib.laboratory.panels import Axis, Panel, drawing
 from recalib.laboratory.summary import UNITS
 
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
-WIDTH = 960  # of a drawing, in units of which a page has about as many
+WIDTH = 960  # of a drawing, in units; a page has about as many
 COLUMNS = 3
 LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
 LEAST = 1e-4  # mm or deg: below that nobody measures

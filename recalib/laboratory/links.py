@@ -6,12 +6,12 @@ from xml.etree import ElementTree
 import pinocchio as pin
 
 from recalib.errors import InvalidFile
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.columns import read_table
 from recalib.laboratory.urdf import angles_of, written
 from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, TOOL, Row
 from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.quantities import ANGLE, LENGTH
 
 JOINT, KIND = "joint", "kind"
 MOUNT = f"{TOOL}_mount"  # the joint by which the tool hangs on the last link
@@ -36,10 +36,10 @@ def read_rows(path: str | PathLike[str]) -> list[Row]:
     for row, (name, kind) in enumerate(zip(table.cells[JOINT], kinds, strict=True), 1):
         if name in ("", MOUNT):
             found = "is empty" if not name else f"is {MOUNT!r}, which the tool's is called"
-            raise InvalidFile(path, f"row {row} of column {JOINT!r} {found}; valid: another name")
+            raise InvalidFile(path, f"row {row} of column {JOINT!r} {found}; try: another name")
         if kind not in KINDS:
             valid = " or ".join(KINDS)
-            raise InvalidFile(path, f"row {row} of column {KIND!r} is {kind!r}; valid: {valid}")
+            raise InvalidFile(path, f"row {row} of column {KIND!r} is {kind!r}; expected: {valid}")
     numbers = {name: table.numbers(name, quantity) for name, quantity in PARAMETERS.items()}
     return [
         Row(

@@ -8,11 +8,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
+from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.diagnostics import FEWEST
 from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
-from recalib.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.spelling import listed
 
 POSITION = "x", "y", "z"
@@ -83,11 +83,11 @@ def read_measurements(
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
     if len(read) < FEWEST:
-        raise InvalidFile(path, f"it has {len(read)} rows; valid: at least {FEWEST}")
+        raise InvalidFile(path, f"it has {len(read)} rows; expected: at least {FEWEST}")
     if read.positions is None and read.sockets is None:
-        raise InvalidFile(path, "nothing was measured in it; valid: x, y, z or socket")
+        raise InvalidFile(path, "nothing was measured in it; expected: x, y, z or socket")
     if read.positions is not None and read.sockets is not None:
-        raise InvalidFile(path, "it has both positions and sockets; valid: one of them")
+        raise InvalidFile(path, "it has both positions and sockets; expected: one of them")
     return read
 
 
@@ -98,7 +98,7 @@ def read_desired(path: str | PathLike[str], arm: Arm) -> Measurements:
     """
     read = _read(path, arm, None)
     if read.coordinates is None and read.positions is None:
-        raise InvalidFile(path, f"it has neither x, y, z nor joints; valid: {_columns(arm)}")
+        raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
     return read
 
 
@@ -153,7 +153,7 @@ def _labels(table: Table, column: str) -> np.ndarray | None:
     labels = table.cells[column]
     if "" in labels:
         row = labels.index("") + 1
-        raise InvalidFile(table.path, f"row {row} of column {column!r} is empty; valid: a name")
+        raise InvalidFile(table.path, f"row {row} of column {column!r} is empty; expected: a name")
     return np.array(labels)
 
 
@@ -168,18 +168,18 @@ def _columns(arm: Arm) -> str:
 
 
 def _lacking(arm: Arm, joint: str) -> str:
-    return f"it lacks a column for joint {joint!r}; the arm's are {_columns(arm)}"
+    return f"the column of joint {joint!r} is missing; expected: {_columns(arm)}"
 
 
 def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
-    nominal, missed, positions = vectors[NOMINAL], vectors[MISSED], vectors[POSITION]
-    if missed is None:
+    nominal, error, positions = vectors[NOMINAL], vectors[MISSED], vectors[POSITION]
+    if error is None:
         return positions
     if nominal is None or positions is not None:
         raise InvalidFile(
             table.path, f"{', '.join(MISSED)} stand beside {', '.join(NOMINAL)} and no x, y, z"
         )
-    return nominal + missed
+    return nominal + error
 
 
 def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray | None:
@@ -199,9 +199,9 @@ def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
         return None
     if len(given) > 1:
         both = " and ".join(", ".join(group) for group in given)
-        raise InvalidFile(table.path, f"its rotations are given twice: {both}; valid: once")
+        raise InvalidFile(table.path, f"its rotations are given twice: {both}; expected: once")
     if vectors[POSITION] is None and vectors[MISSED] is None:
-        raise InvalidFile(table.path, "it has rotations without positions; valid: x, y, z, too")
+        raise InvalidFile(table.path, "it has rotations without positions; expected: x, y, z, too")
     ((group, numbers),) = given.items()
     if group == QUATERNION:
         lengths = np.linalg.norm(numbers, axis=1)
@@ -210,7 +210,7 @@ def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
             row = wrong.argmax()
             raise InvalidFile(
                 table.path,
-                f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; valid: 1",
+                f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1",
             )
         return Rotation.from_quat(numbers).as_matrix()
     if group[0] == "rx":

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from recalib.errors import InvalidFile, InvalidSetting
-from recalib.storage import IN_THE_MAKING
+from recalib.files.storage import IN_THE_MAKING
 
 
 def check_new(path: str | os.PathLike[str], folder: bool = False) -> None:

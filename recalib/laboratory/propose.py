@@ -14,7 +14,7 @@ from recalib.identification.design import most_telling
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 DRAWN = 400  # candidates
 BEYOND = 0.1  # of the range that was looked at, on either side

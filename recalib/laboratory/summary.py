@@ -18,7 +18,7 @@ from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.doubts import doubts
 from recalib.laboratory.parameters import unidentifiable_directions
 from recalib.laboratory.urdf import angles_of
-from recalib.meshes import with_own_meshes
+from recalib.nominal.meshes import with_own_meshes
 
 DOING = {
     NOTHING: "nothing",
@@ -57,21 +57,17 @@ def verdict(result: Calibrated) -> str:
 def _worth(result: Calibrated) -> str:
     chosen = result.validation.chosen
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
-    before, after, near = (1e3 * result.validation.mean_error(*one) for one in compared)
+    before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
+    within = 1e3 * result.validation.radius
     if not result.worthwhile:
         return (
-            f"Correcting is no better than doing nothing: the {before:.3g} mm that the nominal arm"
-            " misses on average do not become less on postures that were not learned from."
+            "Correcting is no better than doing nothing: on postures that were not learned from,"
+            f" the nominal arm's mean error of {before:.3g} mm does not fall."
         )
     return (
         f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
-        f" {after:.3g} mm, 95 % within {_radius(result):.3g} mm; near them, to {near:.3g} mm."
+        f" {after:.3g} mm, 95 % within {within:.3g} mm; near them, to {at_random:.3g} mm."
     )
-
-
-def _radius(result: Calibrated) -> float:
-    """Within how many mm 95 % of positions should lie, in a middle posture."""
-    return float(1e3 * np.median(result.validation.radii(result.observations.joints)))
 
 
 def notes(result: Calibrated) -> list[str]:
@@ -128,19 +124,19 @@ def _notes(result: Calibrated) -> Iterator[str]:
         yield f"rows that do not fit the others and hardly counted: {listed}{more}"
     covered = 100 * result.validation.coverage(BLOCKWISE)
     yield (
-        f"95 % of positions should lie within {_radius(result):.3g} mm, also in places away from"
-        f" those measured (held out: {covered:.0f} %)"
+        f"95 % of positions should lie within {1e3 * result.validation.radius:.3g} mm, also in"
+        f" places away from those measured (held out: {covered:.0f} %)"
     )
     lasting: list[str] = []
     passing: list[str] = []
     for words, other_postures_tell in unidentifiable_directions(result):
         (passing if other_postures_tell else lasting).append(words)
     for words in passing[:MOST]:
-        yield f"other postures would tell: {words}"
+        yield f"identifiable from other postures: {words}"
     for words in lasting:
         if words.startswith("offset"):
-            yield f"no postures would tell: {words}"
-    yield f"parameters that no such measurements tell apart, kept small: {len(lasting)}"
+            yield f"not identifiable from any posture: {words}"
+    yield f"parameters not identifiable from such measurements, kept small: {len(lasting)}"
     columns = arm.joints, arm.slides, postures.still, result.observations.joints.T
     for joint, slides, still, column in zip(*columns, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]

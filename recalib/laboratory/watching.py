@@ -7,7 +7,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.viewing import link_placements, log_meshes, send_frame
+from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
 
 ARM, ROW = "arm", "row"
 COLOURS, GREY = {"before": (213, 94, 0), "after": (0, 114, 178)}, (120, 120, 120)

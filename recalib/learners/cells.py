@@ -6,7 +6,7 @@ matrix product: memory is passed through once in `KEPT` iterations. What is read
 
 import numpy as np
 
-from recalib.compiled import compiled
+from recalib.numerics.compiled import compiled
 
 KEPT = 32  # updates, at most: more make reading one cell slower than they make updates faster
 
@@ -67,7 +67,7 @@ class Cells:
         kept, self._kept = slice(self._kept), 0
         for run, cells in enumerate(self._cells):
             g_k, g_kl, targets = (
-                each[run, kept] for each in (self._g_k, self._g_kl, self._targets)
+                array[run, kept] for array in (self._g_k, self._g_kl, self._targets)
             )
             if self._increments:
                 spread = g_kl[:, :, None] * targets[:, None, :]
@@ -108,8 +108,8 @@ def _outlast(weights: np.ndarray) -> np.ndarray:
     Each later update towards a value leaves 1 - weight of what was there. In place; returns what
     all together leave (...) of what was there before.
     """
-    left = 1 - weights
+    remaining = 1 - weights
     for update in reversed(range(len(weights) - 1)):
-        left[update] *= left[update + 1]
-    weights[:-1] *= left[1:]
-    return left[0]
+        remaining[update] *= remaining[update + 1]
+    weights[:-1] *= remaining[1:]
+    return remaining[0]

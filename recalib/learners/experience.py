@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from recalib.interfaces import State
+from recalib.loop.interfaces import State
 
 PLACES = 3  # binary digits of the numbers of moves after which to learn anew
 
@@ -59,7 +59,9 @@ class Experience:
     def state(self) -> list[State]:
         """The moves of each run."""
         parts = zip(self._sent, self._achieved, self._executed, strict=True)
-        return [dict(zip(("sent", "achieved", "executed"), each, strict=True)) for each in parts]
+        return [
+            dict(zip(("sent", "achieved", "executed"), arrays, strict=True)) for arrays in parts
+        ]
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""

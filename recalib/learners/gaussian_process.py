@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
-from recalib.regression import Process, is_time_to_search
+from recalib.loop.interfaces import State
+from recalib.numerics.regression import Process, is_time_to_search
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot

@@ -15,9 +15,9 @@ from recalib.identification.calibration import Calibration, angles_for
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
-from recalib.interfaces import State
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.observer import Observer
+from recalib.loop.interfaces import State
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from recalib.interfaces import Execute, State
 from recalib.learners.maps import HierarchicalMap
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.measurements import check_moves
+from recalib.loop.interfaces import Execute, State
+from recalib.loop.measurements import check_moves
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot
@@ -46,8 +46,8 @@ class HierarchicalLearner:
         k, l = self.nets.winner(desired)
         cells = self._runs[:, None], k, l
         maps = self.maps.values()
-        theta = np.concatenate([each.theta.all[cells] for each in maps], axis=-1)
-        jacobian = np.concatenate([each.jacobian.all[cells] for each in maps], axis=-2)
+        theta = np.concatenate([net.theta.all[cells] for net in maps], axis=-1)
+        jacobian = np.concatenate([net.jacobian.all[cells] for net in maps], axis=-2)
         return theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
@@ -58,8 +58,8 @@ class HierarchicalLearner:
         """
         k, l = self.nets.winner(desired)
         maps = self.maps.values()
-        theta = np.concatenate([each.theta.at(k, l) for each in maps], axis=-1)
-        jacobian = np.concatenate([each.jacobian.at(k, l) for each in maps], axis=-2)
+        theta = np.concatenate([net.theta.at(k, l) for net in maps], axis=-1)
+        jacobian = np.concatenate([net.jacobian.at(k, l) for net in maps], axis=-2)
         command = theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
         first = execute(command[:, None])
         last = check_moves(command[:, None], first.achieved, first.executed)
@@ -85,11 +85,11 @@ class HierarchicalLearner:
         if not self.rules.jacobian_increments:
             new_jacobian = jacobian + new_jacobian
         rate = self.rules.learning_rate(self.schedule, fraction)
-        for name, each in self.maps.items():
+        for name, net in self.maps.items():
             widths = self.rules.widths(self.schedule, name, fraction)
-            near = self.nets.neighbourhood(k, l, *widths)
-            each.theta.update(rate * learn_theta, *near, new_theta[:, each.outputs])
-            each.jacobian.update(rate * learn_jacobian, *near, new_jacobian[:, each.outputs])
+            neighbourhood = self.nets.neighbourhood(k, l, *widths)
+            net.theta.update(rate * learn_theta, *neighbourhood, new_theta[:, net.outputs])
+            net.jacobian.update(rate * learn_jacobian, *neighbourhood, new_jacobian[:, net.outputs])
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
@@ -110,17 +110,17 @@ class HierarchicalLearner:
         """For each run theta and Jacobian of each map, as `HierarchicalMap` describes them."""
         return [
             {
-                name: {"theta": each.theta.all[run], "jacobian": each.jacobian.all[run]}
-                for name, each in self.maps.items()
+                name: {"theta": net.theta.all[run], "jacobian": net.jacobian.all[run]}
+                for name, net in self.maps.items()
             }
             for run in self._runs
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        for name, each in self.maps.items():
-            each.theta.all[:] = [state[name]["theta"] for state in states]
-            each.jacobian.all[:] = [state[name]["jacobian"] for state in states]
+        for name, net in self.maps.items():
+            net.theta.all[:] = [state[name]["theta"] for state in states]
+            net.jacobian.all[:] = [state[name]["jacobian"] for state in states]
 
 
 def applied(jacobian: np.ndarray, offset: np.ndarray) -> np.ndarray:

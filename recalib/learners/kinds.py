@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from recalib.errors import UnknownName
 
 if TYPE_CHECKING:  # whoever only asks for a kind need not wait for what a learner needs
-    from recalib.interfaces import Savable
+    from recalib.loop.interfaces import Savable
 
 # Where the class of each is at home.
 KINDS = {

@@ -4,8 +4,8 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from recalib.interfaces import Execute
-from recalib.measurements import Moves, check_moves
+from recalib.loop.interfaces import Execute
+from recalib.loop.measurements import Moves, check_moves
 
 
 class Observer(ABC):

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.interfaces import State
 from recalib.learners.observer import Observer
-from recalib.monomials import monomials
+from recalib.loop.interfaces import State
+from recalib.numerics.monomials import monomials
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot
@@ -41,7 +41,7 @@ class PolynomialLearner(Observer):
             raise InvalidSetting("degree of a polynomial learner", degree, "1 or 2")
         self._degree = degree
         degrees = np.repeat(
-            range(degree + 1), [math.comb(5 + each, each) for each in range(degree + 1)]
+            range(degree + 1), [math.comb(5 + power, power) for power in range(degree + 1)]
         )
         self._coefficients = np.zeros((runs, len(degrees), 6))
         # posterior covariance of the coefficients over the variance of the noise

@@ -118,11 +118,11 @@ class Schedule:
         """One for several runs, from that of each."""
         first = schedules[0]
         return cls(
-            np.array([each.initial_width for each in schedules]),
+            np.array([schedule.initial_width for schedule in schedules]),
             {
-                name: np.array([each.final_widths[name] for each in schedules]).T
+                name: np.array([schedule.final_widths[name] for schedule in schedules]).T
                 for name in first.final_widths
             },
-            np.array([each.initial_rate for each in schedules]),
-            np.array([each.final_rate for each in schedules]),
+            np.array([schedule.initial_rate for schedule in schedules]),
+            np.array([schedule.final_rate for schedule in schedules]),
         )

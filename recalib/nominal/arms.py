@@ -8,9 +8,9 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.files.storage import read_file
 from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
 from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.storage import read_file
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
@@ -90,7 +90,7 @@ class _Tree:
         robot = parsed(source, path)
         if path.suffix == ".xacro" or any("xacro" in element.tag for element in robot.iter()):
             raise UnsuitableRobot(
-                f"{path} is a xacro file; valid: what `xacro {path.name}` expands it to"
+                f"{path} is a xacro file; try: what `xacro {path.name}` expands it to"
             )
         links = {link.get("name", "") for link in robot.iterfind("link")}
         for joint in robot.iterfind("joint"):
@@ -141,7 +141,7 @@ class _Tree:
             if kind not in KINDS:
                 raise UnsuitableRobot(
                     f"the joint {joint.get('name')} between {base} and {tool} of {self._name} is"
-                    f" {kind}; valid: {', '.join(KINDS)}"
+                    f" {kind}; expected: {', '.join(KINDS)}"
                 )
             if kind != "fixed":
                 moving.append(joint.attrib["name"])

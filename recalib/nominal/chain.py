@@ -10,9 +10,9 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from recalib.compiled import compiled
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.newton import LONGEST_STEP, SINGULAR
+from recalib.numerics.compiled import compiled
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
@@ -69,7 +69,7 @@ class Chain(NamedTuple):
             poses: (posture, 4, 4) m.
             start: (posture, n) rad nearby.
 
-        Returns the angles and what is left of each residual (posture,), the largest of its numbers
+        Returns the angles and the error of each (posture,), the largest number of its residual
         in m and rad: above TOLERANCE, the pose was not reached.
         """
         return _solve(self, poses, start)
@@ -167,30 +167,30 @@ def _move(
 @compiled
 def _solve(chain: Chain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     joints = start.shape[1]
-    found, left = start.copy(), np.full(len(start), np.inf)
+    found, error = start.copy(), np.full(len(start), np.inf)
     origins, directions = np.empty((joints, 3)), np.empty((joints, 3))
-    reached, jacobian, missing = np.empty((3, 4)), np.empty((6, joints)), np.empty(6)
+    reached, jacobian, residual = np.empty((3, 4)), np.empty((6, joints)), np.empty(6)
     step = np.empty(joints)
     for index in range(len(start)):
         angles, goal = start[index].copy(), poses[index]
         for _ in range(STEPS):
             _stand(chain, 0, angles, reached, origins, directions)
-            residual = _missing(reached, goal, missing)
-            if residual < left[index]:
+            largest = _residual(reached, goal, residual)
+            if largest < error[index]:
                 _copy(angles, found[index])
-                left[index] = residual
-            if left[index] <= TOLERANCE:
+                error[index] = largest
+            if error[index] <= TOLERANCE:
                 break
             _move(chain, reached, origins, directions, jacobian)
             if joints == 6:
-                _copy(missing, step)
+                _copy(residual, step)
             if joints != 6 or not _eliminate(jacobian, step):
                 _move(chain, reached, origins, directions, jacobian)
-                _copy(_shortest_step(jacobian, missing), step)
+                _copy(_shortest_step(jacobian, residual), step)
             shorter = LONGEST_STEP / max(LONGEST_STEP, _longest(step))
             for joint in range(joints):
                 angles[joint] += shorter * step[joint]
-    return found, left
+    return found, error
 
 
 @compiled
@@ -200,10 +200,10 @@ def _copy(vector: np.ndarray, to: np.ndarray) -> None:
 
 
 @compiled
-def _shortest_step(jacobian: np.ndarray, missing: np.ndarray) -> np.ndarray:
+def _shortest_step(jacobian: np.ndarray, residual: np.ndarray) -> np.ndarray:
     """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
     if jacobian.shape[1] > 6:
-        square, vector = np.zeros((6, 6)), missing.copy()
+        square, vector = np.zeros((6, 6)), residual.copy()
         for row in range(6):
             for column in range(6):
                 for joint in range(jacobian.shape[1]):
@@ -214,11 +214,11 @@ def _shortest_step(jacobian: np.ndarray, missing: np.ndarray) -> np.ndarray:
                 for row in range(6):
                     step[joint] += jacobian[row, joint] * vector[row]
             return step
-    return np.linalg.pinv(jacobian, 1 / SINGULAR) @ missing
+    return np.linalg.pinv(jacobian, 1 / SINGULAR) @ residual
 
 
 @compiled
-def _missing(pose: np.ndarray, goal: np.ndarray, missing: np.ndarray) -> float:
+def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float:
     """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
 
     The translation [m], and the turn as its axis times the sine of its angle [rad], which is the
@@ -226,15 +226,15 @@ def _missing(pose: np.ndarray, goal: np.ndarray, missing: np.ndarray) -> float:
     returned for it.
     """
     for row in range(3):
-        missing[row] = goal[row, 3] - pose[row, 3]
+        residual[row] = goal[row, 3] - pose[row, 3]
         one, other = (row + 1) % 3, (row + 2) % 3
         turn = 0.0
         for column in range(3):
             turn += (
                 goal[other, column] * pose[one, column] - goal[one, column] * pose[other, column]
             )
-        missing[3 + row] = turn / 2
-    longest = _longest(missing)
+        residual[3 + row] = turn / 2
+    longest = _longest(residual)
     return np.inf if longest < SMALL and _is_half_a_turn(pose, goal) else longest
 
 

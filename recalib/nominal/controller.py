@@ -20,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
-from recalib.monomials import monomials, polynomial
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import ORIENTATION
 from recalib.nominal.robots import Robot, shown
+from recalib.numerics.monomials import monomials, polynomial
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
@@ -105,8 +105,8 @@ class Controller:
     def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
         # farther out a polynomial means nothing: the nearest pose of the workspace has to do
         beyond = np.abs(coordinates).max(axis=1, keepdims=True) > TRUSTED
-        near = np.where(beyond, np.clip(coordinates, -1, 1), coordinates)
-        start = polynomial(self._guess, near, DEGREE)
+        trusted = np.where(beyond, np.clip(coordinates, -1, 1), coordinates)
+        start = polynomial(self._guess, trusted, DEGREE)
         angles, residuals = self._chain.solve(poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
@@ -171,8 +171,8 @@ class Controller:
         robot = self.robot
         for knot, joint in np.argwhere((knots < robot.lower) | (knots > robot.upper)):
             coordinate, low, high = (
-                shown(each, robot.arm.slides[joint])
-                for each in (knots[knot, joint], robot.lower[joint], robot.upper[joint])
+                shown(bound, robot.arm.slides[joint])
+                for bound in (knots[knot, joint], robot.lower[joint], robot.upper[joint])
             )
             raise UnfitWorkspace(
                 f"the {robot.name} would have to move {robot.joints[joint]} to {coordinate} in"

@@ -11,13 +11,13 @@ NEXT, LAST = [1, 2, 0], [2, 0, 1]
 
 # From the groups (m,) that are asked for and their joint angles (m, n, joint) [rad] to the poses
 # (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, joint) there.
-Look = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+Kinematics = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 def solve_groups(
-    look: Look, goals: np.ndarray, start: np.ndarray, tolerance: float, steps: int
+    kinematics: Kinematics, goals: np.ndarray, start: np.ndarray, tolerance: float, steps: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Joint angles (group, n, joint) [rad] that take tools to goals, and what is left (group, n).
+    """Joint angles (group, n, joint) [rad] that take tools to goals, and their errors (group, n).
 
     With more joints than a goal has numbers, each step is the shortest; with fewer, the one that
     leaves least. A group is solved when all of its goals are; where one is not, its best angles are
@@ -26,56 +26,57 @@ def solve_groups(
     Args:
         goals: poses (group, n, 4, 4) or positions (group, n, 3) m.
         start: (group, n, joint) rad nearby.
-        tolerance: of the residuals, in m and rad.
+        tolerance: of errors, in m and rad.
         steps: at most so many.
     """
-    found, left = start.copy(), np.full(start.shape[:2], np.inf)
-    unsolved, angles, best, least = np.arange(len(goals)), start, found, left
+    found, error = start.copy(), np.full(start.shape[:2], np.inf)
+    unsolved, angles, best, least = np.arange(len(goals)), start, found, error
     for _ in range(steps):
-        reached, jacobians = look(unsolved, angles)
-        missing = _missing(reached, goals)
-        residuals = np.abs(missing).max(axis=-1)
-        better = residuals < least
+        reached, jacobians = kinematics(unsolved, angles)
+        residual = _residual(reached, goals)
+        errors = np.abs(residual).max(axis=-1)
+        better = errors < least
         if better.all():
-            best, least = angles, residuals
+            best, least = angles, errors
         else:
             best = np.where(better[..., None], angles, best)
-            least = np.where(better, residuals, least)
+            least = np.where(better, errors, least)
         goes_on = (least > tolerance).any(axis=1)
         if not goes_on.any():
             break
         if not goes_on.all():
-            found[unsolved], left[unsolved] = best, least
-            unsolved, goals, angles, best, least, jacobians, missing = (
-                each[goes_on] for each in (unsolved, goals, angles, best, least, jacobians, missing)
+            found[unsolved], error[unsolved] = best, least
+            unsolved, goals, angles, best, least, jacobians, residual = (
+                array[goes_on]
+                for array in (unsolved, goals, angles, best, least, jacobians, residual)
             )
-        turns = _solve_each(jacobians[..., : missing.shape[-1], :], missing)
-        longest = np.abs(turns).max(axis=-1, keepdims=True)
-        turns *= LONGEST_STEP / np.maximum(LONGEST_STEP, longest)
-        angles = angles + turns
-    found[unsolved], left[unsolved] = best, least
-    return found, left
+        step = _solve_each(jacobians[..., : residual.shape[-1], :], residual)
+        longest = np.abs(step).max(axis=-1, keepdims=True)
+        step *= LONGEST_STEP / np.maximum(LONGEST_STEP, longest)
+        angles = angles + step
+    found[unsolved], error[unsolved] = best, least
+    return found, error
 
 
-def _missing(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+def _residual(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     """What takes the poses `start` (..., 3 or 4, 4) to `end`, along the base's axes.
 
     The translation (..., 3) [m] and, unless `end` are positions (..., 3), the turn (..., 6) [rad]
     as its axis times the sine of its angle, which is the angle itself where Newton's method ends.
-    Beyond a right angle it is the angle, lest half a turn be taken for none.
+    Beyond a right angle it is the angle, or half a turn would count as none.
     """
     if end.ndim < start.ndim:
         return end - start[..., :3, 3]
     between = end[..., :3, :3] @ start[..., :3, :3].swapaxes(-2, -1)
-    missing = np.empty((*between.shape[:-2], 6))
-    missing[..., :3] = end[..., :3, 3] - start[..., :3, 3]
-    missing[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
+    residual = np.empty((*between.shape[:-2], 6))
+    residual[..., :3] = end[..., :3, 3] - start[..., :3, 3]
+    residual[..., 3:] = (between - between.swapaxes(-2, -1))[..., LAST, NEXT] / 2
     far = np.trace(between, axis1=-2, axis2=-1) < 1
     if far.any():
         from scipy.spatial.transform import Rotation  # seldom needed: no start waits for it
 
-        missing[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
-    return missing
+        residual[far, 3:] = Rotation.from_matrix(between[far]).as_rotvec()
+    return residual
 
 
 def _solve_each(matrices: np.ndarray, vectors: np.ndarray) -> np.ndarray:

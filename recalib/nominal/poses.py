@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.compiled import compiled
 from recalib.errors import UnknownName
+from recalib.numerics.compiled import compiled
 
 COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
 ERRORS = "norm", "coordinates"  # of a pose

@@ -112,8 +112,8 @@ def load_robot(
     joints = arm.joints
     if len(joints) < 6:
         raise UnsuitableRobot(
-            f"{path.name} moves {tool!r} with {len(joints)} joints: {', '.join(joints)}; valid: at"
-            " least six, for a workspace in which poses have six coordinates"
+            f"{path.name} moves {tool!r} with {len(joints)} joints: {', '.join(joints)}; expected:"
+            " at least six, for a workspace in which poses have six coordinates"
         )
     for key, given in (("home", home), ("limits", limits)):
         for joint in given:

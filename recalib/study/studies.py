@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from recalib.errors import RecalibError
-from recalib.study.configuration.checks import check
+from recalib.study.checks.consistency import check
 from recalib.study.configuration.messages import (
     InvalidConfiguration,
     Mistake,
@@ -17,10 +17,10 @@ from recalib.study.configuration.messages import (
     unlike,
 )
 from recalib.study.configuration.reading import Check, Source, placed, read_study
+from recalib.study.configuration.shipped import SHIPPED, root_of
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import Placed, from_mapping, shown
-from recalib.study.shipped import SHIPPED, root_of
-from recalib.study.trainings import Trainings
+from recalib.study.plan.trainings import Trainings
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
@@ -37,7 +37,7 @@ class NotShipped(RecalibError):
         self.changed = list(changed)
         super().__init__(
             f"not the shipped study: it differs in {', '.join(changed)}, and the shipped one alone"
-            f" may write README, docs and figures; valid: `name: my_study` beside the changes, for"
+            f" may write README, docs and figures; try: `name: my_study` beside the changes, for"
             f" results in {root_of('my_study')}, or `make ship` to ship this one instead"
         )
 
@@ -96,7 +96,7 @@ def read_studies(
         others.insert(0, base)
     for study in others:
         if study != studies.setdefault(root_of(study.name), study):
-            raise NameTaken(f"two studies are called {study.name!r}; valid: a name of its own")
+            raise NameTaken(f"two studies are called {study.name!r}; try: a name of its own")
     if shipped := studies.get(root_of(SHIPPED)):
         check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
     return root_of(main.name), studies
@@ -133,9 +133,9 @@ def _typed(value: Any) -> Any:
     """Numbers, true, false and null as such: inside of brackets the command line has text only."""
     match value:
         case Mapping():
-            return {key: _typed(each) for key, each in value.items()}
+            return {key: _typed(item) for key, item in value.items()}
         case list() | tuple():
-            return [_typed(each) for each in value]
+            return [_typed(item) for item in value]
         case str():
             with suppress(ValueError):
                 meant = json.loads(value)
@@ -156,12 +156,14 @@ def named_files(project: Path, study: Study) -> list[Mistake]:
 
 def ask_robots(study: Study, scenarios: Sequence[str]) -> list[Mistake]:
     """What the robots say of these scenarios; see `check_robots`."""
-    from recalib.study.configuration.robot_checks import check_robots  # it takes half a second
+    from recalib.study.checks.geometry import check_robots  # it takes half a second
 
     return check_robots(study, scenarios)
 
 
 def ship(project: Path) -> None:
     """Make config.yaml the shipped study."""
-    text = json.dumps(digests(read_study(project / CONFIGURATION)), indent=2) + "\n"
+    text = (
+        json.dumps(digests(read_study(project / CONFIGURATION, checks=(check,))), indent=2) + "\n"
+    )
     (project / LOCK).write_text(text, encoding="utf-8")

@@ -8,7 +8,6 @@ from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.damaged.words import words
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.robots import link_end
-from tests.conftest import loaded_with
 
 ANGLES = np.random.default_rng(3).uniform(-1, 1, (20, 6))
 
@@ -62,9 +61,11 @@ def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     damaged = apply(robot, [LinkShortening(link, 0.04, "axis")])
     ends = [link_end(arm.model, "tool0", robot.links[link]) for arm in (robot.arm, damaged.arm)]
     assert np.allclose(ends, [before, after])
-    with pytest.raises(InvalidSetting, match=r"below 61.20 cm|below 9.22 cm"):
+    with pytest.raises(
+        InvalidSetting, match=r"61\.2 cm.*; expected: from 0 to below (61.20|9.22) cm"
+    ):
         apply(robot, [LinkShortening(link, 0.612, "axis")])
-    with pytest.raises(UnknownName, match="valid: axis or line"):
+    with pytest.raises(UnknownName, match="expected: axis or line"):
         LinkShortening(link, 0.04, "z")
 
 
@@ -93,7 +94,7 @@ def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
 
 
 def test_a_link_cannot_grow():
-    with pytest.raises(InvalidSetting, match="LinkShortening.length is -0.01; valid: a finite"):
+    with pytest.raises(InvalidSetting, match="LinkShortening.length is -0.01; expected: a finite"):
         LinkShortening("forearm_link", -0.01)
 
 
@@ -131,11 +132,7 @@ def test_what_may_be_negative_and_what_grows_with_a_damage():
 
 @pytest.mark.parametrize("amount", [np.nan, np.inf, -np.inf])
 def test_what_may_be_negative_must_be_finite(amount):
-    with pytest.raises(InvalidSetting, match=r"EncoderShift\.angle is .*; valid: finite$"):
+    with pytest.raises(InvalidSetting, match=r"EncoderShift\.angle is .*; expected: finite$"):
         EncoderShift("elbow_joint", amount)
-    with pytest.raises(InvalidSetting, match=r"BaseShift\.rotation is .*; valid: finite$"):
+    with pytest.raises(InvalidSetting, match=r"BaseShift\.rotation is .*; expected: finite$"):
         BaseShift(rotation=(0.0, 0.0, amount))
-
-
-def test_damages_are_described_without_the_libraries_that_move_arms():
-    assert loaded_with("import recalib.damaged.kinds", {"pinocchio", "scipy"}) == set()

@@ -113,10 +113,10 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
 @pytest.mark.parametrize(
     ("kind", "sizes", "message"),
     [
-        (Noise, (-1e-4, 0.0), "Noise.position is -0.0001; valid: a finite number from 0 on"),
+        (Noise, (-1e-4, 0.0), "Noise.position is -0.0001; expected: a finite number from 0 on"),
         (Noise, (0.0, np.nan), "Noise.orientation is nan"),
         (Repeatability, (np.inf,), "Repeatability.angle is inf"),
-        (Outliers, (1.1, 0.05), "Outliers.share is 1.1; valid: from 0 to 1"),
+        (Outliers, (1.1, 0.05), "Outliers.share is 1.1; expected: from 0 to 1"),
         (Outliers, (0.1, -0.05), "Outliers.size is -0.05"),
     ],
 )

@@ -8,7 +8,8 @@ import time
 from pathlib import Path
 
 from tests.faults.faults import FAULTS, SHORT
-from tests.faults.yard import Broken, NotTried, Yard
+from tests.faults.yard import NotTried, Yard
+from tests.project import Broken
 
 
 def main() -> int:

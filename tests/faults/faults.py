@@ -14,11 +14,14 @@ import subprocess
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
-from tests.faults.yard import RESULTS, NotTried, Project, Yard, expect, kill
+from tests.faults.yard import NotTried, Yard, made, whole
+from tests.project import Project, ended, expect, kill
 
 Fault = Callable[[Yard], str]
+RESULTS = Path("results/studies/faults")
 FAULTS: dict[str, Fault] = {}
 SHORT: list[str] = []  # the names of those that take little time
 SAME = "same results as undisturbed, no strays"
@@ -45,71 +48,77 @@ def tried(name: str, short: bool = False) -> Callable[[Fault], Fault]:
     return add
 
 
+def begun(yard: Yard) -> tuple[Project, subprocess.Popen]:
+    """A run from the beginning that is at work."""
+    project = yard.bare()
+    process = project.start()
+    project.at_work(process)
+    return project, process
+
+
+def goes_on(yard: Yard, project: Project) -> None:
+    """The next run ends well, with what an undisturbed run makes."""
+    project.run().well()
+    yard.finished(project)
+
+
 @tried("kill -9 of all processes at random moments, run again each time")
 def killed(yard: Yard) -> str:
     project, luck = yard.bare(), random.Random(1996)
     for _ in range(CHAIN):
-        process = project.at_work()
+        process = project.start()
+        project.at_work(process)
         time.sleep(luck.uniform(0, 3))
         kill(process)
-    project.run().well()
-    yard.finished(project)
+    goes_on(yard, project)
     return f"{CHAIN} times; then {SAME}"
-
-
-def _goes_on(yard: Yard, project: Project, process: subprocess.Popen) -> None:
-    """A run fails, and the next one makes up for it."""
-    project.ended(process).badly()
-    project.run().well()
-    yard.finished(project)
 
 
 @tried("kill -9 of one job")
 def job_killed(yard: Yard) -> str:
     project = yard.bare()
-    process = project.at_work()
-    for script in project.scripts()[:1]:
-        script.kill()
-    _goes_on(yard, project, process)
+    process = project.start()
+    project.at_work(process)[0].kill()
+    ended(process).badly()
+    goes_on(yard, project)
     return f"the run fails; the next one: {SAME}"
 
 
 @tried("interrupted (Ctrl-C)")
 def interrupted(yard: Yard) -> str:
-    project = yard.bare()
-    process = project.at_work()
+    project, process = begun(yard)
     time.sleep(2)  # while Python itself is still beginning, it answers in its own words
     os.killpg(process.pid, signal.SIGINT)
-    _goes_on(yard, project, process)
+    ended(process).badly()
+    goes_on(yard, project)
     return f"the run ends; the next one: {SAME}"
 
 
 @tried("two runs at once, the same study")
 def twice(yard: Yard) -> str:
-    project = yard.bare()
-    first = project.at_work()
+    project, first = begun(yard)
     waiting = project.run().told(f"another run is at work in {RESULTS}: wait until it has ended")
     expect(waiting.said.count("at work in") == 1, "one sentence")
-    project.ended(first).well()
+    ended(first).well()
     yard.finished(project)
     return "the second is told to wait; " + SAME
 
 
 @tried("two runs at once, different studies, one killed and run again")
 def side_by_side(yard: Yard) -> str:
-    project = yard.bare()
-    other = "--config", "name=other", "seed=7"
-    second = project.at_work(*other)
+    project, other = yard.bare(), ("--config", "name=other", "seed=7")
+    second = project.start(*other)
+    project.at_work(second)
     first = project.start()
     time.sleep(1)
     kill(second)
     project.run(*other).well()
-    project.ended(first).well()
+    ended(first).well()
     yard.finished(project)
     alone = yard.bare()
     alone.run(*other).well()
-    its = Path("results/studies/other")
-    expect(project.made(its) == alone.made(its), "the results of the second as if it were alone")
+    here, there = (made(its.results.with_name("other")) for its in (project, alone))
+    expect(here == there, "the results of the second as if it were alone")
     return "both end, each with its own results"
 
 
@@ -134,7 +143,7 @@ def damaged(yard: Yard) -> str:
         path.write_bytes(damage(path.read_bytes()))
         project.run().told(f"damaged since it was written, and removed: {RESULTS / file}")
         # what was made from it while it was whole does not need it
-        project.run("--", "all", *(str(RESULTS / each) for each in yard.expected)).well()
+        project.run("--", "all", *(f"{RESULTS}/{its}" for its in yard.expected)).well()
         yard.finished(project)
     return f"{', '.join(DAMAGE)} in turn: each named and removed, then made anew"
 
@@ -150,8 +159,7 @@ def last_damaged(yard: Yard) -> str:
     said = ran.stderr
     expect(ran.returncode != 0 and all(file in said for file in LAST), "all are named", said)
     expect(said.count("\n") == 1, "it says one sentence", said)
-    project.run().well()
-    yard.finished(project)
+    goes_on(yard, project)
     return "make verify names and removes them; then made anew"
 
 
@@ -186,7 +194,7 @@ def disk_full(yard: Yard) -> str:
         project = yard.bare()
         with small_disk(project, max(1, int(part * size / 2**20))) as (way, options):
             project.run(**options).badly()
-            project.whole()
+            whole(project)
             ways.add(way)
         project.run().well()
         yard.finished(project)
@@ -236,36 +244,35 @@ def all_read_only(yard: Yard) -> str:
     return "said in a sentence; results as before"
 
 
-def _runs(yard: Yard, project: Project | None = None, **options) -> str:
-    """A run from the beginning under other circumstances."""
-    project = project or yard.bare()
+CACHES = "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"
+PLAIN = {"LC_ALL": "C", "LANG": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+# Under which a run from the beginning is like any other.
+CIRCUMSTANCES = {
+    "no home folder": {"environment": dict.fromkeys(("HOME", *CACHES))},
+    "a home folder that is not there and cannot be made": {
+        "environment": dict.fromkeys(CACHES) | {"HOME": "/proc/nowhere"}
+    },
+    "LC_ALL=C, PYTHONUTF8=0": {"environment": PLAIN},
+    "a path with spaces, quotes and letters of other alphabets": {
+        "folder": "a b's \u0440\u0443\u043a\u0430 \u624b\u81c2 $x"
+    },
+    "no terminal, no input, TERM unset": {
+        "environment": dict.fromkeys(("TERM", "COLUMNS", "DISPLAY")),
+        "stdin": None,
+    },
+    "umask 077": {"umask": 0o077},
+    "umask 000": {"umask": 0o000},
+}
+
+
+def under(yard: Yard, folder: str = "project", **options) -> str:
+    project = yard.bare(folder)
     project.run(**options).well()
     yard.finished(project)
     return SAME
 
 
-NUMBA = "NUMBA_CACHE_DIR", "MPLCONFIGDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"
-
-
-@tried("no home folder")
-def no_home(yard: Yard) -> str:
-    return _runs(yard, environment=dict.fromkeys(("HOME", *NUMBA)))
-
-
-@tried("a home folder that is not there and cannot be made")
-def no_such_home(yard: Yard) -> str:
-    return _runs(yard, environment=dict.fromkeys(NUMBA) | {"HOME": "/proc/nowhere"})
-
-
-@tried("LC_ALL=C, PYTHONUTF8=0")
-def locale(yard: Yard) -> str:
-    plain = {"LC_ALL": "C", "LANG": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    return _runs(yard, environment=plain)
-
-
-@tried("a path with spaces, quotes and letters of other alphabets")
-def odd_path(yard: Yard) -> str:
-    return _runs(yard, yard.bare("a b's \u0440\u0443\u043a\u0430 \u624b\u81c2 $x"))
+FAULTS |= {name: partial(under, **options) for name, options in CIRCUMSTANCES.items()}
 
 
 @tried("the clock goes back by a day in the middle, then right again")
@@ -275,8 +282,7 @@ def clock(yard: Yard) -> str:
     project = yard.bare()
     project.run("--until", "train_chunk").well()
     project.run(before=["faketime", "-f", "-1d"]).told("has older modification time")
-    project.run().well()
-    yard.finished(project)
+    goes_on(yard, project)
     return f"Snakemake says what is older than what; then {SAME}"
 
 
@@ -293,24 +299,8 @@ def ahead(yard: Yard) -> str:
     changed = project.run("--config", "training={tests: 11}")
     changed.told("has older modification time")
     date(now)
-    project.run().well()
-    yard.finished(project)
+    goes_on(yard, project)
     return f"Snakemake says what is older than what; then {SAME}"
-
-
-@tried("no terminal, no input, TERM unset")
-def no_terminal(yard: Yard) -> str:
-    return _runs(yard, environment=dict.fromkeys(("TERM", "COLUMNS", "DISPLAY")), stdin=None)
-
-
-@tried("umask 077")
-def umask_closed(yard: Yard) -> str:
-    return _runs(yard, umask=0o077)
-
-
-@tried("umask 000")
-def umask_open(yard: Yard) -> str:
-    return _runs(yard, umask=0o000)
 
 
 @tried(".snakemake deleted and a setting changed", short=True)
@@ -320,8 +310,7 @@ def notes_deleted(yard: Yard) -> str:
     other = "--config", "training={tests: 11}"
     project.run(*other).told(f"remove {RESULTS}, or, if nothing was changed since,")
     (project.results / ".running").unlink()
-    project.run().well()
-    yard.finished(project)
+    goes_on(yard, project)
     return "said in a sentence, with what to remove"
 
 

@@ -130,7 +130,7 @@ def recorded(folder: Path, count: int, subsets: int) -> str:
         seconds.append(time.process_time() - start)
         distances = np.linalg.norm(found.calibration.residuals(tests), axis=1)
         errors.append(distances.mean())
-        within = np.mean(distances <= found.radii(tests.joints))
+        within = np.mean(distances <= found.radius)
         covered.append([found.coverage(RANDOM), found.coverage(BLOCKWISE), within])
     at_random, in_blocks, fresh = 100 * np.mean(covered, axis=0)
     return (
@@ -156,7 +156,7 @@ def several_targets(draws: int) -> str:
 
 
 def halves(draws: int) -> str:
-    """The part of positions within their radii where nobody measured."""
+    """The part of positions within the radius where nobody measured."""
     within = [other_half(load_arm(*ARMS["UR10"]), seed) for seed in range(draws)]
     return f"{100 * np.mean(within):.1f} % on average, {100 * np.min(within):.0f} % at least"
 

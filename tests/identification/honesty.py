@@ -21,7 +21,7 @@ from tests.identification.real import Real
 
 GEARS = np.radians(0.03)
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad
-ROWS, HELD_BACK = 119, 400
+ROWS, HELD_BACK, POSTURES = 119, 400, 150
 
 
 def distances(calibration: Calibration, observations: Observations) -> np.ndarray:
@@ -37,11 +37,15 @@ def with_targets(real: Real, postures: int, targets: int = 3) -> Observations:
 
 
 def three_targets(arm, seed: int, gears: float = GEARS) -> dict[str, tuple[float, float]]:
-    """Said and true errors [m] of geometry and of all of it, where a posture has three targets."""
+    """Said and true errors [m] of geometry and of all of it, where a posture has three targets.
+
+    From 60 postures a mean error is known to 9 %, whatever the folds: the luck of its postures
+    alone would put one arm in twenty off by 20 %. That folds learn from fewer rows adds 5 %.
+    """
     real = Real(arm, seed, targets=3, gears=gears)
-    known, fresh = with_targets(real, 60), with_targets(real, 200)
+    known, fresh = with_targets(real, POSTURES), with_targets(real, 500)
     found = validate(arm, known, initial_frames(arm, known))
-    assert len(found.postures) == 60
+    assert len(found.postures) == POSTURES
     return {
         kind: (
             found.errors(RANDOM, kind)[found.counted, 0].mean(),
@@ -52,7 +56,7 @@ def three_targets(arm, seed: int, gears: float = GEARS) -> dict[str, tuple[float
 
 
 def other_half(arm, seed: int) -> float:
-    """The part of positions within radii in that half of a joint's range that was not measured."""
+    """The part of positions within the radius in the half of a joint's range not measured."""
     real = Real(arm, seed, gears=GEARS * (seed % 2))
     joints, halved = real.postures(4 * HELD_BACK), seed % len(arm.joints)
     upper = joints[:, halved] > np.median(joints[:, halved])
@@ -60,7 +64,19 @@ def other_half(arm, seed: int) -> float:
     known = Observations(here, real.poses(here))
     found = validate(arm, known, initial_frames(arm, known))
     errors = distances(found.calibration, Observations(there, real.poses(there)))
-    return float(np.mean(errors <= found.radii(there)))
+    return float(np.mean(errors <= found.radius))
+
+
+def few_poses(arm, seed: int) -> float:
+    """The part of fresh positions within the radius that 16 poses tell, which exceeds the mean."""
+    real = Real(arm, seed)
+    joints = real.postures(16)
+    known = Observations(joints, real.poses(joints))
+    found = validate(arm, known, initial_frames(arm, known))
+    assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
+    fresh = real.postures(HELD_BACK)
+    errors = distances(found.calibration, Observations(fresh, real.poses(fresh)))
+    return float(np.mean(errors <= found.radius))
 
 
 class Session:
@@ -69,6 +85,7 @@ class Session:
     Args:
         kind, size: lag, of a step to the row; jump or drift, m; nothing unless given.
         on_a_path: whether rows lie along one; or anywhere.
+        times: of the rows [s], where they carry them: a lag is in seconds then.
     """
 
     def __init__(
@@ -79,20 +96,24 @@ class Session:
         size: float = 0.0,
         positions: bool = False,
         on_a_path: bool = False,
-        gears: float = 0.0,
+        rows: int = ROWS,
+        times: np.ndarray | None = None,
     ):
         self._arm, self._kind, self._size = arm, kind, size
-        self._real, self._rng = Real(arm, seed, gears=gears), np.random.default_rng([seed, 7])
+        self._real, self._rng = Real(arm, seed), np.random.default_rng([seed, 7])
         self._towards = self._rng.standard_normal(3)
         self._towards /= np.linalg.norm(self._towards)
-        joints = self._postures(ROWS // 6 if on_a_path else ROWS)
+        joints = self._postures(max(rows // 6, 4) if on_a_path else rows)
         if on_a_path:
             along = CubicSpline(np.linspace(0, 1, len(joints)), joints)
-            joints = along(np.linspace(0, 1, ROWS))
-        steps = np.diff(joints, axis=0, prepend=joints[:1])
-        poses = self._real.poses(joints - size * (kind == LAG) * steps)
-        poses[:, :3, 3] += self._moved(np.linspace(0, 1, ROWS))
-        self.observations = Observations(joints, poses[:, :3, 3] if positions else poses)
+            joints = along(np.linspace(0, 1, rows))
+        clock = np.arange(rows) if times is None else times
+        speeds = np.diff(joints, axis=0, prepend=joints[:1])
+        speeds[1:] /= np.diff(clock)[:, None]
+        poses = self._real.poses(joints - size * (kind == LAG) * speeds)
+        poses[:, :3, 3] += self._moved(clock / clock[-1])
+        measured = poses[:, :3, 3] if positions else poses
+        self.observations = Observations(joints, measured, times=times)
         self._frames = initial_frames(arm, self.observations)
 
     def _postures(self, count: int) -> np.ndarray:

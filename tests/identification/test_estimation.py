@@ -6,7 +6,9 @@ import pytest
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
+from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
+from recalib.nominal.poses import orientation_error, position_error
 from tests import reference
 
 NOISY = Disturbances(Noise(2e-4, np.radians(0.02)))
@@ -62,3 +64,41 @@ def test_the_estimate_does_not_depend_on_the_order_of_the_measurements(robot, co
     )
     assert other.parameters == pytest.approx(one.parameters, abs=1e-9)
     assert other.weights == pytest.approx(one.weights[order], abs=1e-6)
+
+
+@pytest.mark.parametrize(("what", "rows"), [("poses", 8), ("positions", 30)])
+def test_exact_measurements_identify_the_arm(robot, controller, damaged, what, rows):
+    model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 60)
+    true = damaged.forward(angles)
+    measured = true[:rows] if what == "poses" else true[:rows, :3, 3]
+    found = identify(model, Observations(angles[:rows], measured))
+    predicted = model.predict(found.parameters, angles)
+    assert position_error(predicted, true).max() < 1e-6
+    assert what == "positions" or orientation_error(predicted, true).max() < 1e-7
+
+
+def test_the_start_changes_the_time_and_not_the_answer(robot, controller, damaged):
+    model, angles = ErrorModel(robot.arm, OFFSETS), postures(controller, 60)
+    seen = Observations(angles, noisy(damaged, angles, 4))
+    cold = identify(model, seen)
+    for start in (identify(model, seen[:30]), identify(ErrorModel(robot.arm, JOINT_ERRORS), seen)):
+        warm = identify(model, seen, start)
+        apart = model.predict(warm.parameters, angles) - model.predict(cold.parameters, angles)
+        assert np.abs(apart).max() < 2e-5
+
+
+def test_the_covariance_tells_how_wrong_predictions_are(robot, controller):
+    """100 arms with noisy data: predicted poses err as their covariance says, within 20 %."""
+    model, generator = ErrorModel(robot.arm, OFFSETS), np.random.default_rng(6)
+    angles = postures(controller, 25)
+    known, asked = angles[:20], angles[20:]
+    squares, said = [], []
+    for _ in range(100):
+        parameters = model.deviations * generator.standard_normal(len(model.deviations))
+        measured = NOISY.measure([generator], model.predict(parameters, known)[None])[0]
+        estimate = identify(model, Observations(known, measured))
+        predicted, jacobians = model.linearise(estimate.parameters, asked, model.terms(asked))
+        squares.append(displacements(predicted, model.predict(parameters, asked)) ** 2)
+        said.append(np.einsum("ndp,pq,ndq->nd", jacobians, estimate.covariance, jacobians))
+    ratio = np.sqrt(np.mean(squares, axis=(0, 1)) / np.mean(said, axis=(0, 1)))
+    assert np.all((ratio > 0.8) & (ratio < 1.2)), "of a coordinate"

@@ -6,13 +6,13 @@ import pytest
 from recalib.identification.sequence import DRIFT, JUMP, LAG
 from recalib.nominal.arms import load_arm
 from tests.identification.bars import ARMS
-from tests.identification.honesty import Session, other_half, three_targets
+from tests.identification.honesty import Session, few_poses, other_half, three_targets
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "seed"), [("UR10", 6), ("Panda", 2)])
-def test_what_is_said_holds_where_a_posture_has_three_targets(name, seed):
-    for said, true in three_targets(load_arm(*ARMS[name]), seed).values():
+@pytest.mark.parametrize("name", ARMS)
+def test_what_is_said_holds_where_a_posture_has_three_targets(name):
+    for said, true in three_targets(load_arm(*ARMS[name]), seed=0).values():
         assert said == pytest.approx(true, rel=0.2)
 
 
@@ -23,6 +23,13 @@ def test_intervals_hold_where_nobody_measured():
     within = [other_half(arm, seed) for seed in range(20)]
     assert 0.9 <= np.mean(within) <= 0.99
     assert np.min(within) > 0.75
+
+
+@pytest.mark.slow
+def test_intervals_hold_where_postures_are_few():
+    """By how far the parameters are known, with the noise found in so few, 70 % would be within."""
+    within = [few_poses(load_arm(*ARMS["UR10"]), seed) for seed in range(8)]
+    assert 0.9 <= np.mean(within) <= 0.99
 
 
 @pytest.mark.slow

@@ -14,16 +14,6 @@ from tests.identification.bars import BALL, SOCKETS, aligned, missed
 from tests.identification.real import Real
 
 
-@pytest.fixture
-def load(tmp_path):
-    def from_text(text):
-        path = tmp_path / "small.urdf"
-        path.write_text(text)
-        return load_arm(path)
-
-    return from_text
-
-
 @pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])
 @pytest.mark.parametrize("what", ["poses", "positions"])
 def test_joints_that_slide_are_identified(text, what, load):

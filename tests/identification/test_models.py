@@ -49,7 +49,7 @@ def test_each_model_begins_with_the_one_before_it_and_ends_at_24_waves_a_turn(ro
 
 def test_where_geometry_alone_is_wrong_geometry_alone_is_used(robot, controller, damaged):
     angles = postures(controller, 24)
-    for seed in range(6):
+    for seed in range(3):
         found = calibrate(
             robot.arm, (OFFSETS, JOINT_ERRORS), Observations(angles, noisy(damaged, angles, seed))
         )

@@ -57,7 +57,7 @@ def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
     said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
     assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
     assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
-    assert np.mean(errors <= validation.radii(fresh)) >= 0.9
+    assert np.mean(errors <= validation.radius) >= 0.9
     assert 0.9 <= validation.coverage(RANDOM) <= 0.98
 
 
@@ -193,35 +193,35 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
 
 
 def test_few_rows_are_refused(arm):
-    with pytest.raises(Untrustworthy, match="9 rows of 9 postures; valid: at least 10"):
+    with pytest.raises(Untrustworthy, match="9 rows of 9 postures; expected: at least 10"):
         validate(arm, seen_of(Real(arm, 6), 9))
 
 
 def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
     residuals = np.array([[0.003, 0.0, 0.004, 0.0, 0.1, 0.0], [0.0, 0.0, 0.0, 0.02, 0.0, 0.0]])
-    held = HeldOut(residuals, np.ones(2), np.arange(2))
+    held = HeldOut(residuals, np.arange(2))
     assert held.errors == pytest.approx(np.array([[0.005, 0.1], [0, 0.02]]))
     assert held.losses == pytest.approx([0.055, 0.01])
-    assert HeldOut(residuals[:, :3], held.spreads, held.folds).losses == pytest.approx([0.005, 0])
+    assert HeldOut(residuals[:, :3], held.folds).losses == pytest.approx([0.005, 0])
 
 
 def test_rows_of_one_posture_are_refused_as_such(arm):
     observations = seen_of(Real(arm, 6), 12)
-    with pytest.raises(Untrustworthy, match="12 rows of 1 posture; valid: at least 10 postures"):
+    with pytest.raises(Untrustworthy, match="12 rows of 1 posture; expected: at least 10 postures"):
         validate(arm, observations[np.zeros(12, dtype=int)])
 
 
 @pytest.mark.parametrize(("rows", "rank"), [(12, 12), (19, 19), (40, 39), (99, 95), (100, 96)])
 def test_of_so_many_rows_the_least_that_covers_95_percent_of_others_is_taken(rows, rank):
     """A further one is at most the k-th of n with a probability of k / (n + 1)."""
-    ratios = np.random.default_rng(1).permutation(rows) + 1.0
-    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(rows), np.zeros(rows, dtype=int))
-    assert held.factor() == pytest.approx(rank)
+    errors = np.random.default_rng(1).permutation(rows) + 1.0
+    held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], np.zeros(rows, dtype=int))
+    assert held.radius() == pytest.approx(rank)
 
 
 def test_the_worst_part_decides_how_wide_intervals_are():
-    ratios, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
-    ratios[folds == 1] *= 3
-    held = HeldOut(ratios[:, None] * [0.6, 0.8, 0.0], np.ones(200), folds)
-    assert held.factor() == pytest.approx(3 * 96)
+    errors, folds = np.tile(np.arange(100) + 1.0, 2), np.repeat([0, 1], 100)
+    errors[folds == 1] *= 3
+    held = HeldOut(errors[:, None] * [0.6, 0.8, 0.0], folds)
+    assert held.radius() == pytest.approx(3 * 96)
     assert held.coverage() == pytest.approx((1.0 + 0.32) / 2)

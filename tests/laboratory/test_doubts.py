@@ -11,16 +11,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RAND
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.doubts import doubts
 from recalib.laboratory.summary import summary
-from recalib.nominal.arms import load_arm
-from tests.laboratory.test_command_line import (
-    ARM,
-    MIDDLE,
-    NOISE,
-    SEEN,
-    table,
-    true_positions,
-    write,
-)
+from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
 
 ROWS = 60
 
@@ -51,31 +42,26 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
 
 
 @pytest.mark.parametrize(
-    ("fault", "said"),
+    ("fault", "times", "said"),
     [
-        (Fault(LAG, 0.05), "poses seem to be 5 % of a step behind the joints"),
-        (Fault(LAG, -0.01), "poses seem to be 1 % of a step ahead of the joints"),
-        (Fault(DRIFT, 1e-3), "drift by 1 mm from the first row to the last"),
-        (Fault(JUMP, 1e-3, 20), "between rows 20 and 21 instrument or base seem to have moved by"),
+        (Fault(LAG, 0.05), None, "poses seem to be 5 % of a step behind the joints"),
+        (Fault(LAG, -0.01), None, "poses seem to be 1 % of a step ahead of the joints"),
+        (Fault(LAG, 0.0203), np.arange(ROWS), "poses seem to be 20 ms behind the joints"),
+        (Fault(DRIFT, 1e-3), None, "drift by 1 mm from the first row to the last"),
+        (Fault(JUMP, 1e-3, 20), None, "between rows 20 and 21 instrument or base seem to have"),
     ],
 )
-def test_a_fault_is_told_with_its_rows_and_size(fault, said):
-    (told,) = doubts(result({}, GEOMETRIC, (fault,)))
+def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
+    (told,) = doubts(result({}, GEOMETRIC, (fault,), times))
     assert told.startswith("Careful: ") and said in told
 
 
-def test_where_rows_carry_times_a_lag_is_told_in_milliseconds():
-    (told,) = doubts(result({}, GEOMETRIC, (Fault(LAG, 0.0203),), np.arange(ROWS)))
-    assert "poses seem to be 20 ms behind the joints" in told
-
-
-def test_two_sessions_are_told_of_beside_the_error(tmp_path):
-    (tmp_path / "arm.urdf").write_text(ARM)
-    arm, rng = load_arm(tmp_path / "arm.urdf"), np.random.default_rng(3)
-    joints = MIDDLE + SEEN * rng.uniform(-1, 1, (ROWS, 3))
+def test_two_sessions_are_told_of_beside_the_error(arm, folder):
+    joints = postures(3, ROWS)
     positions = true_positions(arm, joints)
-    positions += NOISE * rng.standard_normal((ROWS, 3))
+    positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
     positions[20:] += [6e-4, -6e-4, 5e-4]
-    write(tmp_path / "rows.csv", table(arm, joints, positions))
-    _, first, *_ = summary(calibrate_arm(tmp_path / "arm.urdf", tmp_path / "rows.csv")).splitlines()
+    write(folder / "sessions.csv", table(arm, joints, positions))
+    result = calibrate_arm(folder / "arm.urdf", folder / "sessions.csv")
+    _, first, *_ = summary(result).splitlines()
     assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first

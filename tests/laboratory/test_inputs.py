@@ -14,7 +14,7 @@ import pytest
 
 from recalib.laboratory.command_line import REFUSED, main
 from tests.conftest import ROOT
-from tests.laboratory.test_command_line import ARM
+from tests.laboratory.conftest import ARM
 
 pytestmark = pytest.mark.slow  # each in a process of its own
 
@@ -59,23 +59,16 @@ def packed(path: Path) -> None:
 WRONG = {
     "a URDF that is a pipe": ("arm.urdf", pipe, "it is a pipe; expected: a file"),
     "a URDF without an end": ("arm.urdf", endless, "it is a device; expected: a file"),
-    "a URDF that is a folder": ("arm.urdf", Path.mkdir, "it is a folder; expected: a file"),
     "a comment of 60 MB": (
         "arm.urdf",
         lambda path: path.write_text(f"{HEAD}<!--{60_000_000 * 'x'}-->{END}"),
         "it has 60 MB; expected: at most 16 MB",
     ),
     "deep XML": ("arm.urdf", HEAD + deep("a") + END, "is no URDF that Pinocchio can read"),
-    "deep XML that is no robot": ("arm.urdf", deep("robot"), "is no URDF that Pinocchio can read"),
     "a place far away": (
         "arm.urdf",
         ARM.replace("0.05 0 0.1", "1e308 0 0.1"),
         "lift is 1000 m or more from what carries it",
-    ),
-    "a tool far away": (
-        "arm.urdf",
-        ARM.replace("0.35 0 0.02", "1e308 0 0"),
-        "link_4 is 1000 m or more from what carries it",
     ),
     "a heavy link": ("arm.urdf", ARM.replace('"0.0"', '"1e308"'), "has no mass of an arm's link"),
     "4000 fixed joints": ("arm.urdf", fixed(4000), "has 4004 joints; expected: at most 1000"),
@@ -85,7 +78,6 @@ WRONG = {
         "its text is not x-none",
     ),
     "a table that is a pipe": ("rows.csv", pipe, "it is a pipe; expected: a file"),
-    "a table without an end": ("rows.csv", endless, "it is a device; expected: a file"),
     "a million rows": (
         "rows.csv",
         lambda path: path.write_text(TABLE + 1_000_000 * ROW),
@@ -106,7 +98,7 @@ WRONG = {
     "an instrument far away": (
         "it.toml",
         '[instrument]\nposition = ["1e300 m", "0 m", "0 m"]',
-        "instrument.position is '1e300 m'; valid: up to 10 m",
+        "instrument.position is '1e300 m'; expected: up to 10 m",
     ),
     "a correction without an end": ("correction.npz", endless, "it is a device"),
     "a correction that is packed": (
@@ -114,15 +106,11 @@ WRONG = {
         packed,
         "it unpacks to 2e+03 MB; expected: 256",
     ),
-    "a link of a table far away": (
-        "links.csv",
-        "joint,a [m],alpha [deg],d [m],theta [deg]\nwaist,1e308,0,0,0\n",
-        "row 1 of column 'a' is 1e308 m; valid: up to 10 m",
-    ),
 }
 
 
 def prepare(folder: Path, name: str, make) -> None:
+    folder.mkdir()
     for other, text in (("arm.urdf", ARM), ("rows.csv", TABLE), ("it.toml", "")):
         if other != name:
             (folder / other).write_text(text)
@@ -132,21 +120,13 @@ def prepare(folder: Path, name: str, make) -> None:
         (folder / name).write_text(make)
 
 
-def arguments(name: str) -> list[str]:
-    match name:
-        case "links.csv":
-            return ["urdf", name]
-        case "correction.npz":
-            return ["next", "."]
-    return ["calibrate", "./arm.urdf", "rows.csv", "--description=it.toml"]
-
-
 def all_of_them(folder: str) -> None:
     """Run the commands one after the other, and print how long each computed."""
     for number, (name, *_) in enumerate(WRONG.values()):
         os.chdir(Path(folder, str(number)))
         started = time.process_time()
-        code = main([*arguments(name), "--out=out"])
+        calibrate = ["calibrate", "./arm.urdf", "rows.csv", "--description=it.toml"]
+        code = main([*(["next", "."] if name == "correction.npz" else calibrate), "--out=out"])
         print(json.dumps([code, time.process_time() - started]), flush=True)
         print("END", file=sys.stderr, flush=True)
     print(re.search(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text())[1])
@@ -157,7 +137,6 @@ def told(tmp_path_factory):
     """What came of each: exit code and seconds, and lines; and the memory of all [kB]."""
     folder = tmp_path_factory.mktemp("inputs")
     for number, (name, make, _) in enumerate(WRONG.values()):
-        (folder / str(number)).mkdir()
         prepare(folder / str(number), name, make)
     text = f"from tests.laboratory import test_inputs; test_inputs.all_of_them({str(folder)!r})"
     ran = subprocess.run(

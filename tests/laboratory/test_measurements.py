@@ -1,5 +1,7 @@
 """Tables that cannot be used, each with the sentence that says why."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -49,41 +51,27 @@ def positions() -> dict:
     return {f"{axis} [mm]": np.linspace(1, 2, ROWS) for axis in "xyz"}
 
 
-def with_cell(columns: dict, column: str, row: int, cell: object) -> dict:
-    cells = [*columns[column]]
-    cells[row - 1] = cell
-    return columns | {column: cells}
-
-
 def quaternion(numbers: str) -> dict:
     cells = ([number] * ROWS for number in numbers.split())
     return dict(zip(("qx", "qy", "qz", "qw"), cells, strict=True))
 
 
 def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, write):
-    turned = {"roll [deg]": [90] * ROWS, "pitch [rad]": [0] * ROWS, "yaw [deg]": [0] * ROWS}
-    read = read_measurements(write(turned | positions() | {**joints()}), gantry)
+    read = read_measurements(write(positions() | {**joints()}), gantry)
     assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
     assert np.allclose(read.positions[-1], 0.002)
-    assert np.allclose(read.rotations[0], Rotation.from_euler("x", 90, degrees=True).as_matrix())
     assert read.targets is read.sockets is read.nominal is None
 
 
 def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     turn = Rotation.from_rotvec([0.3, -0.2, 0.9])
-    ways = (
-        dict(zip(("qx", "qy", "qz", "qw"), turn.as_quat(), strict=True)),
-        dict(zip(("rx [rad]", "ry [rad]", "rz [rad]"), turn.as_rotvec(), strict=True)),
-        dict(
-            zip(
-                ("roll [deg]", "pitch [deg]", "yaw [deg]"),
-                turn.as_euler("xyz", degrees=True),
-                strict=True,
-            )
-        ),
-    )
-    for way in ways:
-        columns = joints() | positions() | {name: [cell] * ROWS for name, cell in way.items()}
+    for names, numbers in (
+        (("qx", "qy", "qz", "qw"), turn.as_quat()),
+        (("rx [rad]", "ry [rad]", "rz [rad]"), turn.as_rotvec()),
+        (("roll [deg]", "pitch [deg]", "yaw [deg]"), turn.as_euler("xyz", degrees=True)),
+    ):
+        cells = ([number] * ROWS for number in numbers)
+        columns = joints() | positions() | dict(zip(names, cells, strict=True))
         assert np.allclose(read_measurements(write(columns), gantry).rotations, turn.as_matrix())
 
 
@@ -93,126 +81,40 @@ def test_targets_and_sockets_are_named(gantry, write):
     assert [*read.sockets] == [*read.targets] == names and read.positions is None
 
 
+# Others stand in tests/mistakes_on_the_command_line.yaml.
 REFUSED = {
-    "a joint is missing": (
-        lambda: {"rail [mm]": range(ROWS)} | positions(),
-        "it lacks a column for joint 'wrist'; the arm's are rail [mm], wrist [deg]",
-    ),
-    "a joint is unknown": (
-        lambda: joints() | positions() | {"elbow [deg]": range(ROWS)},
-        "unknown column 'elbow'; valid: one of 24, such as rail, wrist and x",
-    ),
-    "no unit": (
-        lambda: joints() | {name.replace("x [mm]", "x"): c for name, c in positions().items()},
-        "column 'x' names no unit; valid: x [cm], x [m], x [mm]",
-    ),
-    "another unit": (
-        lambda: {"rail [deg]": range(ROWS), "wrist [deg]": range(ROWS)} | positions(),
-        "column 'rail' is in 'deg'; valid: rail [cm], rail [m], rail [mm]",
-    ),
-    "no number": (
-        lambda: with_cell(joints() | positions(), "y [mm]", 3, "far"),
-        "row 3 of column 'y' is 'far'; valid: a number",
-    ),
-    "nan": (
-        lambda: with_cell(joints() | positions(), "wrist [deg]", 5, "nan"),
-        "row 5 of column 'wrist' is 'nan'; valid: a number",
-    ),
-    "an empty cell": (
-        lambda: with_cell(joints() | positions(), "z [mm]", 1, ""),
-        "row 1 of column 'z' is ''; valid: a number",
-    ),
-    "millimetres for metres": (
-        lambda: joints() | {f"{axis} [m]": [430] * ROWS for axis in "xyz"},
-        "row 1 of column 'x' is 430 m; valid: up to 10 m. Is its unit right?",
-    ),
-    "degrees for radians": (
-        lambda: {"rail [mm]": range(ROWS), "wrist [rad]": [*[0] * 9, 57]} | positions(),
-        "row 10 of column 'wrist' is 57 rad; valid: up to 720 deg. Is its",
-    ),
-    "a coordinate is missing": (
-        lambda: joints() | {"x [mm]": range(ROWS), "z [mm]": range(ROWS)},
-        "y is missing: x, y and z are needed together",
-    ),
-    "half a rotation": (
-        lambda: joints() | positions() | {"rx [deg]": range(ROWS), "ry [deg]": range(ROWS)},
-        "rz is missing: rx, ry and rz are needed together",
-    ),
-    "two rotations": (
-        lambda: (
-            joints()
-            | positions()
-            | quaternion("0 0 0 1")
-            | {f"r{axis} [deg]": range(ROWS) for axis in "xyz"}
-        ),
-        "its rotations are given twice: qx, qy, qz, qw and rx, ry, rz; valid: once",
-    ),
     "a rotation without a position": (
         lambda: joints() | quaternion("0 0 0 1"),
-        "it has rotations without positions; valid: x, y, z, too",
+        "it has rotations without positions; expected: x, y, z, too",
     ),
     "a quaternion of no length": (
         lambda: joints() | positions() | quaternion("0 0 0 0"),
-        "the quaternion in row 1 has length 0; valid: 1",
+        "the quaternion in row 1 has length 0; expected: 1",
     ),
-    "nothing measured": (joints, "nothing was measured in it; valid: x, y, z or socket"),
-    "an empty name": (
-        lambda: with_cell(joints() | positions() | {"target": ["mirror"] * ROWS}, "target", 4, ""),
-        "row 4 of column 'target' is empty; valid: a name",
-    ),
+    "nothing measured": (joints, "nothing was measured in it; expected: x, y, z or socket"),
     "positions and sockets": (
         lambda: joints() | positions() | {"socket": ["left"] * ROWS},
-        "it has both positions and sockets; valid: one of them",
+        "it has both positions and sockets; expected: one of them",
     ),
     "errors beside nothing": (
         lambda: joints() | {f"{axis}_missed [mm]": range(ROWS) for axis in "xyz"},
         "x_missed, y_missed, z_missed stand beside x_nominal, y_nominal, z_nominal and no x, y, z",
     ),
-    "too few rows": (
-        lambda: {name: cells[:5] for name, cells in (joints() | positions()).items()},
-        "it has 5 rows; valid: at least 10",
-    ),
-    "no row": (
-        lambda: {name: [] for name in joints() | positions()},
-        "it has a header and no row",
-    ),
-    "a name twice": (
-        lambda: joints() | positions() | {"x [m]": range(ROWS)},
-        "it has more than one column 'x'",
-    ),
-    "no name": (lambda: joints() | {"[mm]": range(ROWS)}, "heading '[mm]' is no name with a unit"),
 }
 
 
 @pytest.mark.parametrize(("columns", "sentence"), REFUSED.values(), ids=REFUSED)
 def test_a_table_that_cannot_be_used_is_refused(columns, sentence, gantry, write):
-    with pytest.raises(InvalidFile) as refused:
+    with pytest.raises(InvalidFile, match=rf"^cannot use .*table.csv: {sentence}"):
         read_measurements(write(columns()), gantry)
-    assert sentence in str(refused.value)
-    assert str(refused.value).startswith("cannot use ") and "table.csv: " in str(refused.value)
 
 
-TEXTS = {
-    "empty": (b"", "it is empty"),
-    "blank lines": (b"\n \n,\n", "it is empty"),
-    "semicolons": (b"rail [mm];wrist [deg]\n1;2\n", "separated by semicolons; valid: commas"),
-    "not a table": (b"\xff\xfe\x00\x01", "it is no CSV in UTF-8"),
-    "a short row": (b"rail [mm],wrist [deg]\n1,2\n3\n", "row 2 has 1 cells; valid: 2, as in"),
-}
-
-
-@pytest.mark.parametrize(("text", "sentence"), TEXTS.values(), ids=TEXTS)
-def test_a_file_that_is_no_table_is_refused(text, sentence, gantry, tmp_path):
+@pytest.mark.parametrize("text", [b"\n \n,\n", b"\xff\xfe\x00\x01"], ids=["blank", "no text"])
+def test_a_file_that_is_no_table_is_refused(text, gantry, tmp_path):
     path = tmp_path / "table.csv"
     path.write_bytes(text)
-    with pytest.raises(InvalidFile) as refused:
+    with pytest.raises(InvalidFile, match="it is empty|it is no CSV in UTF-8"):
         read_measurements(path, gantry)
-    assert sentence in str(refused.value)
-
-
-def test_a_file_that_is_not_there_is_refused(gantry, tmp_path):
-    with pytest.raises(InvalidFile, match="No such file"):
-        read_measurements(tmp_path / "table.csv", gantry)
 
 
 DESCRIPTION = """
@@ -258,34 +160,25 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
 
 
 WRONG = {
-    "no TOML": ("columns = [", "it is no TOML"),
-    "a part": ("[camera]\n", "part is 'camera'; valid: columns, instrument, target, distance"),
-    "a column": ("[columns]\nj1 = 3\n", "columns is {'j1': 3}; valid: lines such as"),
-    "a pose": ("[target]\nplace = 3\n", "target is {'place': 3}; valid: position and roll_pitch"),
-    "two numbers": ('[target]\nposition = ["1 m", "2 m"]\n', "valid: a list of three quantities"),
-    "no unit": (
-        '[target]\nposition = ["1", "0 m", "0 m"]\n',
-        "target.position is '1'; valid: a length in mm, cm, m",
-    ),
-    "one socket": (
-        '[[distance]]\nsockets = ["a", "a"]\nlength = "1 m"\n',
-        "distance.sockets is ['a', 'a']; valid: the names of two sockets",
-    ),
+    "a column": ("[columns]\nj1 = 3\n", "columns is {'j1': 3}; expected: lines such as"),
     "a socket twice": (
         '[[distance]]\nsockets = ["a", "b", "a"]\nlength = "1 m"\n',
-        "distance.sockets is ['a', 'b', 'a']; valid: the names of two sockets",
+        "distance.sockets is ['a', 'b', 'a']; expected: the names of two sockets",
     ),
     "a distance twice": (
         '[[distance]]\nsockets = ["a", "b"]\nlength = "254.95 mm"\n'
         '[[distance]]\nsockets = ["b", "a"]\nlength = "900 mm"\n',
-        "distance between a and b is '254.95 mm and 900 mm'; valid: one length",
+        "distance between a and b is '254.95 mm and 900 mm'; expected: one length",
     ),
-    "one distance": ("distance = 5\n", "distance is 5; valid: parts that begin with [[distance]]"),
+    "one distance": (
+        "distance = 5\n",
+        "distance is 5; expected: parts that begin with [[distance]]",
+    ),
     "a length below zero": (
         '[[distance]]\nsockets = ["a", "b"]\nlength = "-25 mm"\n',
-        "distance.length is '-25 mm'; valid: more than zero",
+        "distance.length is '-25 mm'; expected: more than zero",
     ),
-    "no length": ('[[distance]]\nsockets = ["a", "b"]\n', "valid: sockets and length"),
+    "no length": ('[[distance]]\nsockets = ["a", "b"]\n', "expected: sockets and length"),
 }
 
 
@@ -293,9 +186,8 @@ WRONG = {
 def test_a_description_that_cannot_be_used_is_refused(text, sentence, tmp_path):
     path = tmp_path / "description.toml"
     path.write_text(text)
-    with pytest.raises(InvalidFile) as refused:
+    with pytest.raises(InvalidFile, match=re.escape(sentence)):
         read_description(path)
-    assert sentence in str(refused.value)
 
 
 @pytest.mark.parametrize(
@@ -317,7 +209,7 @@ def test_times_are_seconds_or_dates(column, cells, gantry, write):
     [
         ("time [s]", [1, 2, 3, 2.5, *[4] * 6], "row 4 was measured before row 3; try: sort the"),
         ("time [s]", [7] * ROWS, "column 'time' is the same in all rows; try: without it"),
-        ("time [h]", [*range(ROWS)], r"valid: time \[min\], time \[ms\], time \[s\]"),
+        ("time [h]", [*range(ROWS)], r"expected: time \[min\], time \[ms\], time \[s\]"),
         ("time", [*range(ROWS)], "row 1 of column 'time' is '0'; expected: a date as 2026-11-23T"),
         ("time", ["2026-11-23T08:00:00"] * 9 + ["8 pm"], "row 10 of column 'time' is '8 pm'"),
     ],

@@ -2,32 +2,24 @@
 
 import shutil
 
-import numpy as np
 import pytest
 import yaml
 
-from recalib.laboratory.command_line import DONE, main
-from recalib.nominal.arms import load_arm
+from recalib.laboratory.command_line import main
 from tests.conftest import ROOT
-from tests.laboratory.test_command_line import ARM, MIDDLE, SEEN, table, true_positions, write
+from tests.laboratory.conftest import postures, table, true_positions, write
 
 TABLE = yaml.safe_load((ROOT / "tests" / "mistakes_on_the_command_line.yaml").read_text())
 KNOWN = {"{joints}": "swing [deg],lift [deg],elbow [deg]", "{row}": "1,-40,60,700,10,300"}
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """An arm, a table and a calibration."""
-    here = tmp_path_factory.mktemp("right")
-    (here / "arm.urdf").write_text(ARM)
-    arm, random = load_arm(here / "arm.urdf"), np.random.default_rng(8)
-    joints = MIDDLE + SEEN * random.uniform(-1, 1, (30, 3))
-    noise = 5e-5 * random.standard_normal((30, 3))
-    write(here / "measured.csv", table(arm, joints, true_positions(arm, joints) + noise))
-    write(here / "table.csv", table(arm, joints[:12], true_positions(arm, joints[:12])))
-    command = "calibrate", here / "arm.urdf", here / "measured.csv", "--out", here / "calibration"
-    assert main([*map(str, command)]) == DONE
-    (here / "measured.csv").unlink()
+def right(arm, calibrated, tmp_path_factory):
+    """A folder with an arm, a table and a calibration."""
+    here, joints = tmp_path_factory.mktemp("right"), postures(8, 12)
+    shutil.copy(calibrated.parent / "arm.urdf", here)
+    shutil.copytree(calibrated, here / "calibration")
+    write(here / "table.csv", table(arm, joints, true_positions(arm, joints)))
     return here
 
 
@@ -55,10 +47,10 @@ def test_there_are_sixty_and_more_and_each_says_what_for():
 
 
 @pytest.mark.parametrize("row", TABLE, ids=[row["why"] for row in TABLE])
-def test_a_mistake_is_told_in_one_sentence(row, folder, tmp_path, monkeypatch, capsys):
-    here = shutil.copytree(folder, tmp_path / "here")
+def test_a_mistake_is_told_in_one_sentence(row, right, tmp_path, monkeypatch, capsys):
+    here = shutil.copytree(right, tmp_path / "here")
     monkeypatch.chdir(here)
     (said,) = said_of(row, here, capsys)
     assert said == row["says"]
     written = {path.name for path in here.iterdir()} - {row.get("file")}
-    assert written == {path.name for path in folder.iterdir()}
+    assert written == {path.name for path in right.iterdir()}

@@ -28,37 +28,29 @@ def test_ticks_are_round_numbers_within_the_axis(numbers, least, ticks):
     assert Axis("", np.array(numbers), least).ticks() == pytest.approx(ticks)
 
 
-def test_numbers_stand_where_their_axis_has_them():
+def numbers(text: str) -> np.ndarray:
+    return np.array(re.findall(r"[-.0-9]+", text), dtype=float)
+
+
+def test_numbers_stand_where_their_axes_have_them():
     across, up = Axis("x [mm]", np.array([1, 1000]), 1e-4), Axis("y", np.array([0, 10]))
     across.ends, up.ends = (0, 3), (0, 10)
     its = panel(across, up)
     its.line(np.array([1.0, 10, 1000]), np.array([0.0, 5, 10]), "red", 2)
-    points = re.search('points="(.*?)"', its.drawn[-1])[1].split()
-    expected = [(LEFT, TOP + 200), (LEFT + 400 / 3, TOP + 100), (LEFT + 400, TOP)]
-    assert [tuple(map(float, one.split(","))) for one in points] == [
-        pytest.approx(one, abs=0.06) for one in expected
-    ]
+    points = numbers(re.search('points="(.*?)"', its.drawn[-1])[1])
+    expected = [LEFT, TOP + 200, LEFT + 400 / 3, TOP + 100, LEFT + 400, TOP]
+    assert points == pytest.approx(expected, abs=0.06)
+    its.spikes(np.array([[1.0, 5.0]]), np.array([[1000.0, 5.0]]), "red")
+    corners, height = numbers(re.search(' d="(.*?)"', its.drawn[-1])[1]), TOP + 100
+    assert corners == pytest.approx([LEFT, height + 1.5, LEFT + 400, height, LEFT, height - 1.5])
 
 
 def test_at_one_scale_a_square_is_a_square_in_the_middle():
-    axes = [Axis("", np.array([0.0, 2])), Axis("", np.array([0.0, 2]))]
-    its = panel(*axes, alike=True)
+    its = panel(*(Axis("", np.array([0.0, 2])) for _ in range(2)), alike=True)
     its.line(np.array([0.0, 2, 2]), np.array([0.0, 0, 2]), "red", 2)
-    points = re.search('points="(.*?)"', its.drawn[-1])[1].split()
-    one, two, three = np.array([list(map(float, each.split(","))) for each in points])
+    one, two, three = numbers(re.search('points="(.*?)"', its.drawn[-1])[1]).reshape(3, 2)
     assert two[0] - one[0] == pytest.approx(two[1] - three[1], abs=0.2) == pytest.approx(185, 0.01)
     assert (one + three) / 2 == pytest.approx([LEFT + 200, TOP + 100], abs=0.1)
-
-
-def test_a_spike_is_broad_at_its_beginning_and_ends_at_its_end():
-    axes = [Axis("", np.array([0.0, 1])), Axis("", np.array([0.0, 1]))]
-    for axis in axes:
-        axis.ends = 0, 1
-    its = panel(*axes)
-    its.spikes(np.array([[0.0, 0.5]]), np.array([[1.0, 0.5]]), "red")
-    corners = np.array(re.findall(r"[-.0-9]+", re.search(' d="(.*?)"', its.drawn[-1])[1]), float)
-    up = TOP + 100
-    assert corners == pytest.approx([LEFT, up + 1.5, LEFT + 400, up, LEFT, up - 1.5])
 
 
 def test_dots_that_nobody_can_tell_apart_are_one_and_names_are_text():

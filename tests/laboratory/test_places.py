@@ -23,7 +23,7 @@ from recalib.laboratory.summary import summary
 from recalib.nominal.arms import load_arm
 from tests.identification.bars import ARMS
 from tests.identification.real import Real
-from tests.laboratory.test_command_line import write
+from tests.laboratory.conftest import write
 
 URDF, TOOL = ARMS["UR10"]
 DRAWS = 12

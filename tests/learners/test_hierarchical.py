@@ -5,11 +5,11 @@ import pytest
 
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting, RecalibError
-from recalib.interfaces import Outcome
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.nets import regular_grid
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
+from recalib.loop.interfaces import Outcome
 from tests.reference import SlowMap, cycle
 
 SINGLE_WIDTHS = {"pose": (0.5, 0.8)}
@@ -122,13 +122,13 @@ def test_a_metric_matters_by_the_ratios_of_its_units():
 @pytest.mark.parametrize(
     ("convention", "message"),
     [
-        ({"centres": "corners"}, "unknown centres of cells 'corners'; valid: boxes or faces"),
-        ({"spread": "squares"}, "unknown spread .* 'squares'; valid: logarithms or widths"),
-        ({"rate": "cosine"}, "unknown fall .* 'cosine'; valid: exponential or linear"),
-        ({"dimensions": 4}, "dimensions is 4; valid: 3 or 6"),
-        ({"metric": (1, 1, 1)}, "metric is .*; valid: six numbers above 0"),
-        ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; valid: six numbers above 0"),
-        ({"width_units": (1, 1, 1)}, "width_units is .*; valid: six numbers above 0"),
+        ({"centres": "corners"}, "unknown centres of cells 'corners'; expected: boxes or faces"),
+        ({"spread": "squares"}, "unknown spread .* 'squares'; expected: logarithms or widths"),
+        ({"rate": "cosine"}, "unknown fall .* 'cosine'; expected: exponential or linear"),
+        ({"dimensions": 4}, "dimensions is 4; expected: 3 or 6"),
+        ({"metric": (1, 1, 1)}, "metric is .*; expected: six numbers above 0"),
+        ({"metric": (1, 1, 1, 1, 1, 0)}, "metric is .*; expected: six numbers above 0"),
+        ({"width_units": (1, 1, 1)}, "width_units is .*; expected: six numbers above 0"),
     ],
 )
 def test_an_impossible_convention_is_refused(convention, message):

@@ -21,5 +21,5 @@ def test_a_learner_is_of_the_kind_of_its_own_class():
 
 
 def test_an_unknown_kind_is_refused_with_the_known_ones():
-    with pytest.raises(UnknownName, match=r"'hybird'; valid: .*; did you mean hybrid\?"):
+    with pytest.raises(UnknownName, match=r"'hybird'; expected: .*; did you mean hybrid\?"):
         class_of("hybird")

@@ -7,7 +7,7 @@ from recalib.errors import BadMeasurement
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
-from recalib.regression import Process
+from recalib.numerics.regression import Process
 
 MOVES = 10
 SENT = np.random.default_rng(3).uniform(-1, 1, (2, MOVES, 6))

@@ -9,13 +9,13 @@ from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
-from recalib.interfaces import Outcome
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.uncorrected import UncorrectedLearner
-from recalib.training import measure
+from recalib.loop.interfaces import Outcome
+from recalib.loop.training import measure
 
 RUNS = 2
 

@@ -8,17 +8,17 @@ from recalib.damaged.disturbances import Disturbances, Noise, Repeatability
 from recalib.damaged.nongeometric import EccentricGear, Sag
 from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
-from recalib.learned import save
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner
+from recalib.learners.learned import save
+from recalib.learners.loading import load
 from recalib.learners.rules import IMPROVED
 from recalib.learners.schedules import Schedule
-from recalib.loading import load
+from recalib.loop.training import train
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import load_robot
-from recalib.training import train
 from tests.arms import RAILED, panda
 
 DAMAGES = (
@@ -84,5 +84,5 @@ def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_pat
     assert np.ptp(slid[..., 0]) > 0.02  # m
     plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
     assert np.all(left(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
-    with pytest.raises(UnknownName, match="unknown turning joint of railed 'rail'; valid: bend"):
+    with pytest.raises(UnknownName, match="unknown turning joint of railed 'rail'; expected: bend"):
         apply(robot, [EncoderShift("rail", 0.05)])

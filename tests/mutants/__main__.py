@@ -1,21 +1,21 @@
 """Small errors that nobody chose: how many of them do the tests notice?
 
-cosmic-ray makes them, one at a time, in a copy of the project. They are taken in an order drawn by
-a fixed seed, so that a sample can be made larger. What was found is kept in results/mutants and
-said on docs/mutants.md. A change of the code begins anew; after a change of tests, `--again` has
-them meet the survivors.
+cosmic-ray makes them, one at a time, in a copy of the project: its own, and those that a scientist
+makes (`operators`). They are taken in an order drawn by a fixed seed, so that a sample can be made
+larger. What was found is kept in results/mutants and said on docs/mutants.md. A change of a part's
+code begins it anew; after a change of tests, `--again` has them meet the survivors.
 
-    python -m tests.mutants --count 300
+    python -m tests.mutants multiverse --count 30
 """
 
 import argparse
 import hashlib
+import itertools
 import os
 import random
 import shutil
 import subprocess
-import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from cosmic_ray.commands import init
@@ -25,27 +25,30 @@ from cosmic_ray.work_db import WorkDB, use_db
 from cosmic_ray.work_item import MutationSpec, TestOutcome, WorkerOutcome, WorkItem, WorkResult
 from tqdm import tqdm
 
-from tests.mutants.judging import KILLED, STILLBORN, SURVIVED, TESTS, import_all, judge, tests_of
+from tests.mutants import operators
+from tests.mutants.judging import KILLED, STILLBORN, SURVIVED, Keep, import_all, judge
+from tests.mutants.nearest import Reach, nearest, reach
 from tests.mutants.page import difference, write_page
+from tests.mutants.parts import PARTS, modules
 
 ROOT, SEED = Path(__file__).parents[2], 1996
 KEPT = ROOT / "results" / "mutants"
+OTHERS = "others"  # the operators that cosmic-ray has
 
 
-def modules(part: str) -> list[Path]:
-    """Those of a part of the project, here, that compute something."""
-    path = Path(part)
-    found = [path] if path.is_file() else sorted(path.rglob("*.py"))
-    return [each for each in found if "def " in each.read_text("utf-8")]
+def session_file(part: str) -> Path:
+    """Of a part's mutants and of what was found: another one where part or operators changed."""
+    read = [*modules(part), Path(operators.__file__)]
+    digest = hashlib.sha256(b"".join(path.read_bytes() for path in read))
+    return KEPT / f"{part}.{digest.hexdigest()[:12]}.sqlite"
 
 
 def session(part: str) -> Path:
-    """The file of a part's mutants and of what was found, made where the part has changed."""
-    digest = hashlib.sha256(b"".join(each.read_bytes() for each in modules(part)))
-    path = KEPT / f"{part.replace('/', '.')}.{digest.hexdigest()[:12]}.sqlite"
+    """Its file, made where there is none."""
+    path = session_file(part)
     if not path.exists():
         KEPT.mkdir(parents=True, exist_ok=True)
-        for older in KEPT.glob(f"{part.replace('/', '.')}.*.sqlite"):
+        for older in KEPT.glob(f"{part}.*.sqlite"):
             older.unlink()
         with use_db(path) as mutants:
             init(modules(part), mutants, {})
@@ -53,14 +56,32 @@ def session(part: str) -> Path:
 
 
 def drawn(part: str, mutants: WorkDB) -> list[WorkItem]:
-    """All mutants of a part, in the order in which they are to be judged."""
-    items = sorted(mutants.work_items, key=lambda item: repr(item.mutations))
-    random.Random(f"{SEED} {part}").shuffle(items)
-    return items
+    """All mutants of a part, in the order in which they are to be judged.
+
+    The operators of science and one group of all the others take turns, so that neither a rare
+    operator is missed nor what nobody would write fills the sample.
+    """
+    by_kind: dict[str, list[WorkItem]] = {}
+    for item in sorted(mutants.work_items, key=lambda item: repr(item.mutations)):
+        by_kind.setdefault(kind(item), []).append(item)
+    for name, its in by_kind.items():
+        random.Random(f"{SEED} {part} {name}").shuffle(its)
+    others = by_kind.pop(OTHERS, [])
+    turns = itertools.zip_longest(*(by_kind[name] for name in sorted(by_kind)))
+    own = [item for turn in turns for item in turn if item]
+    pairs = itertools.zip_longest(own, others)
+    return [item for pair in pairs for item in pair if item]
+
+
+def kind(item: WorkItem) -> str:
+    """The operator's name if it is one of science."""
+    provider, name = item.mutations[0].operator_name.split("/")
+    return name if provider == operators.PROVIDER else OTHERS
 
 
 def copy_of_the_project(folder: Path) -> None:
-    """What git knows or would know of, with what was compiled of it."""
+    """What git knows or would know of, in a new folder."""
+    shutil.rmtree(folder, ignore_errors=True)
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, check=True, capture_output=True, text=True).stdout
     for name in filter(None, names.split("\0")):
@@ -69,14 +90,15 @@ def copy_of_the_project(folder: Path) -> None:
             shutil.copy2(ROOT / name, folder / name)
 
 
-def try_out(mutation: MutationSpec, folder: Path) -> WorkResult:
+def try_out(mutation: MutationSpec, folder: Path, reached: Mapping[str, Reach]) -> WorkResult:
     """Whether the tests notice a mutant in a copy of the project, which is left as it was."""
     module = folder / mutation.module_path
     was, told = module.stat(), folder / "told.txt"
+    tests = nearest(Path(mutation.module_path), mutation.start_pos[0], reached)
     operator = get_operator(mutation.operator_name)(**mutation.operator_args)
     before, after = apply_mutation(module, operator, mutation.occurrence)
     try:
-        outcome = judge(folder, tests_of(str(mutation.module_path), folder), told)
+        outcome = judge(folder, tests, told, 3 * sum(reached[test].seconds for test in tests))
     finally:
         module.write_text(before, encoding="utf-8")
         os.utime(module, ns=(was.st_atime_ns, was.st_mtime_ns))  # what is compiled of it stays good
@@ -88,11 +110,15 @@ def try_out(mutation: MutationSpec, folder: Path) -> WorkResult:
     )
 
 
-def check_without(part: str, folder: Path) -> None:
-    """Leave unless the tests of a part pass where nothing is planted: else all would be noticed."""
-    tests, told = tests_of(part, folder), folder / "told.txt"
-    if judge(folder, tests, told, kept=True) != SURVIVED:
-        raise SystemExit(f"{told.read_text('utf-8')}\nthe tests of {part} fail without any mutant")
+def reach_of(part: str, folder: Path) -> dict[str, Reach]:
+    """What the tests of a part reach. Leave unless they pass where nothing is planted."""
+
+    def run(files: list[str], keep: Keep) -> None:
+        told = folder / "told.txt"
+        if judge(folder, files, told, keep=keep) != SURVIVED:
+            raise SystemExit(f"{told.read_text('utf-8')}\n{part}: tests fail without a mutant")
+
+    return reach(PARTS[part].tests, KEPT, run)
 
 
 def judge_part(part: str, count: int, again: bool, folder: Path) -> None:
@@ -105,26 +131,27 @@ def judge_part(part: str, count: int, again: bool, folder: Path) -> None:
             waiting = [item for item in chosen if item.job_id in survived]
         else:
             waiting = [item for item in chosen if item.job_id not in results]
-        if waiting:
-            check_without(part, folder)
+        reached = reach_of(part, folder) if waiting else {}
         for item in tqdm(waiting, part, mininterval=10):
-            mutants.set_result(item.job_id, try_out(item.mutations[0], folder))
+            mutants.set_result(item.job_id, try_out(item.mutations[0], folder, reached))
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m tests.mutants", description=__doc__)
-    parser.add_argument("parts", nargs="*", default=list(TESTS), metavar="PART")
+    parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART")
     parser.add_argument("--count", type=int, default=100, help="of mutants, in each part")
     parser.add_argument("--again", action="store_true", help="those that survived")
     its = parser.parse_args(arguments)
+    operators.register()
     import_all()
-    with tempfile.TemporaryDirectory() as name:
-        copy_of_the_project(Path(name))
-        os.chdir(name)  # what is edited meanwhile changes nothing
-        for part in its.parts:
-            judge_part(part, its.count, its.again, Path(name))
-        write_page({part: session(part) for part in TESTS})
-        os.chdir(ROOT)
+    copy = KEPT / "project"  # in the same place each time: what is compiled of it stays good
+    copy_of_the_project(copy)
+    os.chdir(copy)  # what is edited meanwhile changes nothing
+    for part in its.parts:
+        judge_part(part, its.count, its.again, copy)
+        files = {part: session_file(part) for part in PARTS}
+        write_page({part: path for part, path in files.items() if path.exists()})
+    os.chdir(ROOT)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The page that says how many mutants the tests notice, and which they do not."""
 
 import difflib
+import inspect
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -9,6 +10,9 @@ import yaml
 from cosmic_ray.work_db import use_db
 from cosmic_ray.work_item import WorkItem, WorkResult
 from scipy.stats import binomtest
+
+from tests.mutants import operators
+from tests.mutants.parts import LEFT_OUT
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "mutants.md"
@@ -33,22 +37,28 @@ def _survivor(item: WorkItem, result: WorkResult, reasons: Mapping) -> dict:
 def write_page(sessions: Mapping[str, Path]) -> None:
     """Say what the sessions of cosmic-ray, by the part of the project, have found."""
     explained = yaml.safe_load((HERE / "survivors.yaml").read_text(encoding="utf-8")) or []
-    reasons = {(each["module"], each["was"], each["now"]): each["why"] for each in explained}
+    reasons = {(its["module"], its["was"], its["now"]): its["why"] for its in explained}
     rows, survivors = [], []
     for part, path in sessions.items():
         with use_db(path) as mutants:
-            judged = [each for each in mutants.completed_work_items if each[1].test_outcome]
-            left = [_survivor(*each, reasons) for each in judged if not each[1].is_killed]
-            rows.append({"part": part, "of": mutants.num_work_items, "judged": len(judged)})
-        rows[-1]["survived"] = len(left)
-        rows[-1]["explained"] = sum(bool(each["reason"]) for each in left)
-        survivors += sorted(left, key=lambda each: (each["module"], each["line"]))
-    rows = [row | {"interval": _interval(row)} for row in rows if row["judged"]]
-    whole = {
-        key: sum(row[key] for row in rows) for key in ("of", "judged", "survived", "explained")
-    }
+            judged = [pair for pair in mutants.completed_work_items if pair[1].test_outcome]
+            left = [_survivor(*pair, reasons) for pair in judged if not pair[1].is_killed]
+            row = {"of": mutants.num_work_items, "judged": len(judged), "survived": len(left)}
+        names = [item.mutations[0].operator_name for item, _ in judged]
+        row["science"] = sum(name.startswith(operators.PROVIDER) for name in names)
+        row["explained"] = sum(bool(survivor["reason"]) for survivor in left)
+        if judged:
+            rows.append(row | {"part": part, "interval": _interval(row)})
+        survivors += sorted(left, key=lambda survivor: (survivor["module"], survivor["line"]))
+    whole = {key: sum(row[key] for row in rows) for key in row}
     template = jinja2.Template((HERE / "page.md.j2").read_text(encoding="utf-8"))
-    page = template.render(rows=rows, whole=whole | {"interval": _interval(whole)}, left=survivors)
+    page = template.render(
+        rows=rows,
+        whole=whole | {"part": "together", "interval": _interval(whole)},
+        left=survivors,
+        science=[(name, inspect.getdoc(getattr(operators, name))) for name in operators.OPERATORS],
+        left_out=LEFT_OUT.items(),
+    )
     PAGE.write_text(page + "\n", encoding="utf-8")
 
 

@@ -28,16 +28,6 @@ ARMS = {
 SLIDER = "slide", "prismatic", "1 0 0", "0 0 0"
 
 
-@pytest.fixture
-def load(tmp_path):
-    def from_text(text, *links):
-        path = tmp_path / "small.urdf"
-        path.write_text(text)
-        return load_arm(path, *links)
-
-    return from_text
-
-
 @pytest.mark.parametrize("name", ARMS)
 def test_an_arm_of_example_robot_data_has_the_joints_that_move_its_tool(name):
     tool, count = ARMS[name]
@@ -77,12 +67,6 @@ def test_a_gantry_adds_its_slides_along_their_axes(load):
     assert np.allclose(arm.forward(np.array([[x, y, z]]))[0, :3, 3], [x, y + 0.6 * z, 1 + 0.8 * z])
 
 
-def test_without_masses_an_arm_says_so(load):
-    assert load(SCARA).massless
-    heavy = load(urdf(SLIDER, ("turn", "revolute", "0 1 0", "1 0 0"), mass=2.0))
-    assert not heavy.massless
-
-
 @pytest.mark.parametrize("base", ["panda_link2", "panda_link4"])
 def test_poses_are_in_the_frame_of_the_base_and_gravity_stays_down(base):
     whole, part = load_arm("panda.urdf", "panda_hand"), load_arm("panda.urdf", "panda_hand", base)
@@ -105,7 +89,9 @@ def test_an_installed_description_is_found_by_its_name(monkeypatch, tmp_path):
     name = "robot_descriptions.scara_description"
     monkeypatch.setitem(sys.modules, name, SimpleNamespace(URDF_PATH=str(path)))
     assert len(load_arm("scara_description").joints) == 4
-    with pytest.raises(InvalidSetting, match=r"'arm_description'; valid: .* has to be installed"):
+    with pytest.raises(
+        InvalidSetting, match=r"'arm_description'; expected: .* has to be installed"
+    ):
         load_arm("arm_description")
 
 
@@ -118,14 +104,13 @@ MIMIC = '<mimic joint="slide"/>'
 @pytest.mark.parametrize(
     ("text", "links", "error", "message"),
     [
-        (SCARA, ["hand"], UnknownName, "tool link of small.urdf 'hand'; valid: base, link_1"),
-        (SCARA, ["link_5", "bed"], UnknownName, "base link of small.urdf 'bed'; valid: base,"),
+        (SCARA, ["hand"], UnknownName, "tool link of small.urdf 'hand'; expected: base, link_1"),
+        (SCARA, ["link_5", "bed"], UnknownName, "base link of small.urdf 'bed'; expected: base,"),
         (SCARA, ["link_2", "link_3"], UnsuitableRobot, "link_3 does not carry link_2 in small"),
         (SCARA, ["link_5", "link_4"], UnsuitableRobot, "no joint of small.urdf moves link_5"),
         (urdf(SLIDER, ("drift", "planar", "0 0 1", "0 0 0")), [], UnsuitableRobot, "drift .* plan"),
         (urdf(SLIDER, ("fly", "floating", "0 0 1", "0 0 0")), [], UnsuitableRobot, "fly .* float"),
         (urdf(SLIDER, ("ape", *SLIDER[1:], MIMIC)), [], UnsuitableRobot, "ape .* is mimic"),
-        (urdf(), [], InvalidSetting, "tool is missing; .* at its ends are none"),
         (
             SCARA.replace("link_3", "link_1").replace('<link name="link_1"/>', "", 1),
             [],
@@ -136,7 +121,7 @@ MIMIC = '<mimic joint="slide"/>'
             SCARA.replace("</robot>", CIRCLE),
             ["one"],
             UnknownName,
-            "tool link .* 'one'; valid: base",
+            "tool link .* 'one'; expected: base",
         ),
         (urdf(("a", "revolute", "0 0 0", "0 0 0")), [], UnsuitableRobot, "axis of a has no length"),
         (
@@ -147,31 +132,11 @@ MIMIC = '<mimic joint="slide"/>'
         ),
         (SCARA.replace('"-2"', '"${-2}"', 1), [], UnsuitableRobot, "no URDF"),
         ('<robot name="x"><link/><joint type="fixed"/></robot>', [], UnsuitableRobot, "no URDF"),
-        (
-            '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="x"><xacro:arm/></robot>',
-            [],
-            UnsuitableRobot,
-            "small.urdf is a xacro file; valid: what `xacro small.urdf` expands it to",
-        ),
     ],
 )
 def test_what_is_no_such_arm_is_refused_by_name(load, text, links, error, message):
     with pytest.raises(error, match=message):
         load(text, *links)
-
-
-def test_of_several_ends_the_tool_has_to_be_named():
-    with pytest.raises(InvalidSetting, match="at its ends are panda_leftfinger, panda_right"):
-        load_arm("panda.urdf")
-
-
-def test_a_path_to_nothing_is_told_without_the_names_that_would_do(tmp_path):
-    with pytest.raises(InvalidFile, match=r"my_arm.urdf: there is no such file$"):
-        load_arm(tmp_path / "my_arm.urdf")
-    with pytest.raises(UnknownName, match=r"'my_arm.urdf'; valid: one of 68, such as "):
-        load_arm("my_arm.urdf")
-    with pytest.raises(UnknownName, match=r"'urr5_robot.urdf'; did you mean ur5_robot.urdf\?$"):
-        load_arm("urr5_robot.urdf")
 
 
 def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):

@@ -14,7 +14,7 @@ from recalib.damaged.plant import Plant
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
-from recalib.study.plants import nominal_robot
+from recalib.study.scenarios.plants import nominal_robot
 
 POSTURES = arrays(float, (3, 8), elements=st.floats(-np.pi, np.pi))  # of so many joints or fewer
 OTHERS = (
@@ -52,7 +52,7 @@ def arms(plan) -> list[tuple[Arm, Chain]]:
     return [(arm, Chain.of(arm)) for arm in arms]
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(postures=POSTURES)
 def test_the_chain_moves_as_pinocchio_says(arms, postures):
     for arm, chain in arms:

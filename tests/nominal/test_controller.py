@@ -7,34 +7,38 @@ from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.study.plants import nominal_controller
+from recalib.study.scenarios.plants import nominal_controller
+from tests.arms import panda
 from tests.conftest import changed
 
 
-@pytest.mark.parametrize("name", ["ur10", "ur5", "ur3", "z1"])
-def test_forward_of_inverse_is_the_pose(name, plan):
-    controller = nominal_controller(plan.nominal(name))
-    workspace = controller.robot.workspace
-    poses = workspace.to_poses(
-        workspace.sample(np.random.default_rng(1), 10_000 if name == "ur10" else 1000)
-    )
-    reached = controller.robot.arm.forward(controller.inverse(poses))
+@pytest.fixture(params=["ur10", "ur5", "ur3", "z1", "panda"])
+def some(request, plan) -> Controller:
+    """Of six joints, and of seven."""
+    if request.param == "panda":
+        return Controller(panda())
+    return nominal_controller(plan.nominal(request.param))
+
+
+def test_forward_of_inverse_is_the_pose(some):
+    workspace = some.robot.workspace
+    poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 1000))
+    reached = some.robot.arm.forward(some.inverse(poses))
     assert position_error(reached, poses).max() < 1e-9
     assert orientation_error(reached, poses).max() < 1e-9
 
 
-def test_a_command_gives_the_same_angles_whatever_comes_before_and_beside_it(controller):
-    workspace = controller.robot.workspace
-    poses = workspace.to_poses(workspace.sample(np.random.default_rng(2), 40) * 1.2)
-    together = controller.solve(poses).angles
-    alone = np.concatenate([controller.solve(pose[None]).angles for pose in poses[::-1]])[::-1]
-    assert np.array_equal(together, alone)
+def test_a_command_gives_the_same_angles_whatever_comes_before_and_beside_it(some):
+    coordinates = 1.2 * some.robot.workspace.sample(np.random.default_rng(2), 2, 20)
+    together = some.targets(coordinates).angles
+    alone = some.targets(coordinates[1:, 7:8]).angles
+    assert np.array_equal(alone[0, 0], together[1, 7])
 
 
-def test_neighbouring_commands_stay_on_the_branch_of_home(controller):
-    workspace = controller.robot.workspace
-    path = np.linspace(-1, 1, 400)[:, None] * np.array([1, -1, 1, -1, 1, -1])
-    angles = controller.inverse(workspace.to_poses(path))
+def test_neighbouring_commands_stay_on_the_branch_of_home(some):
+    path = np.linspace(-1, 1, 401)[:, None] * np.array([1, -1, 1, -1, 1, -1])
+    angles = some.targets(path[None]).angles[0]
+    assert np.abs(angles[200] - some.robot.home).max() < 0.01
     assert np.abs(np.diff(angles, axis=0)).max() < 0.05
 
 

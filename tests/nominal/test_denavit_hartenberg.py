@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.arms import load_arm
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
-from recalib.study.plants import nominal_robot
+from recalib.study.scenarios.plants import nominal_robot
 
 # Universal Robots' own table of the UR5 (support article on DH parameters), standard: d, a, alpha.
 UR5 = (
@@ -81,31 +81,18 @@ def test_the_published_table_of_the_ur5_is_its_urdf_up_to_where_base_and_tool_ar
     np.testing.assert_allclose(turn(2, np.pi) @ by_table, by_urdf, rtol=0, atol=1e-10)
 
 
-def test_a_stanford_arm_is_its_closed_form():
-    """Its first three joints, standard: two that turn, one that slides."""
-    rows = [
-        Row("waist", d=0.4, alpha=-np.pi / 2),
-        Row("shoulder", d=0.15, alpha=np.pi / 2),
-        Row("boom", slides=True),
-    ]
-    waist, shoulder, boom = 0.7, -1.1, 0.5
-    position = arm_of_table(rows).forward(np.array([[waist, shoulder, boom]]))[0, :3, 3]
-    out = boom * np.sin(shoulder)
-    expected = [
-        np.cos(waist) * out - 0.15 * np.sin(waist),
-        np.sin(waist) * out + 0.15 * np.cos(waist),
-        0.4 + boom * np.cos(shoulder),
-    ]
-    assert np.allclose(position, expected)
-
-
 @pytest.mark.parametrize(
     ("rows", "convention", "error", "message"),
     [
-        ([Row("a")], "craig", UnknownName, "'craig'; valid: modified or standard"),
+        ([Row("a")], "craig", UnknownName, "'craig'; expected: modified or standard"),
         ([], "standard", InvalidSetting, "at least one"),
-        ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; valid: another name"),
-        ([Row("a", alpha=np.nan)], "standard", InvalidSetting, "alpha of a is nan; valid: a num"),
+        ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; expected: another name"),
+        (
+            [Row("a", alpha=np.nan)],
+            "standard",
+            InvalidSetting,
+            "alpha of a is nan; expected: a num",
+        ),
     ],
 )
 def test_a_table_that_makes_no_arm_is_refused(rows, convention, error, message):
@@ -119,5 +106,5 @@ def test_the_puma_moves_as_its_published_table_says_and_has_a_spherical_wrist(pl
     angles = np.random.default_rng(0).uniform(-3, 3, (20, 6))
     assert np.allclose(arm.forward(angles), arm_of_table(rows).forward(angles), atol=1e-12)
     turned = np.concatenate([angles[:, :3], np.roll(angles[:, 3:], 1, axis=0)], axis=1)
-    wrist, same = (arm.skeleton(each)[:, 5:7] for each in (angles, turned))
+    wrist, same = (arm.skeleton(posture)[:, 5:7] for posture in (angles, turned))
     assert np.allclose(wrist, wrist[:, :1], atol=1e-12) and np.allclose(wrist, same, atol=1e-12)

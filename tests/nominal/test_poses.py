@@ -21,7 +21,7 @@ HALF_RANGES = np.array([0.25, 0.3, 0.25, 0.35, 0.35, 0.35])
 WORKSPACE = Workspace(CENTRE, HALF_RANGES)
 both = pytest.mark.parametrize(
     "workspace",
-    [Workspace(CENTRE, HALF_RANGES, each) for each in COORDINATES],
+    [Workspace(CENTRE, HALF_RANGES, numbers) for numbers in COORDINATES],
     ids=list(COORDINATES),
 )
 coordinates = arrays(float, (5, 6), elements=st.floats(-2, 2))
@@ -50,14 +50,6 @@ def test_orientations_are_those_of_scipy(numbers, turn, vectors):
     np.testing.assert_allclose(again, poses[:, :3, :3], rtol=0, atol=1e-12)
 
 
-@both
-@given(u=coordinates)
-def test_poses_are_rigid(workspace, u):
-    rotations = workspace.to_poses(u)[:, :3, :3]
-    assert np.allclose(rotations @ rotations.swapaxes(1, 2), np.eye(3), atol=1e-12)
-    assert np.allclose(np.linalg.det(rotations), 1)
-
-
 def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     assert np.allclose(WORKSPACE.to_poses(np.zeros((1, 6)))[0], CENTRE)
     pose = WORKSPACE.to_poses(
@@ -71,16 +63,8 @@ def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     assert np.allclose(pose[2, :3, :3], CENTRE[:3, :3] @ z @ y @ x)
 
 
-def test_a_rotation_vector_turns_about_itself():
-    workspace = Workspace(CENTRE, HALF_RANGES, "rotation_vector")
-    pose = workspace.to_poses(np.array([0, 0, 0, 1, 1, 1.0]))
-    turned = CENTRE[:3, :3].T @ pose[:3, :3]
-    assert np.allclose(turned @ [1, 1, 1], [1, 1, 1])
-    assert np.trace(turned) == pytest.approx(1 + 2 * np.cos(0.35 * np.sqrt(3)))
-
-
 def test_unknown_coordinates_are_refused_with_the_known_ones():
-    with pytest.raises(UnknownName, match="valid: roll_pitch_yaw or rotation_vector"):
+    with pytest.raises(UnknownName, match="expected: roll_pitch_yaw or rotation_vector"):
         Workspace(CENTRE, HALF_RANGES, "quaternion")
 
 

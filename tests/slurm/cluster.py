@@ -12,13 +12,14 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
+
+from tests.project import wait_until
 
 PROGRAMS = "munged", "slurmctld", "slurmd", "sbatch", "srun", "squeue", "scancel"
 SYSTEM = f"{os.environ.get('PATH', os.defpath)}:/usr/local/sbin:/usr/sbin"  # where daemons lie
 USER = pwd.getpwuid(os.getuid()).pw_name
-PATIENCE = 300  # s, until something begins or ends on a slow machine
+PATIENCE = 300  # s, until something ends on a slow machine
 
 SETTINGS = """\
 ClusterName=tests
@@ -54,15 +55,6 @@ PartitionName=all Nodes=here Default=YES MaxTime=INFINITE
 def missing() -> list[str]:
     """The programs of Slurm that this machine does not have."""
     return [program for program in PROGRAMS if not shutil.which(program, path=SYSTEM)]
-
-
-def wait_until(what: str, holds) -> None:
-    """Wait until `holds()`. Raises TimeoutError, which says what was waited for."""
-    deadline = time.monotonic() + PATIENCE
-    while not holds():
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"{what}: not within {PATIENCE} s")
-        time.sleep(0.1)
 
 
 class Cluster:
@@ -142,7 +134,7 @@ class Cluster:
             "slurmctld": lambda: "UP" in self.ask("scontrol", "ping"),
             "slurmd": lambda: self.ask("sinfo", "-h", "-o", "%T") in {"idle", "mixed", "allocated"},
         }
-        wait_until(f"{daemon} answers, see {self.folder}", ready[daemon])
+        wait_until(f"{daemon} answers, see {self.folder},", ready[daemon])
 
     def stop(self, daemon: str, how: signal.Signals = signal.SIGTERM) -> None:
         """Stop a daemon, if it runs."""
@@ -181,6 +173,6 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory(prefix="slurm") as folder, Cluster(Path(folder)) as cluster:
         names = "SLURM_CONF", "PATH"
         print("export", *(f"{name}={cluster.environment[name]}" for name in names), flush=True)
-        for each in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(each, lambda *_: sys.exit())
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: sys.exit())
         signal.pause()

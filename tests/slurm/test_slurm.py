@@ -1,20 +1,15 @@
 """A small campaign on a Slurm of one node gives the same bytes as here, whatever befalls it."""
 
-import os
+import re
 import signal
-import subprocess
-import sys
 import time
-from collections.abc import Mapping
 from importlib.util import find_spec
-from pathlib import Path
 
-import psutil
 import pytest
 
-from recalib.study.shipped import DESIGN
-from tests.conftest import copy_project
-from tests.slurm.cluster import Cluster, missing, wait_until
+from recalib.study.configuration.shipped import DESIGN
+from tests.project import Project, ended, kill
+from tests.slurm.cluster import Cluster, missing
 
 pytestmark = [
     pytest.mark.skipif(
@@ -28,81 +23,54 @@ pytestmark = [
 ]
 
 UNIVERSES, TOGETHER, JOBS = 3, 2, 2  # universes of the campaign, those of a job, jobs in Slurm
-CAMPAIGN = ["--configfile", "tests/slurm/campaign.yaml"]
 # nobody minds to be asked often
-HERE = ["--slurm-init-seconds-before-status-checks", "1"]
-HERE += ["--group-components", f"universes={TOGETHER}"]
+ON_SLURM = ["--profile", "profiles/slurm", "--slurm-init-seconds-before-status-checks", "1"]
+ON_SLURM += ["--group-components", f"universes={TOGETHER}"]
 
 
-class Run:
-    """A campaign of this name on its way, in a group of processes of its own."""
+class Campaign:
+    """A campaign of this name, of which at most one run is on its way."""
 
-    def __init__(self, project: Path, name: str, arguments: list[str], environment: Mapping):
-        self._project, self._name = project, name
-        named = ["--config", f"name={name}", "--", "universes"]
-        with self._log.open("ab") as log:
-            self._process = subprocess.Popen(
-                [sys.executable, "-m", "snakemake", *arguments, *CAMPAIGN, *named],
-                cwd=project,
-                env=environment,
-                stdout=log,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-            )
+    def __init__(self, project: Project, name: str, *arguments: str, **options):
+        self._project, self._name, self._options = project, name, options
+        self._arguments = [*arguments, "--config", f"name={name}", "--", "universes"]
+        self.start()
 
-    @property
-    def _log(self) -> Path:
-        return self._project / f"{self._name}.log"
+    def start(self):
+        """Begin it, or go on."""
+        self._process = self._project.start(*self._arguments, **self._options)
 
-    def said(self) -> str:
-        """All that runs of this name have said."""
-        return self._log.read_text(encoding="utf-8")
-
-    def at_work(self) -> psutil.Process:
-        """Wait until something is computed, and say where."""
-        found = []
-
-        def computing():
-            assert self._process.poll() is None, self.said()
-            found[:] = scripts(self._project)
-            return found
-
-        wait_until("a universe is being measured", computing)
-        return found[0]
+    def at_work(self):
+        """Wait until a universe is being measured, and say where."""
+        return self._project.at_work(self._process)[0]
 
     def kill(self):
         """End Snakemake at once, if it still runs, and leave its jobs in Slurm alone."""
         if self._process.poll() is None:
-            os.killpg(self._process.pid, signal.SIGKILL)
-            self._process.wait()
+            kill(self._process)
 
-    def made(self) -> dict[str, bytes]:
-        """Wait for its end; by their paths, what the files hold that it made."""
-        assert self._process.wait(timeout=1800) == 0, self.said()
-        folder = self._project / "results" / "studies" / self._name
-        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.csv")}
-
-
-def scripts(project: Path) -> list[psutil.Process]:
-    """What computes in this folder now."""
-    folder = str(project / ".snakemake" / "scripts")
-    processes = psutil.process_iter(["cmdline"])
-    return [each for each in processes if folder in " ".join((each.info["cmdline"] or [])[:2])]
+    def made(self) -> tuple[dict[str, bytes], str]:
+        """Wait for its end; by their paths, what the files hold that it made, and what it says."""
+        said = ended(self._process).well().said
+        folder = self._project.results / self._name
+        tables = {str(path.relative_to(folder)): path for path in folder.rglob("*.csv")}
+        return {name: path.read_bytes() for name, path in tables.items()}, said
 
 
 @pytest.fixture(scope="module")
-def project(tmp_path_factory) -> Path:
+def project(tmp_path_factory) -> Project:
     """A copy of the project with few universes."""
-    folder = copy_project(tmp_path_factory.mktemp("slurm"))
-    design = (folder / DESIGN).read_text(encoding="utf-8").splitlines(keepends=True)
-    (folder / DESIGN).write_text("".join(design[: 1 + UNIVERSES]), encoding="utf-8")
-    return folder
+    its = Project(tmp_path_factory.mktemp("slurm"), "--configfile", "tests/slurm/campaign.yaml")
+    path = its.folder / DESIGN
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    path.write_text("".join(lines[: 1 + UNIVERSES]), encoding="utf-8")
+    return its
 
 
 @pytest.fixture(scope="module")
 def expected(project) -> dict[str, bytes]:
     """What the campaign makes without Slurm."""
-    made = Run(project, "here", ["--cores", "2"], os.environ).made()
+    made, _ = Campaign(project, "here", "--cores", "2").made()
     assert len(made) == UNIVERSES + 1, "each universe, and the table"
     return made
 
@@ -114,62 +82,50 @@ def cluster(tmp_path_factory):
 
 
 @pytest.fixture
-def start(project, expected, cluster, request):
-    """Starts the campaign on the cluster under the test's name; nothing of it outlives the test."""
-    runs = []
-
-    def on_slurm() -> Run:
-        arguments = ["--profile", "profiles/slurm", *HERE]
-        runs.append(Run(project, request.node.name, arguments, cluster.environment))
-        return runs[-1]
-
-    yield on_slurm
-    for run in runs:
-        run.kill()
+def campaign(project, expected, cluster, request):
+    """On the cluster under the test's name; nothing of it outlives the test."""
+    name = re.sub(r"\W+", "_", request.node.name)[-30:].strip("_")  # of a study: not a long one
+    its = Campaign(project, name, *ON_SLURM, env=cluster.environment)
+    yield its
+    its.kill()
     cluster.clear()
 
 
-def test_slurm_makes_the_same_bytes(start, expected):
-    run = start()
-    assert run.made() == expected
-    assert run.said().count("has been submitted with SLURM jobid") == JOBS
+def test_slurm_makes_the_same_bytes(campaign, expected):
+    made, said = campaign.made()
+    assert made == expected
+    assert said.count("has been submitted with SLURM jobid") == JOBS
 
 
-def test_a_cancelled_job_is_done_again(start, expected, cluster):
-    run = start()
-    run.at_work()
-    cluster.ask("scancel", cluster.jobs("running")[0])
-    assert run.made() == expected
-    assert run.said().count("Trying to restart job") == 1
+@pytest.mark.parametrize("how", ["cancelled", "killed"])
+def test_a_job_that_is_ended_is_done_again(how, campaign, expected, cluster):
+    job = campaign.at_work()
+    if how == "killed":
+        job.kill()
+    else:
+        cluster.ask("scancel", cluster.jobs("running")[0])
+    made, said = campaign.made()
+    assert made == expected and said.count("Trying to restart job") == 1
 
 
-def test_a_killed_job_is_done_again(start, expected):
-    run = start()
-    run.at_work().kill()
-    assert run.made() == expected
-    assert run.said().count("Trying to restart job") == 1
+@pytest.mark.parametrize(
+    ("daemon", "how", "away"),
+    [
+        ("slurmd", signal.SIGKILL, 0),
+        ("slurmctld", signal.SIGTERM, 15),  # longer than between two questions
+    ],
+)
+def test_a_daemon_may_be_away(daemon, how, away, campaign, expected, cluster):
+    campaign.at_work()
+    cluster.stop(daemon, how)
+    time.sleep(away)
+    cluster.start(daemon)
+    assert campaign.made()[0] == expected
 
 
-def test_a_killed_slurmd_is_replaced(start, expected, cluster):
-    run = start()
-    run.at_work()
-    cluster.stop("slurmd", signal.SIGKILL)
-    cluster.start("slurmd")
-    assert run.made() == expected
-
-
-def test_the_controller_may_be_away(start, expected, cluster):
-    run = start()
-    run.at_work()
-    cluster.stop("slurmctld")
-    time.sleep(15)  # longer than between two questions
-    cluster.start("slurmctld")
-    assert run.made() == expected
-
-
-def test_a_killed_snakemake_goes_on(start, expected, cluster):
-    run = start()
-    run.at_work()
-    run.kill()
+def test_a_killed_snakemake_goes_on(campaign, expected, cluster):
+    campaign.at_work()
+    campaign.kill()
     assert cluster.jobs("running"), "what it left in Slurm works on"
-    assert start().made() == expected
+    campaign.start()
+    assert campaign.made()[0] == expected

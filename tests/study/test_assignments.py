@@ -3,9 +3,9 @@ import pytest
 
 from recalib.damaged.damage import apply
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.randomness import generator
-from recalib.study.assignments import Ways, assign, distance_to
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.scenarios.assignments import Ways, assign, distance_to
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import t
 
-from recalib.study import hierarchy as module
-from recalib.study.hierarchy import hierarchy, student
+from recalib.study.inference import hierarchy as module
+from recalib.study.inference.hierarchy import hierarchy, student
 
 EFFORTS = np.array(["full", "rough"])
 

@@ -10,15 +10,22 @@ from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
 from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
+from recalib.loop.training import train
+from recalib.study.configuration.shipped import SEARCHED
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import best, build_tuned, rules_of
 from recalib.study.experiments.trials import Search, search_for
-from recalib.study.shipped import SEARCHED
-from recalib.study.trainings import Trainings, ritter_short, rules, searches, switched, training
-from recalib.study.trainings import budget as budget_of
-from recalib.training import train
+from recalib.study.plan.trainings import (
+    Trainings,
+    ritter_short,
+    rules,
+    searches,
+    switched,
+    training,
+)
+from recalib.study.plan.trainings import budget as budget_of
 from tests.conftest import ROOT
 from workflow.scripts.call import write
 

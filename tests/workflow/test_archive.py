@@ -8,9 +8,7 @@ import zipfile
 from importlib.resources import files
 
 import pytest
-import yaml
 
-import recalib
 from recalib.study.evidence.claims import CLAIMS
 from tests.conftest import ROOT
 
@@ -85,7 +83,7 @@ def test_each_claim_is_a_review_of_a_sentence_of_the_paper(unpacked):
         review = reviews[f"#{claim['id']}"]
         assert review["reviewRating"]["alternateName"] == claim["verdict"]
         assert review["itemReviewed"]["text"] == claim["quotation"]
-        numbers = {each["name"]: each["value"] for each in review["additionalProperty"]}
+        numbers = {row["name"]: row["value"] for row in review["additionalProperty"]}
         assert claim["measured"].items() <= numbers.items()
 
 
@@ -112,14 +110,3 @@ def test_the_validator_of_ro_crate_finds_nothing(unpacked, monkeypatch):
             rocrate_uri=str(unpacked), profile_identifier=profile, no_cache=True
         )
         assert [issue.message for issue in services.validate(settings).get_issues()] == []
-
-
-def test_all_files_for_citation_name_the_same_version_and_title():
-    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-    meta, zenodo = (
-        json.loads((ROOT / name).read_text(encoding="utf-8"))
-        for name in ("codemeta.json", ".zenodo.json")
-    )
-    assert {cited["version"], meta["version"], zenodo["version"]} == {recalib.__version__}
-    assert cited["title"] == zenodo["title"]
-    assert cited["references"][0]["title"] == meta["referencePublication"]["name"]

@@ -6,9 +6,8 @@ import subprocess
 
 import pytest
 
-from recalib.study.configuration.messages import InvalidConfiguration
+from recalib.study.plan.trainings import Trainings
 from recalib.study.studies import read_studies
-from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
@@ -50,13 +49,6 @@ def test_the_page_names_every_study_to_begin_with():
     assert len(studies) > 4 and studies <= {*re.findall(r"\w+", row)}
 
 
-def test_a_mistake_is_told_by_its_place_before_anything_runs(project):
-    path = project / "my_arm.yaml"
-    path.write_text(STUDY.replace("forearm_link", "forearm"), encoding="utf-8")
-    with pytest.raises(InvalidConfiguration, match=r"my_arm.yaml:6:8: .* valid: base_link, fore"):
-        read_studies(project, [path], {})
-
-
 @pytest.mark.parametrize(
     ("command", "said"),
     [
@@ -81,11 +73,3 @@ def test_a_command_speaks_of_its_study(project, command, said):
 def test_a_study_without_a_file_is_refused(project):
     refused = make(project, "study", "STUDY=my_leg")
     assert refused.returncode and "there is no my_leg.yaml" in refused.stderr
-
-
-def test_a_study_of_ones_own_is_nobody_elses_business():
-    asked = ["git", "check-ignore", "--no-index", "my_arm.yaml"]
-    ignored = subprocess.run(asked, cwd=ROOT, capture_output=True, text=True)
-    if "not a git repository" in ignored.stderr:
-        pytest.skip("this copy is no git repository")
-    assert ignored.stdout == "my_arm.yaml\n"

@@ -7,8 +7,9 @@ import pandas as pd
 import pytest
 import yaml
 
-from tests.conftest import ROOT, copy_project
-from tests.workflow.conftest import snakemake
+from tests.conftest import ROOT
+from tests.project import Project
+from tests.workflow.conftest import CORES
 
 BLOCK = re.compile(r"```python\n# (\S+)\n(.*?)```", re.DOTALL)
 EXAMPLE = BLOCK.findall((ROOT / "docs" / "architecture.md").read_text(encoding="utf-8"))
@@ -29,19 +30,17 @@ def test_it_takes_four_files():
 
 @pytest.mark.slow
 def test_the_example_is_measured_and_judged(tmp_path):
-    project = copy_project(tmp_path)
+    project = Project(tmp_path, *CORES, "--configfile", "example.yaml", name="example")
     for path, block in EXAMPLE:
-        put(project / path, block)
+        put(tmp_path / path, block)
     tiny = yaml.safe_load((ROOT / "tests" / "tiny.yaml").read_text(encoding="utf-8"))
     tiny |= {"name": "example", "mapping": {"poses": 7}}
     tiny["experiments"] |= {"scenarios": ["intact"], "learners": ["improved"]}
-    (project / "example.yaml").write_text(yaml.safe_dump(tiny), encoding="utf-8")
-    results = project / "results" / "studies" / "example"
-    ask = ["--configfile", "example.yaml", "--", "results/studies/example/claims.json"]
+    (tmp_path / "example.yaml").write_text(yaml.safe_dump(tiny), encoding="utf-8")
+    results = project.results
 
     def run():
-        ran = snakemake(project, *ask, small=False)
-        assert ran.returncode == 0, ran.stdout
+        project.run("--", "results/studies/example/claims.json").well()
         claims = {its["id"]: its for its in json.loads((results / "claims.json").read_text())}
         return pd.read_csv(results / "singularities.csv")["condition"], claims
 
@@ -49,5 +48,5 @@ def test_the_example_is_measured_and_judged(tmp_path):
     judged = claims["far-from-singularities"]
     assert len(conditions) == 7 and judged["verdict"] == "supported"
     assert judged["measured"]["median condition number"] == pytest.approx(conditions.median(), 1e-4)
-    (project / "example.yaml").write_text(yaml.safe_dump(tiny | {"mapping": {"poses": 8}}))
+    (tmp_path / "example.yaml").write_text(yaml.safe_dump(tiny | {"mapping": {"poses": 8}}))
     assert len(run()[0]) == 8

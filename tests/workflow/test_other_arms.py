@@ -4,9 +4,9 @@ import pandas as pd
 import pytest
 import yaml
 
-from tests.conftest import copy_project
+from tests.project import Project
 from tests.study.configuration.test_own_robots import ARMS, entry_of
-from tests.workflow.conftest import snakemake
+from tests.workflow.conftest import CORES
 
 LESS = {
     "experiments": {"scenarios": ["links_encoders"], "switches": False},
@@ -19,12 +19,12 @@ LESS = {
 @pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
 def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
     """One of six joints and one of seven, with the paper's damage."""
-    project, row = copy_project(tmp_path), next(row for row in ARMS if row["urdf"] == urdf)
+    row = next(row for row in ARMS if row["urdf"] == urdf)
     mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}} | LESS
-    (project / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
-    finished = snakemake(project, "--configfile", "mine.yaml", small=False)
-    assert finished.returncode == 0, finished.stdout
-    results = project / "results" / "studies" / "mine"
+    project = Project(tmp_path, *CORES, "--configfile", "mine.yaml", name="mine")
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
+    project.run().well()
+    results = project.results
     table = pd.read_csv(results / "summary.csv").set_index("learner")
     assert {*table.index} == {"improved", "ritter_200"} and {*table["robot"]} == {"mine"}
     improved = table.loc["improved"]

@@ -18,10 +18,10 @@ from snakemake.settings.types import DAGSettings
 
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
+from recalib.study.configuration.shipped import EFFORTS, REFERENCE, SEARCHED
 from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.shipped import EFFORTS, REFERENCE, SEARCHED
+from recalib.study.plan.trainings import Trainings
 from recalib.study.studies import layers_of
-from recalib.study.trainings import Trainings
 from tests.conftest import ROOT, copy_project
 from tests.rules import Rules
 
@@ -117,7 +117,7 @@ def leaves(tree, path=()):
     if isinstance(tree, dict):
         for key, value in tree.items():
             yield from leaves(value, (*path, key))
-    elif isinstance(tree, list) and any(isinstance(each, dict) for each in tree):
+    elif isinstance(tree, list) and any(isinstance(item, dict) for item in tree):
         for index, value in enumerate(tree):
             yield from leaves(value, (*path, index))
     else:
@@ -163,15 +163,8 @@ def changes(path, value):
         else:
             yield f"{value}_changed"
     elif isinstance(value, list) and value:
-        first = next(changes((*path, 0), value[0]))
-        yield (
-            value[1:]
-            if isinstance(value[0], str) and not QUANTITY.fullmatch(value[0])
-            else [
-                first,
-                *value[1:],
-            ]
-        )
+        word = isinstance(value[0], str) and not QUANTITY.fullmatch(value[0])
+        yield value[1:] if word else [next(changes((*path, 0), value[0])), *value[1:]]
         yield value[:-1]
 
 
@@ -213,10 +206,12 @@ class Workflow(Rules):
     def _job(self, rule, wildcards):
         params = [its for name, its in rule.params.items() if name != "code"]
         try:
-            answers = [each(wildcards) for each in (*rule.input, *params) if callable(each)]
+            answers = [ask(wildcards) for ask in (*rule.input, *params) if callable(ask)]
         except Exception as error:  # a job that no longer makes sense is one that has changed
             return repr(error)
-        return [sorted(map(str, each)) if isinstance(each, list) else each for each in answers]
+        return [
+            sorted(map(str, answer)) if isinstance(answer, list) else answer for answer in answers
+        ]
 
 
 def studies_of(tree):
@@ -290,23 +285,20 @@ def of_all_jobs(test):
 
 
 @of_all_jobs
-@pytest.mark.parametrize(("searches", "anew"), [(12, False), (5, False), (13, True)])
-def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(
-    workflow, tree, searches, anew
-):
-    other = copy.deepcopy(tree)
-    other["search"]["searches"] = searches
+def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(workflow, tree):
     shipped, own = f"{SEARCHED}/improved_200.csv", "results/search/improved_200.csv"
-    assert workflow.sample(studies_of(other), "improved_200") == (own if anew else shipped)
+    for searches, path in ((12, shipped), (5, shipped), (13, own)):
+        other = copy.deepcopy(tree)
+        other["search"]["searches"] = searches
+        assert workflow.sample(studies_of(other), "improved_200") == path
 
 
 @of_all_jobs
 def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
     wrong = {}
     for leaf, rules in depending.items():
-        texts = next(DEPENDS[pattern] for pattern in DEPENDS if fnmatch(leaf, pattern))
-        expected = {*texts.split()}
-        if expected and any(fnmatch(leaf, pattern) for pattern in REPORTED):
+        expected = {*next(its for path, its in DEPENDS.items() if fnmatch(leaf, path)).split()}
+        if any(fnmatch(leaf, pattern) for pattern in REPORTED):
             expected.add("report_pages")
         found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules} & NAMED
         if found != expected:
@@ -315,17 +307,13 @@ def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
 
 
 @of_all_jobs
-def test_every_job_with_arguments_depends_on_a_leaf(workflow, depending):
-    asking = {rule.name for rule, _ in workflow.jobs if "arguments" in dict(rule.params.items())}
-    assert asking == set().union(*depending.values()) & asking
-    assert {re.sub(r"(report_pages)_.*", r"\1", rule.name) for rule, _ in workflow.jobs} >= NAMED
-
-
-@of_all_jobs
-def test_every_leaf_makes_a_difference(depending):
-    without = [leaf for leaf, rules in depending.items() if not rules]
-    assert without == []
+def test_every_leaf_makes_a_difference_and_every_job_with_arguments_depends_on_one(
+    workflow, depending
+):
+    assert [leaf for leaf, rules in depending.items() if not rules] == []
     assert len(depending) > 200
+    asking = {rule.name for rule, _ in workflow.jobs if "arguments" in dict(rule.params.items())}
+    assert asking <= set().union(*depending.values())
 
 
 @of_all_jobs
@@ -335,7 +323,7 @@ def test_what_a_job_reads_and_no_rule_makes_counts_by_its_content(workflow, tree
 
 def test_a_job_sees_nothing_but_its_files_and_its_rule_s_parameters():
     text = (ROOT / "workflow" / "scripts" / "call.py").read_text(encoding="utf-8")
-    assert {*re.findall(r"snakemake\.(\w+)", text)} == {"params", "input", "output", "rule"}
+    assert {*re.findall(r"snakemake\.(\w+)", text)} == {"params", "input", "output", "rule", "log"}
     assert not re.search(r"config\.yaml|read_study", text)
     for path in (ROOT / "recalib" / "study").rglob("*.py"):
         if "configuration" not in path.parts and path.name != "studies.py":

@@ -1,8 +1,8 @@
 """The report, seen in a real browser."""
 
 import re
-from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
 import pandas as pd
@@ -11,13 +11,9 @@ from selenium.common.exceptions import WebDriverException
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
-from recalib.study.evidence import report as report_
 from tests.browser import chromium, needs_chromium, requests, severe
-from tests.conftest import ROOT
-from tests.workflow.conftest import TINY, snakemake
 
 PATIENCE = 60  # seconds for what a click brings to appear
-PAIR = re.compile(r"(\d+\.\d\d) cm and (\d+\.\d\d) degrees")
 # The menu slides open and shut, and a click on what moves may meet its neighbour.
 STILL = """document.head.append(Object.assign(document.createElement('style'),
  {textContent: '* {transition: none !important}'}))"""
@@ -32,26 +28,11 @@ BROKEN = """return [...document.images].filter(image => !image.naturalWidth).len
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="workflow"), needs_chromium]
 
 
-@dataclass
-class Visit:
-    """What a visitor saw who clicked on everything."""
-
-    front: str = ""
-    links: list[str] = field(default_factory=list)
-    pages: dict[str, str] = field(default_factory=dict)  # text of each, by its label
-    drawings: dict[str, int] = field(default_factory=dict)  # how many each has
-    table: list[list[str]] = field(default_factory=list)  # cells of the table of errors
-    broken: int = 0  # images and drawings
-    console: list[str] = field(default_factory=list)
-    requests: set[str] = field(default_factory=set)
-
-
 @pytest.fixture(scope="module")
 def report(continued) -> Path:
-    style = "--report-stylesheet", "workflow/report/style.css"
-    finished = snakemake(continued, "--report", f"{TINY}/report.html", *style)
-    assert finished.returncode == 0, finished.stdout
-    return continued / TINY / "report.html"
+    path = continued.results / "report.html"
+    continued.run("--report", str(path), "--report-stylesheet", "workflow/report/style.css").well()
+    return path
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +47,7 @@ def click(browser, xpath: str) -> None:
     wait.until(lambda _: browser.find_element(By.XPATH, xpath).click() is None, f"no {xpath}")
 
 
-def read(browser, label: str, visit: Visit) -> None:
+def read(browser, label: str, visit: SimpleNamespace) -> None:
     """Read the page that a click opened, once it is the one with this label."""
 
     def opened(_) -> bool:
@@ -78,7 +59,6 @@ def read(browser, label: str, visit: Visit) -> None:
     WebDriverWait(browser, PATIENCE, 0.1, ignored_exceptions=[WebDriverException]).until(
         opened, f"no page {label!r}"
     )
-    visit.pages[label] = browser.execute_script("return document.body.textContent")
     visit.drawings[label] = len(browser.find_elements(By.TAG_NAME, "svg"))
     visit.broken += browser.execute_script(BROKEN)
     for row in browser.find_elements(By.CSS_SELECTOR, "#summary tbody tr"):
@@ -87,8 +67,9 @@ def read(browser, label: str, visit: Visit) -> None:
 
 
 @pytest.fixture(scope="module")
-def visit(browser, report) -> Visit:
-    seen = Visit()
+def visit(browser, report) -> SimpleNamespace:
+    """What a visitor saw who clicked on everything."""
+    seen = SimpleNamespace(drawings={}, table=[])
     browser.get(report.as_uri())
     browser.execute_script(STILL)
     click(browser, "//nav//span[.='Workflow']")
@@ -135,12 +116,12 @@ def test_every_figure_is_shown_with_a_caption(visit, continued):
     assert all(visit.drawings[label] == 1 for label in shown)
     assert sorted(re.findall(r"^Figure \d+", label)[0] for label in shown) == sorted(
         path.stem.replace("figure", "Figure ")
-        for path in (continued / TINY / "figures").glob("figure*.svg")
+        for path in (continued.results / "figures").glob("figure*.svg")
     )
     assert {
         "Errors before and after learning",
         "The damage in every scenario",
-    } <= visit.pages.keys()
+    } <= visit.drawings.keys()
 
 
 def test_the_front_leads_to_every_kind_of_page_and_shows_no_graph(visit, browser):
@@ -197,22 +178,3 @@ def test_the_table_of_errors_is_the_summary(visit, report):
         + [cell(run, column) for column in columns]
         for run in summary
     ]
-
-
-def test_every_pair_of_errors_in_a_text_is_one_of_the_summary(visit, report):
-    summary = pd.read_csv(report.parent / "summary.csv").set_index(["scenario", "learner"])
-    pairs = {
-        (
-            f"{run[f'{moment}_position_error_cm']:.2f}",
-            f"{run[f'{moment}_orientation_error_deg']:.2f}",
-        ): (*name, moment)
-        for name, run in summary.iterrows()
-        for moment in ("initial", "final")
-    }
-    for label, text in {"front": visit.front, **visit.pages}.items():
-        if label == report_.heading("claims", ROOT):
-            continue  # they also tell of the typical search alone
-        assert set(PAIR.findall(text)) <= pairs.keys(), label
-    main = ("links_encoders", "improved", "final")
-    said = PAIR.findall(visit.pages[report_.heading("figure1", ROOT)])
-    assert main in {pairs[pair] for pair in said}

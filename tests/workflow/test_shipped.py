@@ -73,24 +73,25 @@ def mine(project, text: str, name: str = "mine.yaml"):
     return read_studies(project, [path], {})
 
 
-def test_a_study_that_is_like_another_one_says_what_it_changes_and_has_a_name_of_its_own(project):
-    main, found = mine(project, "like: quick\nrobot: ur5\n", "my_arm.yaml")
-    quick = found["results/studies/quick"]
-    changes = {"name": "my_arm", "robot": "ur5", "expected": None}
-    assert main == "results/studies/my_arm" and found[main] == quick.model_copy(update=changes)
-    assert quick.expected == "workflow/studies/quick.csv"
-
-
-def test_a_study_may_be_like_one_that_is_like_another(project):
-    main, found = mine(project, "like: bent\nseed: 5\nname: other\n")
-    bent = found["results/studies/bent"]
-    assert main == "results/studies/other"
-    assert found[main] == bent.model_copy(update={"name": "other", "seed": 5})
+@pytest.mark.parametrize(
+    ("text", "like", "name", "changes"),
+    [
+        ("like: quick\nrobot: ur5\n", "quick", "my_arm", {"robot": "ur5", "expected": None}),
+        ("like: bent\nseed: 5\nname: other\n", "bent", "other", {"seed": 5}),  # itself like one
+    ],
+)
+def test_a_study_that_is_like_another_one_says_what_it_changes(text, like, name, changes, project):
+    main, found = mine(project, text, "my_arm.yaml")
+    other = found[f"results/studies/{like}"]
+    assert main == f"results/studies/{name}"
+    assert found[main] == other.model_copy(update={"name": name, **changes})
 
 
 @pytest.mark.parametrize("like", ["bend", "[bent]", "null", "mine"])
 def test_a_study_that_is_like_none_there_is_is_refused_by_its_place(project, like):
-    with pytest.raises(InvalidConfiguration, match=r"mine.yaml:2:1: like is .*; valid: bent, co"):
+    with pytest.raises(
+        InvalidConfiguration, match=r"mine.yaml:2:1: like is .*; expected: bent, co"
+    ):
         mine(project, f"robot: ur5\nlike: {like}\n")
 
 
@@ -98,7 +99,7 @@ def test_studies_that_are_like_each_other_are_refused(project):
     others = project / "workflow" / "studies"
     (others / "one.yaml").write_text("like: two\n", encoding="utf-8")
     (others / "two.yaml").write_text("like: one\n", encoding="utf-8")
-    with pytest.raises(InvalidConfiguration, match=r"two.yaml:1:1: like is 'one'; valid: "):
+    with pytest.raises(InvalidConfiguration, match=r"two.yaml:1:1: like is 'one'; expected: "):
         read_studies(project, [], {})
 
 

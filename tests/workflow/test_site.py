@@ -2,9 +2,9 @@
 
 import subprocess
 import sys
-from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
 import pytest
@@ -19,7 +19,7 @@ PATIENCE = 60  # seconds
 AXE = """const done = arguments[0];
 const rules = {"link-in-text-block": {enabled: true}};
 axe.run({runOnly: ["wcag2a", "wcag2aa"], rules}).then(found => done(found.violations.map(
-  each => each.id + ": " + each.nodes.map(node => node.html.slice(0, 200)).join("; "))));"""
+  its => its.id + ": " + its.nodes.map(node => node.html.slice(0, 200)).join("; "))));"""
 BROKEN = "return [...document.images].filter(image => !image.naturalWidth).map(image => image.src)"
 LINKS = "return [...document.links].map(link => link.href)"
 SCHEME = "return document.body.dataset.mdColorScheme"
@@ -45,21 +45,11 @@ def site(tmp_path_factory) -> Path:
     return folder
 
 
-@dataclass
-class Visit:
-    """What a visitor met who opened every page, by day and by night."""
-
-    violations: dict[str, list[str]] = field(default_factory=dict)
-    broken: list[str] = field(default_factory=list)  # pictures
-    links: set[str] = field(default_factory=set)
-    console: list[str] = field(default_factory=list)
-    requests: set[str] = field(default_factory=set)
-    found: str = ""  # by a search
-
-
 @pytest.fixture(scope="module")
-def visit(site, tmp_path_factory) -> Visit:
-    met, axe = Visit(), (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
+def visit(site, tmp_path_factory) -> SimpleNamespace:
+    """What a visitor met who opened every page by day, and some by night."""
+    axe = (files("axe_core_python") / "axe.min.js").read_text(encoding="utf-8")
+    met = SimpleNamespace(violations={}, broken=[], links=set())
     with chromium(tmp_path_factory.mktemp("browser")) as browser:
         browser.set_script_timeout(PATIENCE)
         pages = sorted({*site.rglob("*.html")} - {site / "404.html"})  # that is for servers
@@ -69,10 +59,10 @@ def visit(site, tmp_path_factory) -> Visit:
             for page in shown:
                 browser.get(page.as_uri())
                 assert browser.execute_script(SCHEME) == SCHEMES[scheme]
-                name = f"{page.relative_to(site)}, {scheme}"
                 met.broken += browser.execute_script(BROKEN)
                 met.links |= set(browser.execute_script(LINKS))
                 browser.execute_script(axe)
+                name = f"{page.relative_to(site)}, {scheme}"
                 met.violations[name] = browser.execute_async_script(AXE)
         met.found = search(browser, "multiverse")
         met.console, met.requests = severe(browser), requests(browser)

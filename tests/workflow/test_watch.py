@@ -12,7 +12,6 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
 from tests.browser import chromium, needs_chromium, requests, severe
-from tests.workflow.conftest import TINY
 from workflow import watch
 
 PATIENCE = 120  # seconds: the viewer draws in software
@@ -44,7 +43,7 @@ def colours(browser, picture) -> int:
 @pytest.mark.xdist_group(name="workflow")
 def test_a_browser_draws_the_arm_and_asks_nothing_of_other_machines(continued, tmp_path):
     picture = str(tmp_path / "page.png")
-    with served(continued / TINY) as address, chromium(tmp_path / "profile", *SOFTWARE) as browser:
+    with served(continued.results) as address, chromium(tmp_path / "profile", *SOFTWARE) as browser:
         browser.set_page_load_timeout(PATIENCE)
         browser.get(address)
         assert browser.find_element(By.TAG_NAME, "h1").text == "tiny"

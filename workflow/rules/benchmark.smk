@@ -1,7 +1,7 @@
 """What should one use today? No part of the default run."""
 
-from recalib.study.chunks import batches
-from recalib.study.trainings import rules_unless_peer
+from recalib.study.plan.chunks import batches
+from recalib.study.plan.trainings import rules_unless_peer
 
 
 def sample_of_competitor(wildcards):
@@ -18,6 +18,8 @@ rule benchmark_run:
         sample=sample_of_competitor,
     output:
         "{root}/chunks/benchmark/{learner}.{batch}.parquet",
+    log:
+        "{root}/logs/benchmark_run/{learner}.{batch}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
@@ -53,6 +55,8 @@ rule benchmark_table:
         errors="{root}/benchmark.csv",
         reached="{root}/benchmark_moves.csv",
         seconds="{root}/benchmark_seconds.csv",  # which differ from run to run
+    log:
+        "{root}/logs/benchmark_table.log",
     localrule: True
     params:
         **calls("recalib.study.evidence.benchmark.put_together"),
@@ -72,6 +76,8 @@ rule benchmark_table:
 rule real_data:
     output:
         table="{root}/real/{part}.csv",
+    log:
+        "{root}/logs/real_data/{part}.log",
     wildcard_constraints:
         part="fit|test",
     localrule: True
@@ -91,6 +97,8 @@ rule real_run:
         description=lambda w: study(w).real.description,
     output:
         "{root}/real/runs/{learner}.csv",
+    log:
+        "{root}/logs/real_run/{learner}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
@@ -119,6 +127,8 @@ rule real_twin:
         sample=lambda w: sample(w, w.learner),
     output:
         "{root}/real/twin/{learner}.csv",
+    log:
+        "{root}/logs/real_twin/{learner}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
@@ -150,9 +160,11 @@ rule real_table:
         ],
     output:
         "{root}/real.csv",
+    log:
+        "{root}/logs/real_table.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.real.put_together"),
+        **calls("recalib.study.evidence.real_arm.put_together"),
         arguments=lambda w: as_text(seed=study(w).seed),
         digits=5,
     message:

@@ -7,6 +7,8 @@ rule check:
         expected=lambda w: study(w).expected,
     output:
         "{root}/check.txt",
+    log:
+        "{root}/logs/check.log",
     localrule: True
     params:
         **calls("recalib.study.evidence.checks.report", reads=lambda w: [study(w).expected]),
@@ -21,6 +23,8 @@ rule expect:
         summary="{root}/summary.csv",
     output:
         "{root}/expected.csv",
+    log:
+        "{root}/logs/expect.log",
     localrule: True
     params:
         **calls("recalib.study.evidence.checks.propose"),

@@ -1,6 +1,5 @@
 """The studies of this call, checked before anything runs, and what all rules share."""
 
-import os
 import sys
 from pathlib import Path
 
@@ -8,18 +7,11 @@ from snakemake.exceptions import WorkflowError
 from snakemake.persistence import PersistenceBase
 
 ROOT = Path(workflow.basedir)
-# The project's own modules, also where another copy of it is installed, and how a job starts; and
-# one core for each: without this, the linear algebra of every job starts a thread for each core of
-# the machine.
 sys.path.insert(0, str(ROOT))
-os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), str(ROOT / "workflow" / "start")])
-os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-# The same last digits on every processor with AVX2: otherwise NumPy and its linear algebra take
-# other loops on newer ones, and a search ends elsewhere where a likelihood is flat.
-processor = Path("/proc/cpuinfo")
-if processor.exists() and "avx2" in processor.read_text(encoding="utf-8"):
-    os.environ["NPY_DISABLE_CPU_FEATURES"] = "X86_V4 AVX512_ICL AVX512_SPR"
-    os.environ["OPENBLAS_CORETYPE"] = "Haswell"
+
+from workflow.environment import prepare
+
+prepare(ROOT)  # before NumPy is imported
 
 # Snakemake asks of every parameter whether it is a table, and brings pandas for that, which takes
 # longer than all else here. Ours are text.
@@ -28,11 +20,11 @@ PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_built
 from pydantic_core import to_json
 
 from recalib.errors import RecalibError
-from recalib.study.nominal import nominal
-from recalib.study.shipped import RESULTS, SEARCHED
+from recalib.study.scenarios.nominal import nominal
+from recalib.study.configuration.shipped import RESULTS, SEARCHED
 from recalib.study.studies import ask_robots, read_studies
-from recalib.study.trainings import Trainings, measuring, searches, seeds
-from recalib.study.trainings import rules as rules_of
+from recalib.study.plan.trainings import Trainings, measuring, searches, seeds
+from recalib.study.plan.trainings import rules as rules_of
 from workflow.dependencies import calls
 
 try:

@@ -4,7 +4,7 @@ from functools import partial
 
 from recalib.study.evidence.claims import judging
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.outcome import needs as needs_of_outcome
+from recalib.study.evidence.outcome import NEEDS as NEEDS_OF_OUTCOME
 from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
 
 
@@ -15,9 +15,7 @@ def request(root):
 
 def asked(root, needs):
     """What something of a study reads."""
-    ask = request(root)()
-    needs(ask)
-    return ask.evidence
+    return request(root)().read(needs).evidence
 
 
 rule summary:
@@ -31,6 +29,8 @@ rule summary:
         ],
     output:
         "{root}/summary.csv",
+    log:
+        "{root}/logs/summary.log",
     localrule: True
     params:
         **calls("recalib.study.evidence.summary.summarise"),
@@ -52,6 +52,8 @@ rule claims:
         files=judged_by,
     output:
         "{root}/claims.json",
+    log:
+        "{root}/logs/claims.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
@@ -65,7 +67,7 @@ rule claims:
 
 
 def outcome_evidence(wildcards):
-    return asked(wildcards.root, needs_of_outcome)
+    return asked(wildcards.root, NEEDS_OF_OUTCOME)
 
 
 rule outcome:
@@ -73,6 +75,8 @@ rule outcome:
         files=lambda w: outcome_evidence(w).inputs,
     output:
         "{root}/outcome.txt",
+    log:
+        "{root}/logs/outcome.log",
     localrule: True
     params:
         **calls(
@@ -87,7 +91,7 @@ rule outcome:
 
 
 def page_evidence(wildcards):
-    return asked(wildcards.root, PAGES_OF_EVIDENCE[wildcards.page].needs)
+    return asked(wildcards.root, PAGES_OF_EVIDENCE[wildcards.page].NEEDS)
 
 
 rule page:
@@ -96,6 +100,8 @@ rule page:
         files=lambda w: page_evidence(w).inputs,
     output:
         "{root}/pages/{page}",
+    log:
+        "{root}/logs/page/{page}.log",
     wildcard_constraints:
         page="|".join(PAGES_OF_EVIDENCE),
     localrule: True
@@ -112,7 +118,8 @@ rule page:
 
 
 DRAWN = ["method", "figure1", "figure4", "figure9", "figure14", "figure15"]
-COMMITTED = ["figures/figure12.svg", "figures/figure13.svg"]  # other targets make them
+# other targets make them, and figures/ideas.py
+COMMITTED = ["figures/figure12.svg", "figures/figure13.svg", "figures/method.svg"]
 
 
 rule article:
@@ -122,6 +129,8 @@ rule article:
         figures=[f"figures/{name}.svg" for name in DRAWN],
     output:
         article=f"{RESULTS}/article.pdf",
+    log:
+        f"{RESULTS}/logs/article.log",
     localrule: True
     params:
         **calls(

@@ -19,6 +19,10 @@ rule train:
     output:
         history="{root}/runs/{scenario}/{learner}.parquet",
         learned="{root}/runs/{scenario}/{learner}.npz",
+    log:
+        "{root}/logs/train/{scenario}.{learner}.log",
+    benchmark:
+        "{root}/logs/train/{scenario}.{learner}.tsv"
     wildcard_constraints:
         root="|".join(AT_ONCE) or NOWHERE,
     priority: 10
@@ -50,6 +54,10 @@ use rule train as train_chunk with:
     output:
         history="{root}/chunks/runs/{scenario}/{learner}.{chunk}.parquet",
         learned="{root}/chunks/runs/{scenario}/{learner}.{chunk}.npz",
+    log:
+        "{root}/logs/train_chunk/{scenario}.{learner}.{chunk}.log",
+    benchmark:
+        "{root}/logs/train_chunk/{scenario}.{learner}.{chunk}.tsv"
     wildcard_constraints:
         root="|".join(IN_CHUNKS) or NOWHERE,
     message:
@@ -82,6 +90,8 @@ rule run:
     output:
         history="{root}/runs/{scenario}/{learner}.parquet",
         learned="{root}/runs/{scenario}/{learner}.npz",
+    log:
+        "{root}/logs/run/{scenario}.{learner}.log",
     wildcard_constraints:
         root="|".join(IN_CHUNKS) or NOWHERE,
     localrule: True
@@ -103,6 +113,8 @@ rule ensemble_chunk:
         sample=lambda w: sample(w, w.learner),
     output:
         "{root}/chunks/ensemble/{series}.{learner}.{chunk}.parquet",
+    log:
+        "{root}/logs/ensemble_chunk/{series}.{learner}.{chunk}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
@@ -137,6 +149,8 @@ rule ensemble:
         ),
     output:
         "{root}/ensemble/{series}.{learner}.parquet",
+    log:
+        "{root}/logs/ensemble/{series}.{learner}.log",
     localrule: True
     params:
         **calls("recalib.study.experiments.joining.put_together"),
@@ -159,6 +173,8 @@ rule bench:
         samples=samples_of_measured,
     output:
         "{root}/bench.txt",
+    log:
+        "{root}/logs/bench.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),

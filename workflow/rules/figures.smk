@@ -13,6 +13,8 @@ rule figure:
     output:
         svg="{root}/figures/{figure}.svg",
         png="{root}/figures/{figure}.png",
+    log:
+        "{root}/logs/figure/{figure}.log",
     wildcard_constraints:
         figure="|".join(FIGURES),
     threads: 1
@@ -38,5 +40,5 @@ def figures_of(root):
 
 
 def ideas_of(root):
-    """The pictures of ideas: they are explained once, with the shipped study."""
+    """The pictures of ideas that show results: explained once, with the shipped study."""
     return possible(["ideas"], request(root)) if root == RESULTS else []

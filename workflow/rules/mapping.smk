@@ -13,6 +13,8 @@ rule study_mapping:
         coupling="{root}/mapping/coupling.parquet",
         propagation="{root}/mapping/propagation.parquet",
         quantisation="{root}/mapping/quantisation.parquet",
+    log:
+        "{root}/logs/study_mapping.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
@@ -35,6 +37,8 @@ rule study_mapping:
 rule study_visits:
     output:
         "{root}/mapping/visits.parquet",
+    log:
+        "{root}/logs/study_visits.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),
@@ -53,6 +57,8 @@ rule study_replay:
         sample=lambda w: sample(w, "improved"),
     output:
         "{root}/mapping/replay.parquet",
+    log:
+        "{root}/logs/study_replay.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=20),

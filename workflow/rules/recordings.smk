@@ -1,6 +1,6 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
-from recalib.study.recordings import recording as what_is_recorded, recordings
+from recalib.study.plan.recordings import recording as what_is_recorded, recordings
 
 
 @cache
@@ -17,6 +17,9 @@ def samples_of_recorded(wildcards):
     return [sample(wildcards, name) for name in recorded(wildcards).papers()]
 
 
+TEXTS_OF_RECORDINGS = expand("workflow/recording/{text}.md.j2", text=["about", "beside"])
+
+
 rule recording:
     input:
         scenario=lambda w: f"{w.root}/scenarios/{recorded(w).scenario}.json",
@@ -24,13 +27,19 @@ rule recording:
         histories=lambda w: [
             f"{w.root}/runs/{recorded(w).scenario}/{name}.parquet" for name in recorded(w).papers()
         ],
+        texts=TEXTS_OF_RECORDINGS,
     output:
         rrd="{root}/recordings/{recording}.rrd",
+    log:
+        "{root}/logs/recording/{recording}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.recording.writing.record", reads=samples_of_recorded),
+        **calls(
+            "recalib.study.recording.writing.record",
+            reads=lambda w: [*samples_of_recorded(w), *TEXTS_OF_RECORDINGS],
+        ),
         arguments=lambda w: as_text(recording=recorded(w)),
     message:
         "Record {wildcards.recording}"
@@ -66,6 +75,8 @@ rule before_and_after:
             category="Pictures",
             labels={"picture": "2: after recalibration"},
         ),
+    log:
+        "{root}/logs/before_and_after/{recording}.log",
     localrule: True
     params:
         **calls("recalib.study.recording.pictures.before_and_after"),
@@ -80,6 +91,8 @@ rule film:
         recording=pictured,
     output:
         film="{root}/figures/{recording}.webp",
+    log:
+        "{root}/logs/film/{recording}.log",
     localrule: True
     params:
         **calls("recalib.study.recording.pictures.take_film"),

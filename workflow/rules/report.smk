@@ -65,9 +65,16 @@ def report_of(root):
     return [f"{root}/report/{page}.html" for pages in pages_of(root).values() for page in pages]
 
 
+def pictures_of(root):
+    """The pictures of ideas that show no result: figures/ideas.py draws them."""
+    names = "method", "fake_pose", "increments", "schedule"
+    return [f"figures/{name}.svg" for name in names] if root == RESULTS else []
+
+
 def read_by_report(root):
     """Texts, pages and evidence."""
-    return [*sorted(TEXTS.iterdir()), *read_in(root).values(), *asked(root, report_.needs).inputs]
+    texts = [*sorted(TEXTS.iterdir()), *pictures_of(root), *read_in(root).values()]
+    return [*texts, *asked(root, report_.NEEDS).inputs]
 
 
 # How many pages there are is known of each study by itself, hence a rule for each.
@@ -85,8 +92,12 @@ for root_ in STUDIES:
                 TEXTS / f"{report_.FRONT}.rst",
             ],
             read=list(read_in(root_).values()),
-            figures=[*(path for path in figures_of(root_) if path.endswith(".svg")), *ideas_],
-            files=asked(root_, report_.needs).inputs,
+            figures=[
+                *(path for path in figures_of(root_) if path.endswith(".svg")),
+                *ideas_,
+                *pictures_of(root_),
+            ],
+            files=asked(root_, report_.NEEDS).inputs,
         output:
             pages=[
                 page_in_report(root_, page, category)
@@ -94,6 +105,8 @@ for root_ in STUDIES:
                 for page in pages
             ],
             rst=f"{root_}/report/{report_.FRONT}.rst",
+        log:
+            f"{root_}/logs/report_pages.log",
         localrule: True
         params:
             **calls(
@@ -101,7 +114,7 @@ for root_ in STUDIES:
                 reads=lambda w, root=root_: read_by_report(root),
             ),
             kept=kept_in(root_),
-            arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.needs)),
+            arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.NEEDS)),
         message:
             "Write the pages of the report"
         script:

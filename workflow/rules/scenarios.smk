@@ -1,18 +1,20 @@
 """Which damage, on which robot."""
 
 from recalib.study.configuration.damages import Assigned, describe
-from recalib.study.trainings import scenario_of
+from recalib.study.plan.trainings import scenario_of
 
 
 rule assignments:
     output:
         table="{root}/assignments/{robot}.parquet",
         chosen="{root}/assignments/{robot}.json",
+    log:
+        "{root}/logs/assignments/{robot}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.assignments.assign"),
+        **calls("recalib.study.scenarios.assignments.assign"),
         arguments=lambda w: as_text(
             nominal=nominal(study(w), w.robot),
             damage=study(w).paper_damage,
@@ -41,11 +43,13 @@ rule scenario:
         assignment=assignment,
     output:
         "{root}/scenarios/{scenario}.json",
+    log:
+        "{root}/logs/scenario/{scenario}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.plants.resolve"),
+        **calls("recalib.study.scenarios.plants.resolve"),
         arguments=lambda w: as_text(
             name=w.scenario,
             nominal=nominal(study(w), scenario_of(study(w), w.scenario)[1]),

@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from recalib.study.chunks import bounds, chunks, searches_per_job
+from recalib.study.plan.chunks import bounds, chunks, searches_per_job
 from recalib.study.experiments.samples import searched_for, sought
-from recalib.study.trainings import budget, training
+from recalib.study.plan.trainings import budget, training
 
 
 def sample(wildcards, learner):
@@ -27,6 +27,10 @@ rule search:
         scenario=own_scenario,
     output:
         "{root}/chunks/search/{training}.{chunk}.csv",
+    log:
+        "{root}/logs/search/{training}.{chunk}.log",
+    benchmark:
+        "{root}/logs/search/{training}.{chunk}.tsv"
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
@@ -59,6 +63,8 @@ rule search_sample:
         ),
     output:
         "{root}/search/{training}.csv",
+    log:
+        "{root}/logs/search_sample/{training}.log",
     localrule: True
     params:
         **calls("recalib.study.experiments.samples.put_together"),

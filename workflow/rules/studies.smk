@@ -74,13 +74,16 @@ rule publish_figure:
         f"{RESULTS}/figures/{{figure}}.{{suffix}}",
     output:
         "figures/{figure}.{suffix}",
+    log:
+        f"{RESULTS}/logs/publish_figure/{{figure}}.{{suffix}}.log",
     wildcard_constraints:
+        figure="|".join([*FIGURES, "arm", "arm_before", "arm_after"]),
         suffix="svg|png|webp",
     localrule: True
     message:
         "Publish {output}"
     shell:
-        "cp {input} {output}"
+        "cp {input} {output} 2> {log}"
 
 
 rule publish_page:
@@ -88,13 +91,15 @@ rule publish_page:
         lambda w: f"{RESULTS}/pages/{COPIES[w.page]}",
     output:
         "{page}",
+    log:
+        f"{RESULTS}/logs/publish_page/{{page}}.log",
     wildcard_constraints:
         page="|".join(COPIES),
     localrule: True
     message:
         "Publish {output}"
     shell:
-        "cp {input} {output}"
+        "cp {input} {output} 2> {log}"
 
 
 rule benchmark:

@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from recalib.study import shipped
+from recalib.study.configuration import shipped
 from recalib.study.multiverse.design import digest, read_design
 from recalib.study.multiverse.universe import universe
 
@@ -67,6 +67,8 @@ def setting(study):
 rule design:
     output:
         "{root}/universes/design.csv",
+    log:
+        "{root}/logs/design.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
@@ -82,6 +84,10 @@ rule design:
 rule power:
     output:
         "{root}/universes/power.csv",
+    log:
+        "{root}/logs/power.log",
+    benchmark:
+        "{root}/logs/power.tsv"
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
@@ -101,6 +107,10 @@ rule power:
 rule universe:
     output:
         "{root}/chunks/universes/outcomes/{number}.csv",
+    log:
+        "{root}/logs/universe/{number}.log",
+    benchmark:
+        "{root}/logs/universe/{number}.tsv"
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
@@ -117,6 +127,10 @@ rule universe:
 rule horizon:
     output:
         "{root}/chunks/universes/horizon/{number}.csv",
+    log:
+        "{root}/logs/horizon/{number}.log",
+    benchmark:
+        "{root}/logs/horizon/{number}.tsv"
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=60),
@@ -135,6 +149,8 @@ rule piece:
         chunks=piece_of,
     output:
         "{root}/universes/{table}_{piece}.csv",
+    log:
+        "{root}/logs/piece/{table}.{piece}.log",
     localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
@@ -165,6 +181,10 @@ rule reference_replicate:
         scenario=own_scenario,
     output:
         "{root}/chunks/universes/reference/{number}.csv",
+    log:
+        "{root}/logs/reference_replicate/{number}.log",
+    benchmark:
+        "{root}/logs/reference_replicate/{number}.tsv"
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=30),
@@ -184,6 +204,10 @@ rule efforts_of:
         sample=lambda w: sample_at(w.root, w.training),
     output:
         "{root}/chunks/universes/efforts/{training}.csv",
+    log:
+        "{root}/logs/efforts_of/{training}.log",
+    benchmark:
+        "{root}/logs/efforts_of/{training}.tsv"
     threads: 1
     resources:
         **room(mem_mb=4000, runtime=30),
@@ -212,6 +236,8 @@ rule reference:
         chunks=[f"{MAIN}/chunks/universes/reference/{n}.csv" for n in range(REPLICATES)],
     output:
         f"{MAIN}/universes/reference.csv",
+    log:
+        f"{MAIN}/logs/reference.log",
     localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
@@ -225,6 +251,8 @@ rule efforts:
         chunks=[f"{MAIN}/chunks/universes/efforts/{name}.csv" for name in effort_trainings()],
     output:
         f"{MAIN}/universes/efforts.csv",
+    log:
+        f"{MAIN}/logs/efforts.log",
     localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),

@@ -8,6 +8,7 @@ for. What it returns is written into the others, by their suffix.
 
 import inspect
 import json
+import os
 import signal
 import sys
 import time
@@ -18,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from recalib.errors import RecalibError
-from recalib.storage import whole
+from recalib.files.storage import whole
 from workflow.digests import check, keep
 
 
@@ -81,6 +82,22 @@ def write(path: Path, value: Any, digits: int | None = None) -> None:
 
 
 @contextmanager
+def logged(path: Path) -> Iterator[None]:
+    """Write what a job prints into its log, and then on the terminal.
+
+    Where it fails, Snakemake shows the log.
+    """
+    terminal = os.dup(2)
+    with path.open("wb") as log:
+        os.dup2(log.fileno(), 1)
+        os.dup2(log.fileno(), 2)
+    yield
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os.write(terminal, path.read_bytes())
+
+
+@contextmanager
 def job(snakemake) -> Iterator[None]:
     """Check what is read, note what was written, and say how long it took.
 
@@ -103,4 +120,5 @@ def job(snakemake) -> Iterator[None]:
 
 
 if "snakemake" in globals():
-    run(snakemake)
+    with logged(Path(snakemake.log[0])):
+        run(snakemake)

@@ -9,7 +9,7 @@ import recalib
 SHOWN = (
     "*.md",
     "docs/*.md",
-    "figures/*",
+    "figures/*.[psw][nve]*",
     "examples/*.py",
     "CITATION.cff",
     "config.yaml",

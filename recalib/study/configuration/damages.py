@@ -14,7 +14,7 @@ from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Disturbances
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.words import Described, words
-from recalib.quantities import ANGLE, COMPLIANCE, LENGTH
+from recalib.files.quantities import ANGLE, COMPLIANCE, LENGTH
 from recalib.spelling import listed, nearest
 from recalib.study.configuration.part import Frozen, Part
 from recalib.study.configuration.units import (
@@ -92,9 +92,9 @@ def _name_of(value: Any) -> str | None:
     """The kind that an entry is meant to be: by the first of its words that is one, or nearly."""
     if not isinstance(value, Mapping):
         return _MODELS.get(type(value), type(value)).__name__
-    said = next((key for key in value if key in _BY_KEY), None)
-    near = (nearest(str(key), _BY_KEY) for key in value)
-    meant = said or next(filter(None, near), None)
+    exact = next((key for key in value if key in _BY_KEY), None)
+    suggested = (nearest(str(key), _BY_KEY) for key in value)
+    meant = exact or next(filter(None, suggested), None)
     return _BY_KEY[meant].__name__ if meant else None
 
 
@@ -106,7 +106,7 @@ def describe(entry: "Entry") -> dict[str, Any]:
     for field in dataclasses.fields(entry):
         word, value = words(type(entry))[field.name], getattr(entry, field.name)
         write = word.quantity.write if word.quantity else lambda value: value
-        text = [write(each) for each in value] if isinstance(value, tuple) else write(value)
+        text = [write(part) for part in value] if isinstance(value, tuple) else write(value)
         (default if value == field.default else said)[word.key] = text
     said = said or default  # nothing at all would say nothing
     return {entry.under: said} if entry.under else said

@@ -75,7 +75,7 @@ def shown(value: Any) -> str:
         case Mapping():
             return "a mapping" if value else "an empty mapping"
         case list() | tuple():
-            scalars = not any(isinstance(each, list | tuple | Mapping) for each in value)
+            scalars = not any(isinstance(part, list | tuple | Mapping) for part in value)
             text = f"[{', '.join(map(shown, value))}]"
             return text if value and scalars and len(text) <= LONGEST else _sized(value)
     return str(value)

@@ -6,7 +6,6 @@ from os import PathLike
 
 from pydantic import ValidationError
 
-from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import InvalidConfiguration, Mistake
 from recalib.study.configuration.refusals import refusals
 from recalib.study.configuration.study import Study
@@ -16,7 +15,7 @@ Source = str | PathLike | Mapping | Placed
 Check = Callable[[Study], Iterable[Mistake]]
 
 
-def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check,)) -> Study:
+def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) -> Study:
     """The study of a configuration file.
 
     Args:
@@ -35,8 +34,8 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = (check
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
         raise _at_its_place(refusals(error, whole.plain()), whole, own) from None
-    for each in checks:
-        if mistakes := list(each(study)):
+    for find in checks:
+        if mistakes := list(find(study)):
             raise _at_its_place(mistakes, whole, own)
     return study
 

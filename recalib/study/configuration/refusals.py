@@ -31,17 +31,17 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
     A misspelt key is no missing one, too.
     """
     schema, found = Schema(json_schema()), {}
-    errors = sorted(error.errors(include_url=False), key=lambda each: each["type"] == "missing")
-    absent = [schema.find(each["loc"])[0] for each in errors if each["type"] == "missing"]
+    errors = sorted(error.errors(include_url=False), key=lambda its: its["type"] == "missing")
+    absent = [schema.find(refusal["loc"])[0] for refusal in errors if refusal["type"] == "missing"]
     meant = set()
-    for each in errors:
-        if each["type"] == "too_short" and each["input"]:
+    for refusal in errors:
+        if refusal["type"] == "too_short" and refusal["input"]:
             continue  # since none of its values is valid, which each of them says
-        if each["type"] == "extra_forbidden":
-            mistake, key = _unknown(schema, each["loc"], absent)
+        if refusal["type"] == "extra_forbidden":
+            mistake, key = _unknown(schema, refusal["loc"], absent)
             meant.add(key)
         else:
-            mistake = _refusal(schema, each, whole)
+            mistake = _refusal(schema, refusal, whole)
         if mistake.path not in meant:
             found.setdefault(mistake.path, mistake)
     return [*_together(found.values(), whole)]
@@ -50,15 +50,15 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
 def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
     """Several keys that one part lacks, and several wrong values of one list, told at once."""
     groups = defaultdict(list)
-    for each in mistakes:
-        missing = each.fault.startswith(MISSING)
-        shared = missing or isinstance(each.path[-1], int)
-        groups[each.path[:-1] if shared else each.path, missing].append(each)
+    for mistake in mistakes:
+        missing = mistake.fault.startswith(MISSING)
+        shared = missing or isinstance(mistake.path[-1], int)
+        groups[mistake.path[:-1] if shared else mistake.path, missing].append(mistake)
     for (path, missing), its in groups.items():
         if len(its) == 1:
             yield its[0]
         elif missing:
-            yield Mistake(path, f" lacks {listed((each.path[-1] for each in its), 'and')}")
+            yield Mistake(path, f" lacks {listed((mistake.path[-1] for mistake in its), 'and')}")
         else:
             _, _, expected = its[0].fault.partition(EXPECTED)
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
@@ -70,7 +70,7 @@ def _unknown(
     """An unknown key, and the path of the missing one that it probably stands for."""
     *_, key = location
     path, its = schema.find(location[:-1])
-    lacking = [each[-1] for each in absent if each[:-1] == path]
+    lacking = [other[-1] for other in absent if other[:-1] == path]
     meant = nearest(key, lacking)
     fault = f"did you mean {meant}?" if meant else instead(key, schema.keys(its))
     return Mistake((*path, key), f": unknown key; {fault}"), (*path, meant) if meant else None

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from pydantic.json_schema import GenerateJsonSchema
 
-from recalib.storage import whole
+from recalib.files.storage import whole
 from recalib.study.configuration.messages import KeyPath
 from recalib.study.configuration.part import Part
 from recalib.study.configuration.study import Study
@@ -91,9 +91,9 @@ class Schema:
 
     def resolved(self, schema: Mapping) -> Mapping:
         """The schema itself in the place of a reference to it, or of it or null."""
-        for each in schema.get("anyOf", ()):
-            if each.get("type") != "null":
-                return self.resolved(each)
+        for choice in schema.get("anyOf", ()):
+            if choice.get("type") != "null":
+                return self.resolved(choice)
         reference = schema.get("$ref")
         return self._root["$defs"][reference.rsplit("/")[-1]] if reference else schema
 

@@ -1,7 +1,7 @@
 """A study as one typed value: every key of config.yaml, with its meaning, unit and range.
 
 The shipped replication is one value of `Study`. Which trainings there are, and what they are
-called, follows from it: see `recalib.study.trainings`.
+called, follows from it: see `recalib.study.plan.trainings`.
 """
 
 import math

@@ -20,7 +20,7 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from recalib.errors import InvalidQuantity
-from recalib.quantities import ANGLE, COMPLIANCE, LENGTH, Quantity
+from recalib.files.quantities import ANGLE, COMPLIANCE, LENGTH, Quantity
 
 MOST = 1_000_000  # iterations: more would run for days
 MOST_TIMES = 10_000  # of what is drawn, done or measured again and again

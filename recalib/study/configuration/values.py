@@ -69,9 +69,9 @@ def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
     """Values that stand in no line of a file, such as those from the command line."""
     match data:
         case Mapping():
-            content = {str(key): from_mapping(each, place) for key, each in data.items()}
+            content = {str(key): from_mapping(part, place) for key, part in data.items()}
         case list() | tuple():
-            content = [from_mapping(each, place) for each in data]
+            content = [from_mapping(part, place) for part in data]
         case _:
             content = data
     return Placed(content, place)
@@ -100,7 +100,7 @@ def _parsed(name: str, text: str) -> Placed:
     node = loader.get_single_node()
     value = loader.value(node, start, ()) if node else Placed(None, start)
     if not isinstance(value.content, dict) or not value.content:
-        problem = f"{shown(start)}: no configuration; valid: keys with their values"
+        problem = f"{shown(start)}: no configuration; expected: keys with their values"
         raise InvalidConfiguration([problem])
     if loader.wrong:
         raise InvalidConfiguration(loader.wrong)
@@ -110,7 +110,7 @@ def _parsed(name: str, text: str) -> Placed:
 def _unreadable(name: str, error: yaml.MarkedYAMLError) -> str:
     """PyYAML's reason in a sentence."""
     place = shown(_place(name, error.problem_mark))
-    for sign, fault in (("\\t", "a tab; valid: spaces"), ("<block map", "wrong indentation")):
+    for sign, fault in (("\\t", "a tab; expected: spaces"), ("<block map", "wrong indentation")):
         if sign in error.problem:
             return f"{place}: {fault}"
     begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
@@ -152,8 +152,8 @@ class _Loader(yaml.SafeLoader):
                 content = self._mapping(node, path)
             case yaml.SequenceNode():
                 content = [
-                    self.value(each, _place(self.name, each.start_mark), (*path, index))
-                    for index, each in enumerate(node.value)
+                    self.value(part, _place(self.name, part.start_mark), (*path, index))
+                    for index, part in enumerate(node.value)
                 ]
             case _:
                 content = self.construct_object(node)
@@ -174,8 +174,8 @@ class _Loader(yaml.SafeLoader):
         self._check_commas(node)
         self.flatten_mapping(node)  # puts in what is merged by <<
         return {
-            key.value: self.value(each, _place(self.name, key.start_mark), (*path, key.value))
-            for key, each in node.value
+            key.value: self.value(part, _place(self.name, key.start_mark), (*path, key.value))
+            for key, part in node.value
         }
 
     def _check_commas(self, node: yaml.MappingNode) -> None:
@@ -185,7 +185,7 @@ class _Loader(yaml.SafeLoader):
                 where = shown(_place(self.name, number.start_mark))
                 valid = f"a point, as in {number.value}.{key.value}"
                 self.wrong.append(
-                    f"{where}: {number.value},{key.value} has a comma; valid: {valid}"
+                    f"{where}: {number.value},{key.value} has a comma; expected: {valid}"
                 )
 
 

@@ -4,19 +4,15 @@ import numpy as np
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.factor import CELLS
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import headline, n, one, pair, typical_errors, verdicts
-from recalib.study.measured import ERRORS, UNITS
-from recalib.study.statistics import first_within
+from recalib.study.evidence.words import one, typical_errors
+from recalib.study.inference.intervals import first_within
+from recalib.study.inference.measured import ERRORS, UNITS
 
-
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.files("summary.csv", "claims.json")
-    for role in ("improved", "ritter"):
-        ask.history(ask.fact(role))
-    ask.facts("published", "iterations")
+NEEDS = """
+    runs/{scenario}/{improved}.parquet runs/{scenario}/{ritter}.parquet
+    summary.csv claims.json published iterations
+"""
 
 
 def _on_its_way(evidence: Evidence) -> str:
@@ -40,10 +36,6 @@ def context(evidence: Evidence) -> dict:
     rows = {(row["scenario"], row["learner"]): row for row in summary}
     by_id = {claim["id"]: claim for claim in claims}
     return {
-        "n": n,
-        "pair": pair,
-        "headline": headline,
-        "verdicts": verdicts,
         "setups": max(claim["universes"].get("setups", 0) for claim in claims),
         "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
         "typical": typical_errors(by_id["figure-1"]),

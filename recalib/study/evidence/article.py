@@ -3,36 +3,29 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from recalib.files.storage import whole
 from recalib.spelling import listed
-from recalib.storage import whole
 from recalib.study.evidence import all_results, choices, deviations, findings, readme
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 
-
-def needs(ask: Request) -> None:
-    """What the article reads."""
-    for page in (readme, all_results, findings, choices, deviations):
-        page.needs(ask)
+NEEDS = " ".join(its.NEEDS for its in (readme, all_results, findings, choices, deviations))
 
 
 def _counted(claims: Iterable[Mapping]) -> str:
     """How many claims have each verdict."""
     verdicts = [claim["verdict"] for claim in claims]
-    counts = {each: verdicts.count(each) for each in Verdict}
-    return listed((f"{count} {each}" for each, count in counts.items() if count), "and")
+    counts = {verdict: verdicts.count(verdict) for verdict in Verdict}
+    return listed((f"{count} {verdict}" for verdict, count in counts.items() if count), "and")
 
 
 def context(evidence: Evidence) -> dict:
     """Everything that the article may say."""
     found, results, front = (page.context(evidence) for page in (findings, all_results, readme))
     return found | {
-        "headline": front["headline"],
-        "percent": front["percent"],
         "by": {
-            each: [claim for claim in found["claims"] if claim["verdict"] == each]
-            for each in Verdict
+            verdict: [claim for claim in found["claims"] if claim["verdict"] == verdict]
+            for verdict in Verdict
         },
         "of": front["claims"],
         "counted": _counted(found["claims"]),

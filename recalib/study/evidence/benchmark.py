@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from recalib.randomness import generator
-from recalib.study.competitors import needs_of
-from recalib.study.measured import ERRORS
-from recalib.study.statistics import bootstrap
+from recalib.numerics.randomness import generator
+from recalib.study.inference.intervals import bootstrap
+from recalib.study.inference.measured import ERRORS
+from recalib.study.plan.competitors import needs_of
 
 Names = tuple[str, ...]
 
@@ -40,8 +40,8 @@ def errors(history: pd.DataFrame, scenarios: Names, learners: Names, seed: int) 
         for moves, measured in own.groupby("moves"):
             row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
             for error in ERRORS:
-                luck = generator(seed, scenario, learner, moves, error)
-                row |= bootstrap(measured[error], luck).columns(error)
+                rng = generator(seed, scenario, learner, moves, error)
+                row |= bootstrap(measured[error], rng).columns(error)
             rows.append(row)
     return pd.DataFrame(rows)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from recalib.errors import RecalibError
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS
 
 KEYS = ["scenario", "learner"]
 

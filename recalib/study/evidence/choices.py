@@ -1,17 +1,12 @@
 """What the page of choices says: what the paper leaves open, and what this study took."""
 
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
 
-
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.assignments()
-    for scenario in (None, "translation", "rotation"):
-        ask.scenario(scenario)
-    ask.sample(ask.fact("improved"))
-    ask.facts("short_searches", "searches_long", "setups")
+NEEDS = """
+    assignments/{robot}.parquet search/{improved}.csv short_searches searches_long setups
+    scenarios/{scenario}.json scenarios/translation.json scenarios/rotation.json
+"""
 
 
 def context(evidence: Evidence) -> dict:

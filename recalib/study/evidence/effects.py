@@ -6,7 +6,7 @@ The design is balanced, so that the other factors average out where one is looke
 import numpy as np
 import pandas as pd
 
-from recalib.study.statistics import LEVEL
+from recalib.study.inference.intervals import LEVEL
 
 RESAMPLES = 2000
 

@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.study import shipped
+from recalib.study.configuration import shipped
+from recalib.study.configuration.lengths import LONG
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.needs import DOUBLE
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.verdicts import Verdict, of_published
-from recalib.study.lengths import LONG
-from recalib.study.measured import ERRORS
-from recalib.study.statistics import Draws, Estimate
+from recalib.study.inference.intervals import Draws, Estimate
+from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd

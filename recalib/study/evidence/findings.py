@@ -1,12 +1,12 @@
 """What the page of findings says: what did not replicate, how far it carries, limits."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
-from recalib.study import shipped
+from recalib.study.configuration import shipped
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.factor import CELLS, PUBLISHED, factor_table
-from recalib.study.evidence.needs import Request
+from recalib.study.evidence.factor import PUBLISHED, factor_table
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -16,36 +16,15 @@ from recalib.study.evidence.reference import (
 )
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.words import (
-    depends,
-    estimated,
-    measured,
-    n,
-    over_setups,
-    short,
-    verdicts,
-)
-from recalib.study.measured import ERRORS
+from recalib.study.evidence.words import depends
+from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd
 
-FIRST_OUTCOMES = f"{shipped.FIRST}/outcomes.csv"  # of the first campaign
+COUNTED = f"{shipped.FIRST}/counted.csv"  # in how many setups a claim held: of its outcomes
 SHORT = ("cm", "deg")
 ENOUGH = 0.8  # of the simulated campaigns
-# What the first campaign counted, by column of its outcomes: the limit, and on which side it held.
-FIRST = {
-    "two maps, improved system": ("maps_improved", 1, True),
-    "two maps, Ritter's": ("maps_ritter", 1, True),
-    "increments of theta, improved system": ("theta_improved", 1, True),
-    "increments of theta, Ritter's": ("theta_ritter", 1, True),
-    "increments of the Jacobians, improved system": ("jacobian_improved", 1, True),
-    "increments of the Jacobians, Ritter's": ("jacobian_ritter", 1, True),
-    "equal visits, improved system": ("schedule_improved", 1, True),
-    "equal visits, Ritter's": ("schedule_ritter", 1, True),
-    "both orders of widths": ("width_order", 1, True),
-    "a factor above 50": ("factor", 50, False),
-}
 ORDER = Verdict.CONTRADICTED, Verdict.NO_EFFECT, Verdict.UNDECIDED, Verdict.SUPPORTED
 ONCE = {  # what a single search compares, by column of the reference study
     "two maps, improved system": "maps_improved",
@@ -59,20 +38,12 @@ ONCE = {  # what a single search compares, by column of the reference study
 }
 ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
 
-
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.files("summary.csv", "claims.json")
-    ask.setups("outcomes")
-    ask.shipped(shipped.REFERENCE, shipped.EFFORTS, shipped.POWER, FIRST_OUTCOMES)
-    for learner in (IMPROVED, *CELLS):
-        ask.ladder(learner)
-    ask.fact("seed")
-    for series in ("assignments", "scaled"):
-        ask.ensemble(IMPROVED, series)
-    ask.ensemble(RITTER, "assignments")
-    ask.sample(ask.fact("improved"))
-    ask.fact("iterations")
+NEEDS = f"""
+    summary.csv claims.json outcomes? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
+    {shipped.FACTORS} {COUNTED} search/{{improved}}.csv runs/{{scenario}}/{{ladder}}.parquet
+    ensemble/assignments.improved.parquet ensemble/scaled.improved.parquet
+    ensemble/assignments.ritter.parquet seed iterations
+"""
 
 
 def _ensemble(ours: "pd.DataFrame", ritters: "pd.DataFrame") -> dict:
@@ -130,19 +101,9 @@ def _campaign(evidence: Evidence) -> dict:
     }
 
 
-def _first_campaign(evidence: Evidence) -> list[dict]:
-    """What the first campaign counted, by claim."""
-    outcomes, rows = evidence.table(FIRST_OUTCOMES), []
-    for name, (column, limit, below) in FIRST.items():
-        values = outcomes[column]
-        holds = (values < limit) if below else (values > limit)
-        rows.append({"what": name, "holds": int(holds.sum()), "of": len(values)})
-    return rows
-
-
 def _said(claim: dict) -> dict:
     """A judged claim, with what its home says of it besides."""
-    home = next(each for each in CLAIMS if each.id == claim["id"])
+    home = next(its for its in CLAIMS if its.id == claim["id"])
     figures = [figure.removeprefix("figure") for figure in home.figures]
     return claim | {
         "reason": home.reason.format(**home.limits),
@@ -170,16 +131,10 @@ def context(evidence: Evidence) -> dict:
     improved = evidence.fact("improved")
     sample, searched_for = evidence.sample(improved), evidence.sought(improved)
     return {
-        "n": n,
-        "short": short,
-        "measured": measured,
-        "verdicts": verdicts,
-        "over_setups": over_setups,
-        "depends": depends,
-        "estimated": estimated,
+        "depends": partial(depends, evidence.words()),
         "campaign": _campaign(evidence),
         "claims": [_said(claim) for claim in evidence.claims()],
-        "groups": [str(each) for each in ORDER],
+        "groups": [str(verdict) for verdict in ORDER],
         "factors": factor_table(evidence),
         "published": PUBLISHED,
         "two_maps": two_maps(reference),
@@ -188,7 +143,7 @@ def context(evidence: Evidence) -> dict:
         "widths": width_order(sample, evidence.rng("exchange of widths")),
         "once": spread_of_luck(reference, ONCE),
         "replicates": len(reference),
-        "first_campaign": _first_campaign(evidence),
+        "first_campaign": evidence.table(COUNTED).to_dict("records"),
         "iterations": evidence.fact("iterations"),
         "ritter_iterations": ritter.max(),
         "figures": figures(),

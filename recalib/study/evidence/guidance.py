@@ -5,23 +5,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.study.competitors import PEERS, label_of
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS
+from recalib.study.plan.competitors import PEERS, label_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
+NEEDS = "benchmark.csv benchmark_moves.csv threshold budgets"
 WORSE = 1.1  # times the best peer's error is worse
 NEGLIGIBLE = 1e-4  # cm and degrees: below it, errors are rounding
 FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
-
-
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.files("benchmark.csv", "benchmark_moves.csv")
-    ask.facts("threshold", "budgets")
 
 
 def moves_text(reached: "pd.DataFrame") -> str:
@@ -36,7 +30,7 @@ def moves_text(reached: "pd.DataFrame") -> str:
 def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
     """Scenarios, budgets and errors at which the hybrid is worse than the best other peer."""
     rows = []
-    counted = [each for each in budgets if each >= FIRST]
+    counted = [budget for budget in budgets if budget >= FIRST]
     peers = table[table["learner"].isin(PEERS) & table["moves"].isin(counted)]
     for (scenario, moves), own in peers.groupby(["scenario", "moves"], sort=False):
         for error in ERRORS:

@@ -1,33 +1,45 @@
-"""What a claim, a figure or a page reads: asked for once, and the rule's inputs and arguments.
+"""What a claim, a figure or a page reads, said once: a rule's inputs and arguments follow from it.
+
+It is said in a text of patterns:
+
+    iterations                            a fact
+    mapping/visits.parquet                a result, by its path below the study's folder
+    runs/{scenario}/{learners}.parquet    several, by facts: those of a list in turn
+    search/*.csv                          those of all trainings
+    workflow/universes/second/power.csv   what was measured once, and is shipped with the project
+    outcomes                              the same of every alternative setup, in pieces
+    outcomes?                             ... if it is there
 
 What was asked for is an `Evidence`, and nothing else can be read from it. Asking loads no tables
 and draws nothing, since the workflow does it whenever it starts.
 """
 
-from collections.abc import Callable, Mapping
-from itertools import takewhile
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import product, takewhile
 from pathlib import Path
 
 from pydantic import JsonValue
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned
+from recalib.study.configuration.shipped import DESIGN, PIECES, RESULTS, SHIPPED, pieces
 from recalib.study.configuration.study import Study
-from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.results import Evidence
-from recalib.study.recordings import recordings
-from recalib.study.shipped import DESIGN, RESULTS, SHIPPED, pieces
-from recalib.study.trainings import Trainings, elsewhere, ritter_short, training
+from recalib.study.plan.recordings import recordings
+from recalib.study.plan.trainings import Trainings, elsewhere, ritter_short, training
 
 # Ritter's net with as many cells as both maps: where it is trained, it leads
 DOUBLE = "ritter_double"
-
-# Measured for a study with evidence alone
-OF_EVIDENCE = "ensemble/", "mapping/"
+LADDERS = IMPROVED, DOUBLE, RITTER
+SWITCHED = [name for switch in SWITCHES for name in (switch.without, switch.added)]
+OF_MAPS = SWITCHED[:2]  # whose searches go on from others: replicates of their own compare them
+# Not from trainings: measured for a study with evidence, searched for, or shipped
+BEYOND = "ensemble/", "mapping/", "search/", "workflow/"
 
 # What may be known of a study beside its results. Trainings go by their role in the paper.
 FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
-    "shipped": lambda study, _: study.name == SHIPPED,
     "seed": lambda study, _: study.seed,
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
@@ -41,21 +53,23 @@ FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
     "ritter": lambda _, trainings: trainings.name(RITTER),
     "short": lambda study, trainings: trainings.name(ritter_short(study)),
     "compared": lambda study, trainings: [
-        trainings.name(each)
-        for each in (DOUBLE if DOUBLE in study.experiments.beside else RITTER, IMPROVED)
-        if each in (*study.experiments.learners, *study.experiments.beside)
+        trainings.name(name)
+        for name in (DOUBLE if DOUBLE in study.experiments.beside else RITTER, IMPROVED)
+        if name in (*study.experiments.learners, *study.experiments.beside)
     ],
     "learners": lambda study, trainings: [
-        trainings.name(each) for each in study.experiments.learners
+        trainings.name(name) for name in study.experiments.learners
     ],
     "beside": lambda study, _: [
-        each
-        for each in study.experiments.beside
-        if training(study, each).iterations == study.learners[IMPROVED].iterations
+        name
+        for name in study.experiments.beside
+        if training(study, name).iterations == study.learners[IMPROVED].iterations
     ],
-    "switches": lambda study, _: study.experiments.switches,
+    "switched": lambda study, _: [
+        name for name in SWITCHED if study.experiments.switches and name not in OF_MAPS
+    ],
     "ladder": lambda study, trainings: {
-        each: list(map(list, trainings.ladder(each).items())) for each in study.experiments.ladder
+        name: list(map(list, trainings.ladder(name).items())) for name in study.experiments.ladder
     },
     "setups": lambda study, _: {
         "outcomes": study.universes.count,
@@ -89,7 +103,6 @@ class Request:
 
     Attributes:
         lacking: keys of the study that would have to say more, in the order of asking.
-        foreign: whether something was asked for that is known of the shipped study alone.
     """
 
     def __init__(
@@ -100,47 +113,99 @@ class Request:
         self._files: dict[str, str] = {}
         self._facts: dict[str, JsonValue] = {}
         self.lacking: list[str] = []
-        self._beyond = self.foreign = False
 
     @property
     def trained(self) -> bool:
         """Whether the trainings of the study leave all that was asked for."""
-        return not (self.lacking or self._beyond)
+        return not (self.lacking or any(name.startswith(BEYOND) for name in self._files))
+
+    @property
+    def foreign(self) -> bool:
+        """Whether something was asked for that is known of the shipped study alone."""
+        shipped = any(name.startswith("workflow/") for name in self._files)
+        return shipped and not self._is_shipped
 
     @property
     def evidence(self) -> Evidence:
         """All that was asked for."""
         return Evidence(root=self._root, files=self._files, facts=self._facts)
 
-    def fact(self, name: str) -> JsonValue:
-        """One of `FACTS`; None where the study has no learner that it speaks of."""
+    def read(self, needs: str) -> "Request":
+        """Ask for what these patterns, with spaces between them, mean."""
+        for pattern in needs.split():
+            name, optional = pattern.removesuffix("?"), pattern.endswith("?")
+            if name in PIECES:
+                self._setups(name, optional)
+            elif name in FACTS:
+                self._fact(name)
+            else:
+                for path in self._paths(name):
+                    self._file(path, optional)
+        return self
+
+    def _fact(self, name: str) -> JsonValue:
+        """None where the study has no learner that it speaks of."""
         try:
-            self._facts[name] = FACTS[name](self.study, self.trainings)
+            value = self._facts[name] = FACTS[name](self.study, self.trainings)
+            self._lack(*_lacking_for(name, value, self.study))
         except (KeyError, UnknownName):
-            missing = [each for each in (IMPROVED, RITTER) if each not in self.study.learners]
-            self.lack(f"learners: {missing[0]}")
+            missing = [name for name in (IMPROVED, RITTER) if name not in self.study.learners]
+            self._lack(f"learners: {missing[0]}")
         return self._facts.get(name)
 
-    def facts(self, *names: str) -> None:
-        """Several of them."""
-        for name in names:
-            self.fact(name)
+    def _lack(self, *keys: str) -> None:
+        self.lacking += [key for key in keys if key not in self.lacking]
 
-    def lack(self, key: str) -> None:
-        """Note what the study would have to say besides."""
-        if key not in self.lacking:
-            self.lacking.append(key)
+    def _paths(self, pattern: str) -> Iterator[str]:
+        if "*" in pattern:
+            scenarios, learners = zip(*self.trainings.runs, strict=True)
+            every = scenarios if pattern.startswith("scenarios/") else learners
+            yield from (pattern.replace("*", name) for name in dict.fromkeys(every))
+            return
+        facts = re.findall(r"{(\w+)}", pattern)
+        for names in product(*(_names(self._fact(fact)) for fact in facts)):
+            yield pattern.format(**dict(zip(facts, names, strict=True)))
 
-    def files(self, *names: str) -> None:
-        """Results, by their paths below the study's folder."""
-        for name in names:
-            self._files[name] = f"{self._root}/{name}"
-            self._beyond |= name.startswith(OF_EVIDENCE)
+    def _file(self, path: str, optional: bool) -> None:
+        folder, *names = path.rpartition(".")[0].split("/")
+        match folder:
+            case "workflow":
+                if self._is_shipped or not optional:
+                    self._files[path] = self._in_project(path)
+                return
+            case "search":
+                self._files[path] = self._sample_at(str(training(self.study, names[0])))
+                return
+            case "runs":
+                self._lack(*self._untrained(*names))
+            case "ensemble":
+                series, learner = names[0].split(".")
+                if series not in self.study.experiments.ensemble.get(learner, ()):
+                    self._lack(f"experiments.ensemble.{learner}.{series}")
+            case "assignments":
+                own = self.study.scenario
+                if not any(isinstance(entry, Assigned) for entry in self.study.scenarios[own]):
+                    self._lack(f"scenarios.{own}: assigned links or encoders")
+        self._files[path] = f"{self._root}/{path}"
 
-    def shipped(self, *names: str) -> None:
-        """Files of the project, about the shipped study alone, by their paths there."""
-        self._beyond, self.foreign = True, not self._is_shipped
-        self._files |= {name: self._in_project(name) for name in names}
+    def _untrained(self, scenario: str, learner: str) -> Iterator[str]:
+        """The key that would bring a training."""
+        if (scenario, learner) in self.trainings.runs:
+            return
+        if scenario not in (*self.study.experiments.scenarios, *self.trainings.scenarios()):
+            yield f"experiments.scenarios: {scenario}"
+        elif learner in SWITCHED:
+            yield "experiments.switches: true"
+        else:
+            yield f"experiments.learners: {learner}"
+
+    def _setups(self, table: str, optional: bool) -> None:
+        names = DESIGN, *pieces(table, self._fact("setups")[table])
+        paths = {name: self._in_project(name) for name in names}
+        if self._is_shipped and all(Path(path).exists() for path in paths.values()):
+            self._files |= paths
+        elif not optional:
+            self._lack(f"universes: {table}")
 
     def _in_project(self, name: str) -> str:
         """Where a file lies of the project whose results these are."""
@@ -151,62 +216,26 @@ class Request:
     def _is_shipped(self) -> bool:
         return self.study.name == SHIPPED
 
-    def history(self, learner: str | None, scenario: str | None = None, key: str = "") -> None:
-        """The history of a training; on the study's own scenario unless another is given.
 
-        Args:
-            key: of the study that would bring the training; the default learners unless given.
-        """
-        on = scenario or self.fact("scenario")
-        if learner is None:
-            return
-        if (on, learner) not in self.trainings.runs:
-            plan = self.study.experiments
-            there = on in plan.scenarios or on in self.trainings.scenarios()
-            lacking = key or f"experiments.learners: {learner}"
-            self.lack(lacking if there else f"experiments.scenarios: {on}")
-        self.files(f"runs/{on}/{learner}.parquet")
+def _lacking_for(fact: str, value: JsonValue, study: Study) -> Iterator[str]:
+    """What a study would have to say for a fact to tell what it is read for."""
+    plan = study.experiments
+    if fact == "beside" and not (value or plan.switches):
+        yield "experiments.switches: true"
+    if fact == "ladder":
+        yield from (f"experiments.ladder.{name}" for name in LADDERS if not plan.ladder.get(name))
+        own = study.learners[IMPROVED].iterations
+        if own not in plan.ladder.get(IMPROVED, ()):
+            yield f"experiments.ladder.{IMPROVED}: {own}"
 
-    def ladder(self, learner: str) -> None:
-        """The histories of a learner trained for several numbers of iterations."""
-        if not self.fact("ladder").get(learner):
-            self.lack(f"experiments.ladder.{learner}")
-        for name in self.trainings.ladder(learner).values():
-            self.history(name)
 
-    def ensemble(self, learner: str, series: str) -> None:
-        """A series of other damages."""
-        if series not in self.study.experiments.ensemble.get(learner, ()):
-            self.lack(f"experiments.ensemble.{learner}.{series}")
-        self.files(f"ensemble/{series}.{learner}.parquet")
-
-    def assignments(self) -> None:
-        """The initial errors of every assignment of the paper's damage."""
-        own = self.study.scenario
-        if not any(isinstance(entry, Assigned) for entry in self.study.scenarios[own]):
-            self.lack(f"scenarios.{own}: assigned links or encoders")
-        self.files(f"assignments/{self.fact('robot')}.parquet")
-
-    def sample(self, learner: str | None) -> None:
-        """The sample of the search for a training."""
-        self._beyond = True
-        if learner is not None:
-            path = self._sample_at(str(training(self.study, learner)))
-            self._files[f"search/{learner}.csv"] = path
-
-    def scenario(self, scenario: str | None = None) -> None:
-        """A damage as resolved; the study's own unless another is given."""
-        self.files(f"scenarios/{scenario or self.fact('scenario')}.json")
-
-    def setups(self, table: str) -> bool:
-        """What was measured in each alternative setup; whether all of it is there.
-
-        Args:
-            table: outcomes; or horizon, how long Ritter's takes.
-        """
-        names = DESIGN, *pieces(table, self.fact("setups")[table])
-        paths = {name: self._in_project(name) for name in names}
-        there = self._is_shipped and all(Path(path).exists() for path in paths.values())
-        if there:
-            self._files |= paths
-        return there
+def _names(fact: JsonValue) -> Iterable[str]:
+    """The names in a fact, however deep."""
+    match fact:
+        case str():
+            return [fact]
+        case dict():
+            return _names(list(fact.values()))
+        case list():
+            return [name for part in fact for name in _names(part)]
+    return []

@@ -4,17 +4,11 @@ from collections.abc import Mapping
 
 from tabulate import tabulate
 
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts, headline, pair, verdicts
 
+NEEDS = "summary.csv claims.json scenarios/{scenario}.json"
 WIDE = 60  # characters of a column
-
-
-def needs(ask: Request) -> None:
-    """What it reads."""
-    ask.files("summary.csv", "claims.json")
-    ask.scenario()
 
 
 def outcome(evidence: Evidence) -> str:

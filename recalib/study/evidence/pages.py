@@ -1,9 +1,9 @@
 """Pages, rendered from templates: no measured number in them is typed."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from types import ModuleType
 
 from recalib.study.evidence import (
     all_results,
@@ -14,27 +14,20 @@ from recalib.study.evidence import (
     guidance,
     readme,
     real_arm,
+    words,
 )
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 
-
-class Page(NamedTuple):
-    """A page: what it reads, and what its template may say."""
-
-    needs: Callable[[Request], None]
-    context: Callable[[Evidence], dict]
-
-
-PAGES: Mapping[str, Page] = {
-    "README.md": Page(readme.needs, readme.context),
-    "results.md": Page(all_results.needs, all_results.context),
-    "choices.md": Page(choices.needs, choices.context),
-    "deviations.md": Page(deviations.needs, deviations.context),
-    "findings.md": Page(findings.needs, findings.context),
-    "guidance.md": Page(guidance.needs, guidance.context),
-    "real_arm.md": Page(real_arm.needs, real_arm.context),
-    "article.typ": Page(article.needs, article.context),
+# Each says what it NEEDS, and in its `context` what its template may say.
+PAGES: Mapping[str, ModuleType] = {
+    "README.md": readme,
+    "results.md": all_results,
+    "choices.md": choices,
+    "deviations.md": deviations,
+    "findings.md": findings,
+    "guidance.md": guidance,
+    "real_arm.md": real_arm,
+    "article.typ": article,
 }
 MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
 
@@ -45,7 +38,7 @@ def page(name: str, evidence: Evidence, template: Path) -> str:
 
 
 def render(template: str | Path, context: Mapping) -> str:
-    """The text of a page."""
+    """The text of a page, which has the functions of `words` besides."""
     import jinja2
 
     in_typst = Path(template).name.endswith(".typ.j2")
@@ -54,6 +47,7 @@ def render(template: str | Path, context: Mapping) -> str:
         keep_trailing_newline=True,
         finalize=_escaped if in_typst else None,
     )
+    environment.globals.update({name: its for name, its in vars(words).items() if callable(its)})
     return environment.from_string(Path(template).read_text(encoding="utf-8")).render(context)
 
 

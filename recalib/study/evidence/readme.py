@@ -4,23 +4,17 @@ from collections.abc import Mapping
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.words import headline, n, one, percent, short, typical_errors
-from recalib.study.statistics import Estimate
+from recalib.study.evidence.words import headline, one, percent, short, typical_errors
+from recalib.study.inference.intervals import Estimate
 
+NEEDS = "summary.csv claims.json improved scenario"
 ORDINARY = {
     Verdict.SUPPORTED: f"so {PUBLISHED} is ordinary",
     Verdict.CONTRADICTED: f"so {PUBLISHED} is not",
     Verdict.UNDECIDED: f"so {PUBLISHED} is possible, and little is certain",
 }
-
-
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.files("summary.csv", "claims.json")
-    ask.facts("improved", "scenario")
 
 
 def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
@@ -50,16 +44,13 @@ def context(evidence: Evidence) -> dict:
     claims = {claim["id"]: claim for claim in evidence.claims()}
     measured = [claim["universes"] for claim in claims.values()]
     return {
-        "n": n,
-        "headline": headline,
-        "percent": percent,
         "shipped": evidence.shipped,
         "figures": "figures" if evidence.shipped else "../figures",
         "own": summary.loc[(evidence.fact("scenario"), evidence.fact("improved"))],
         "typical": typical_errors(claims["figure-1"]),
         "claims": claims,
         "sentences": in_a_sentence(claims),
-        "verdicts": [str(each) for each in Verdict],
+        "verdicts": [str(verdict) for verdict in Verdict],
         "setups": max((its.get("setups", 0) for its in measured), default=0),
         "published": PUBLISHED,
         "readings": _readings(claims["speed-up"]),

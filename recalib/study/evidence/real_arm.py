@@ -1,17 +1,44 @@
-"""What the page of the real arm says."""
+"""The errors on the real arm, and what its page says of them."""
 
-from recalib.study.competitors import label_of
-from recalib.study.evidence.needs import Request
-from recalib.study.evidence.real import ERROR
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from recalib.numerics.randomness import generator
 from recalib.study.evidence.results import Evidence
+from recalib.study.inference.intervals import bootstrap
+from recalib.study.plan.competitors import label_of
 
+if TYPE_CHECKING:
+    import pandas as pd
+
+ERROR = "position_error_mm"
+
+NEEDS = "real.csv real_robot published_mm real_poses"
 TWIN = "twin"  # is part of the name of a learner that was run on it
 
 
-def needs(ask: Request) -> None:
-    """What the page reads."""
-    ask.files("real.csv")
-    ask.facts("real_robot", "published_mm", "real_poses")
+def put_together(runs: list[Path], seed: int) -> "pd.DataFrame":
+    """The errors of the learners in these files."""
+    import pandas as pd
+
+    return real_errors(pd.concat(map(pd.read_csv, runs)), seed)
+
+
+def real_errors(runs: "pd.DataFrame", seed: int) -> "pd.DataFrame":
+    """A row for each learner and number of poses.
+
+    Args:
+        runs: a row for each learner, number of poses and subset.
+        seed: of the study.
+    """
+    import pandas as pd
+
+    rows = []
+    for (learner, poses), own in runs.groupby(["learner", "poses"], sort=False):
+        estimate = bootstrap(own[ERROR], generator(seed, "real", learner, poses))
+        cells = {"learner": learner, "poses": poses, "subsets": len(own)}
+        rows.append(cells | estimate.columns(ERROR))
+    return pd.DataFrame(rows)
 
 
 def context(evidence: Evidence) -> dict:

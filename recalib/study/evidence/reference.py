@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO, Verdict
-from recalib.study.hierarchy import student
-from recalib.study.lengths import MAPS
-from recalib.study.measured import ERRORS, KINDS
-from recalib.study.statistics import Estimate, combined
+from recalib.study.inference.hierarchy import student
+from recalib.study.inference.intervals import Estimate, combined
+from recalib.study.inference.measured import ERRORS, KINDS
 
 if TYPE_CHECKING:
     import pandas as pd

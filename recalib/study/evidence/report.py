@@ -7,9 +7,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from recalib.storage import whole
+from recalib.files.storage import whole
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 
 if TYPE_CHECKING:
@@ -32,6 +31,11 @@ READ = "findings", "choices", "results"  # pages of a study with evidence, as th
 EXPLAINED = "ideas"  # the page of the method
 # Committed: other targets than the default one write them.
 KEPT = {"guidance": "figure12", "real_arm": "figure13"}
+NEEDS = """
+    summary.csv scenarios/*.json search/*.csv claims.json improved learners scenario scenarios
+    recordings elsewhere published iterations tests measure_every assignment_poses coupling_poses
+    balls points
+"""
 FRONT = "front"  # the text before all pages
 
 
@@ -42,32 +46,6 @@ def heading(page: str, project: Path) -> str:
         return next(line for line in text.splitlines() if line.startswith("# ")).removeprefix("# ")
     text = (project / TEXTS / f"{page}.html").read_text(encoding="utf-8")
     return text.splitlines()[0].removeprefix("<h1>").removesuffix("</h1>")
-
-
-def needs(ask: Request) -> None:
-    """What all pages read together."""
-    ask.files("summary.csv")
-    for scenario in ask.trainings.scenarios():
-        ask.scenario(scenario)
-    for learner in dict.fromkeys(learner for _, learner in ask.trainings.runs):
-        ask.sample(learner)
-    ask.files("claims.json")
-    ask.facts(
-        "improved",
-        "learners",
-        "scenario",
-        "scenarios",
-        "recordings",
-        "elsewhere",
-        "published",
-        "iterations",
-        "tests",
-        "measure_every",
-        "assignment_poses",
-        "coupling_poses",
-        "balls",
-        "points",
-    )
 
 
 def context(evidence: Evidence) -> dict:
@@ -86,7 +64,7 @@ def context(evidence: Evidence) -> dict:
         "rounds": one["round"].nunique(),
         "trials": int((one["round"] == 1).sum()) // one["search"].nunique(),
         "resolved": [
-            evidence.scenario(scenario) for scenario in dict.fromkeys(each for each, _ in runs)
+            evidence.scenario(scenario) for scenario in dict.fromkeys(name for name, _ in runs)
         ],
         "claims": evidence.claims(),
         "versions": {"Python": platform.python_version()}

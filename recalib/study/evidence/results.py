@@ -8,16 +8,20 @@ import numpy as np
 from pydantic import JsonValue
 
 from recalib.errors import RecalibError
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.shipped import DESIGN, FACTORS, RESULTS, SHIPPED, pieces
 from recalib.study.configuration.universes import Factors
-from recalib.study.measured import errors_of
-from recalib.study.shipped import DESIGN, RESULTS, SHIPPED, pieces
+from recalib.study.configuration.values import from_file
+from recalib.study.inference.measured import errors_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from recalib.study.experiments.samples import Sought
+
+
+Words = dict[str, dict[str, str]]  # by factor: what it `asks`, and by level what completes that
 
 
 class Undeclared(RecalibError):
@@ -96,7 +100,7 @@ class Evidence(Frozen):
 
     def assignments(self) -> "pd.DataFrame":
         """The initial errors of every assignment of the paper's damage."""
-        from recalib.study.assignments import TIE
+        from recalib.study.scenarios.assignments import TIE
 
         table = self.table(f"assignments/{self.fact('robot')}.parquet")
         return table.assign(distance=table["distance"].round(TIE))
@@ -145,6 +149,10 @@ class Evidence(Frozen):
     def levels(self) -> "pd.DataFrame":
         """The levels of each setup's factors."""
         return self.table(DESIGN)[list(Factors.model_fields)]
+
+    def words(self) -> Words:
+        """The factors of the setups in words."""
+        return from_file(self.path(FACTORS)).plain()
 
     def rng(self, *keys: str) -> np.random.Generator:
         """Randomness of an interval."""

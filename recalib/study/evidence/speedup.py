@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from recalib.study.statistics import Draws, Estimate
+from recalib.study.inference.intervals import Draws, Estimate
 
 
 def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray) -> np.ndarray:

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from recalib.randomness import generator
-from recalib.study.measured import ERRORS, errors_of
-from recalib.study.statistics import Draws
+from recalib.numerics.randomness import generator
+from recalib.study.inference.intervals import Draws
+from recalib.study.inference.measured import ERRORS, errors_of
 
 
 def summarise(
@@ -23,7 +23,7 @@ def summarise(
         seed: of the study.
     """
     resolved = [json.loads(path.read_text(encoding="utf-8")) for path in scenarios]
-    robots = {each["scenario"]: each["robot"] for each in resolved}
+    robots = {scenario["scenario"]: scenario["robot"] for scenario in resolved}
     return pd.DataFrame(
         [
             {"robot": robots[scenario], "scenario": scenario, "learner": learner}

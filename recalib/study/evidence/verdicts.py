@@ -6,7 +6,7 @@ They are symmetric: what a positive verdict needs, a negative one needs.
 from enum import StrEnum
 from typing import NamedTuple
 
-from recalib.study.statistics import Estimate
+from recalib.study.inference.intervals import Estimate
 
 WIDEST = 4  # times the lowest of an interval, if a published number inside it is to say something
 

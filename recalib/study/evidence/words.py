@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from recalib.study.configuration.labels import LABELS, level_in_words
-from recalib.study.measured import ERRORS, UNITS
-from recalib.study.statistics import Estimate
+from recalib.study.evidence.results import Words
+from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.measured import ERRORS, UNITS
 
 
 def n(value: float, digits: int = 2) -> str:
@@ -100,7 +100,7 @@ def verdicts(claim: Mapping) -> str:
         if claim["systems"][system]["verdict"] != claim["verdict"]
     ]
     judged = f" ({first})" if others else ""
-    return f"{text}{judged}" + "".join(f"; {each}" for each in different)
+    return f"{text}{judged}" + "".join(f"; {verdict}" for verdict in different)
 
 
 def over_setups(its: Mapping) -> str:
@@ -121,19 +121,24 @@ def over_setups(its: Mapping) -> str:
     return text
 
 
-def depends(its: Mapping) -> str:
+def level_in_words(words: Mapping[str, str], level: object) -> str:
+    """A level of a factor with these words; another study's robots go by their names."""
+    return words.get(str(level), str(level))
+
+
+def depends(factors: Words, its: Mapping) -> str:
     """The choice that moves a claim's number most, and by how much; empty where none is known."""
     if its["status"] != "measured":
         return ""
     its = its["depends_on"]
     if its["effect"] <= its["chance"]:
-        return "No choice moves it by more than chance would show."
-    factor, effect = its["factor"], ranged(its["effect"], its["interval"])
-    least, largest = (level_in_words(factor, its[key]) for key in ("from", "to"))
-    return f"It is largest where {LABELS[factor].asks} {largest}: {effect} against {least}."
+        return "No choice matters more than chance."
+    words, effect = factors[its["factor"]], ranged(its["effect"], its["interval"])
+    least, largest = (level_in_words(words, its[key]) for key in ("from", "to"))
+    return f"It is largest where {words['asks']} {largest}: {effect} against {least}."
 
 
 def amounts(entry: Mapping) -> str:
     """A damage in the words of the configuration, without their keys."""
-    values = (", ".join(each) if isinstance(each, list) else each for each in entry.values())
+    values = (", ".join(value) if isinstance(value, list) else value for value in entry.values())
     return " ".join(map(str, values))

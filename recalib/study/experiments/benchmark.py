@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib import interfaces
-from recalib.study.competitors import MOVES, make_peer
+from recalib.loop import interfaces
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plants import Resolved, fleet
-from recalib.study.progress import progress_bar
+from recalib.study.plan.competitors import MOVES, make_peer
+from recalib.study.scenarios.plants import Resolved, fleet
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -83,25 +82,24 @@ def compete(
 
     runs, total = range(seeds), len(scenarios) * seeds
     resolved = [Resolved.read(path) for path in scenarios]
-    names = [each.scenario for each in resolved]
+    names = [its.scenario for its in resolved]
     controller, plants = fleet(resolved, seed, runs)
     if rules is None:
-        iterations, each = max(moves), 1
+        iterations, moves_each = max(moves), 1
         learner = Timed(make_peer(name, total, controller))
     else:
-        iterations, each = rules.iterations, MOVES
+        iterations, moves_each = rules.iterations, MOVES
         searches = [run + 1 for run in runs] * len(scenarios)
         learner = Timed(build_tuned(rules, sample, searches))
     poses = ResultPoses.side_by_side(
         Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scope) for scope in names
     )
-    budgets = measured_at([*moves, *longer], iterations, each)
-    with progress_bar(f"{name} on {', '.join(names)}", iterations) as progress:
-        history = train_for_results(plants, learner, poses, budgets, progress=progress)
+    budgets = measured_at([*moves, *longer], iterations, moves_each)
+    history = train_for_results(plants, learner, poses, budgets)
     frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
     return frame.assign(
         scenario=np.array(names)[frame["seed"] // len(runs)],
         seed=frame["seed"] % len(runs),
         learner=name,
-        seconds_per_move=learner.seconds / (total * iterations * each),
+        seconds_per_move=learner.seconds / (total * iterations * moves_each),
     )

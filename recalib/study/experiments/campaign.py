@@ -5,14 +5,13 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.learned import save
+from recalib.learners.learned import save
+from recalib.loop.training import measuring_grid
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plants import Resolved
-from recalib.study.progress import progress_bar
-from recalib.study.trainings import Measuring
-from recalib.training import measuring_grid
+from recalib.study.plan.trainings import Measuring
+from recalib.study.scenarios.plants import Resolved
 
 
 def measured_at(measuring: Measuring, iterations: int) -> list[int]:
@@ -56,16 +55,10 @@ def train_seeds(
     plant = resolved.plant(controller, seed, runs)
     learner = build_tuned(rules, sample, searches)
     poses = Stream.SCENARIO.draw(seed, runs, iterations, measuring.tests, scenario=scope)
-    name = f"{sample.stem} on {scope}"
-    with progress_bar(name, iterations) as progress:
-        history = train_for_results(
-            plant,
-            learner,
-            poses,
-            measured_at(measuring, iterations) if throughout else [0, iterations],
-            progress=progress,
-        )
+    measure_at = measured_at(measuring, iterations) if throughout else [0, iterations]
+    history = train_for_results(plant, learner, poses, measure_at)
     if refused := history.refused[:, -1].sum():
+        name = f"{sample.stem} on {scope}"
         print(f"{name}: the controller refused {refused} moves", file=sys.stderr)
     save(learned, learner, controller.robot)
     columns = history.columns()

@@ -11,13 +11,13 @@ from recalib.damaged.damage import Damage, DamagedArm, apply
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
-from recalib.randomness import generator
-from recalib.study.assignments import Ways
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.nominal import Nominal
-from recalib.study.plants import nominal_controller
+from recalib.study.scenarios.assignments import Ways
+from recalib.study.scenarios.nominal import Nominal
+from recalib.study.scenarios.plants import nominal_controller
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,7 +5,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from recalib.learned import join
+from recalib.learners.learned import join
 
 
 def put_together(chunks: list[Path]) -> pa.Table:

@@ -11,9 +11,9 @@ from typing import Self
 
 import numpy as np
 
-from recalib.interfaces import Commandable, Learner
-from recalib.randomness import generator
-from recalib.training import History, train
+from recalib.loop.interfaces import Commandable, Learner
+from recalib.loop.training import History, train
+from recalib.numerics.randomness import generator
 
 SEARCHED = "search "  # what the streams of searches begin with, and no others
 
@@ -113,11 +113,11 @@ class _Poses:
     @classmethod
     def side_by_side(cls, poses: Iterable["SearchPoses | ResultPoses"]) -> Self:
         """Those of all runs, one group of them after the other. Raises TypeError, as `only`."""
-        parts = [cls.only(each) for each in poses]
+        parts = [cls.only(part) for part in poses]
         desired, tests = (
-            np.concatenate([getattr(each, name) for each in parts]) for name in ("desired", "tests")
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("desired", "tests")
         )
-        return cls(", ".join(dict.fromkeys(each.name for each in parts)), desired, tests)
+        return cls(", ".join(dict.fromkeys(part.name for part in parts)), desired, tests)
 
 
 class SearchPoses(_Poses):
@@ -135,7 +135,7 @@ def train_on(
     measure_at: Sequence[int],
     **how,
 ) -> History:
-    """As `recalib.training.train`."""
+    """As `recalib.loop.training.train`."""
     return train(plant, learner, poses.desired, poses.tests, measure_at, **how)
 
 

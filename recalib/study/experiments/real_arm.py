@@ -21,14 +21,14 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
-from recalib.randomness import generator
-from recalib.study.competitors import MOVES
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
-from recalib.study.nominal import Nominal
-from recalib.study.plants import nominal_robot
+from recalib.study.plan.competitors import MOVES
+from recalib.study.scenarios.nominal import Nominal
+from recalib.study.scenarios.plants import nominal_robot
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.archives import flat
+from recalib.files.archives import flat
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from recalib.errors import RecalibError
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Budget, Learner, Study
-from recalib.study.trainings import budget, rules, searches
+from recalib.study.plan.trainings import budget, rules, searches
 
 if TYPE_CHECKING:
     import pandas as pd

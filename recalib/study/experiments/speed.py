@@ -13,7 +13,7 @@ from recalib.nominal.robots import Robot
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
 
@@ -53,7 +53,7 @@ def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learn
     # Both in turn, and the ratio pair by pair: the machine may be shared.
     pairs = [
         (
-            seconds(lambda: [plant.execute(each) for each in commands]),
+            seconds(lambda: [plant.execute(command) for command in commands]),
             seconds(bare_loop, robot, arm, angles),
         )
         for _ in range(REPEATS)

@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
+from recalib.files.storage import whole
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.measurements import NOMINAL, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
 from recalib.nominal.kinematics import Arm
-from recalib.storage import whole
 from recalib.study.configuration.study import Source
 
 PATIENCE = 60  # seconds for the public address to answer
@@ -54,7 +54,7 @@ def read_whole_description(path: str | PathLike) -> Description:
     """
     description = read_description(path)
     if description.instrument is None or description.target is None:
-        raise InvalidFile(path, "it lacks an instrument or a target; valid: both")
+        raise InvalidFile(path, "its instrument or its target is missing; expected: both")
     return description
 
 
@@ -70,7 +70,9 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
     """
     rows = read_measurements(path, arm, description)
     if rows.positions is None or rows.nominal is None:
-        raise InvalidFile(path, f"it lacks {', '.join(NOMINAL)} or what was measured; valid: both")
+        raise InvalidFile(
+            path, f"it lacks {', '.join(NOMINAL)} or what was measured; expected: both"
+        )
     base = np.linalg.inv(description.instrument)
     check_nominal(arm, rows.coordinates, rows.nominal, base, np.zeros(3))
     turn, place = description.instrument[:3, :3], description.instrument[:3, 3]

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from recalib.interfaces import Commandable
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
-from recalib.randomness import generator
+from recalib.loop.interfaces import Commandable
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Budget, Learner
 from recalib.study.experiments import search
 from recalib.study.experiments.poses import SearchPoses, Stream, train_on
 from recalib.study.experiments.settings import rules_of
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -9,9 +9,9 @@ import numpy as np
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import ORIENTATION, POSITION
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 from recalib.study.mapping.true_mapping import mapping_jacobians
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,7 +34,7 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "p
 
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
-        name: [np.linalg.norm(jacobians[:, own, seen], axis=(1, 2)) for seen in (own, other)]
+        name: [np.linalg.norm(jacobians[:, own, part], axis=(1, 2)) for part in (own, other)]
         for name, (own, other) in BLOCKS.items()
     }
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.damages import damages_among
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -69,8 +69,10 @@ def propagation_errors(
 
 def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
     """The paper's damage made smaller or larger: links are shortened by what it says at most."""
-    links = [each.scaled(min(scale, 1)) for each in damages if isinstance(each, LinkShortening)]
-    encoders = [each.scaled(scale) for each in damages if isinstance(each, EncoderShift)]
+    links = [
+        damage.scaled(min(scale, 1)) for damage in damages if isinstance(damage, LinkShortening)
+    ]
+    encoders = [damage.scaled(scale) for damage in damages if isinstance(damage, EncoderShift)]
     return [*links, *encoders]
 
 
@@ -100,7 +102,7 @@ def propagation(
     rows = []
     for scale in scales:
         for start, before in starts.items():
-            arms = [apply(robot, each) for each in (before, [*before, *grown(damages, scale)])]
+            arms = [apply(robot, stage) for stage in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):
                 old, new = (partial(mapping, controller, arm) for arm in arms)
                 about = {"scale": scale, "start": start, "kind": kind}

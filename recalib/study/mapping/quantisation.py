@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib.learners.nets import CENTRES, nearest, regular_grid
 from recalib.learners.schedules import exponential
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -48,13 +48,13 @@ def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.n
         shape: of the map, cells along each of its axes; the last axis is the fastest.
     """
     places = np.indices(shape).reshape(len(shape), -1).T
-    near = -0.5 * np.square(places[:, None] - places).sum(axis=-1)
+    exponents = -0.5 * np.square(places[:, None] - places).sum(axis=-1)
     centres, iterations = starts.copy(), poses.shape[1]
     for t in range(iterations):
         width, rate = (exponential(*ends, t / iterations) for ends in (WIDTHS, RATES))
         offsets = poses[:, [t]] - centres
         winner = np.square(offsets).sum(axis=-1).argmin(axis=1)
-        centres += rate * np.exp(near[winner] / width**2)[..., None] * offsets
+        centres += rate * np.exp(exponents[winner] / width**2)[..., None] * offsets
     return centres
 
 
@@ -94,7 +94,7 @@ def quantisation(
     }
 
     def drawn(name: str, count: int) -> np.ndarray:
-        return np.stack([each.uniform(-1, 1, (count, dimensions)) for each in randoms[name]])
+        return np.stack([rng.uniform(-1, 1, (count, dimensions)) for rng in randoms[name]])
 
     placed = {name: [regular_grid(shape, name)] * seeds for name in CENTRES}
     for count in iterations:

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.learners.schedules import DIMENSIONS, expected_learning
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 
 WIDTHS = (0.1, 0.15, 0.2, 0.3, 0.5, 1.0)  # of the neighbourhood, in workspace coordinates
 DISTANCES = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0)  # to a face; 1 is the centre

@@ -13,7 +13,7 @@ import yaml
 
 from recalib.study.configuration.damages import Entry, describe
 from recalib.study.configuration.part import Frozen
-from recalib.study.measured import NONE
+from recalib.study.inference.measured import NONE
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,8 +11,7 @@ from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.errors import RecalibError
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
-from recalib.randomness import generator
-from recalib.study.assignments import TIE, Ways, distance_to, initial_errors
+from recalib.numerics.randomness import generator
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import PaperDamage, Published
@@ -21,8 +20,9 @@ from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.universe import DIGITS, robot_in
-from recalib.study.nominal import Nominal
-from recalib.study.plants import nominal_robot
+from recalib.study.scenarios.assignments import TIE, Ways, distance_to, initial_errors
+from recalib.study.scenarios.nominal import Nominal
+from recalib.study.scenarios.plants import nominal_robot
 
 
 class Setting(Frozen):
@@ -43,7 +43,7 @@ class Setting(Frozen):
 
 def design(setting: Setting) -> list[dict[str, Any]]:
     """The rows of the file."""
-    return [each.as_row() for each in draw_design(setting)]
+    return [universe.as_row() for universe in draw_design(setting)]
 
 
 def draw_design(setting: Setting) -> Iterator[Designed]:
@@ -70,7 +70,7 @@ def draw(setting: Setting, universe: int, row: Row) -> Designed:
     plan, levels = setting.plan, row.levels
     random = generator(plan.seed, "universe", row.number)
     seed = int(random.integers(2**32))
-    nominal = next(each for each in setting.robots if each.name == levels["robot"])
+    nominal = next(robot for robot in setting.robots if robot.name == levels["robot"])
     own = setting.robots[0].robot.workspace
     nominal = robot_in(nominal, levels, own, plan.longer)
     scale = nominal.robot.workspace.scale_to(own)
@@ -96,7 +96,7 @@ def draw(setting: Setting, universe: int, row: Row) -> Designed:
         seed=seed,
         levels={name: str(level) for name, level in levels.items()},
         home_deg=[
-            float(f"{np.degrees(robot.home[robot.joints.index(each)]):.6g}") for each in joints
+            float(f"{np.degrees(robot.home[robot.joints.index(joint)]):.6g}") for joint in joints
         ],
         homes_refused=refused,
         moved=moved(setting.moved, scale, random if levels["displacement"] == "random" else None),

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from recalib.study.configuration.lengths import LONG
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
-from recalib.study.lengths import LONG
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd

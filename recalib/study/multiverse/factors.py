@@ -36,5 +36,5 @@ def rows(plan: Universes) -> Iterator[Row]:
     sequence = qmc.Sobol(len(names) + 1, rng=np.random.default_rng(plan.seed))
     for number, (*numbers, share) in enumerate(sequence.random_base2(power).tolist()):
         valid = [getattr(plan.factors, name) for name in names]
-        chosen = (each[int(u * len(each))] for each, u in zip(valid, numbers, strict=True))
+        chosen = (levels[int(u * len(levels))] for levels, u in zip(valid, numbers, strict=True))
         yield Row(number, dict(zip(names, chosen, strict=True)), share)

@@ -33,7 +33,7 @@ def _factor(world: World) -> dict[str, float]:
         found[rung] = _tuned(world, RITTER, rungs[rung])
         rung += -1 if (found[rung] <= goal).all() else 1
     tried = sorted(found)
-    grid, errors = np.array([rungs[each] for each in tried]), np.array([found[i] for i in tried])
+    grid, errors = np.array([rungs[i] for i in tried]), np.array([found[i] for i in tried])
     needed = float(iterations_needed(grid, errors, goal))
     if np.isnan(needed):
         return {"factor": rungs[0] / own, "bound": -1}

@@ -13,11 +13,11 @@ from recalib.learners.radial import RadialLearner
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES, Switch
 from recalib.study.experiments.search import NETS
 from recalib.study.experiments.trials import best_of
+from recalib.study.inference.intervals import combined
+from recalib.study.inference.measured import ERRORS, KINDS, NONE, RIGID
 from recalib.study.mapping.coupling import coupling
-from recalib.study.measured import ERRORS, KINDS, NONE, RIGID
 from recalib.study.multiverse.universe import Universe
 from recalib.study.multiverse.world import World
-from recalib.study.statistics import combined
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,7 +44,7 @@ def measured(world: World) -> dict[str, float]:
         for name in (
             IMPROVED,
             RITTER,
-            *(each.without for each in OTHERS),
+            *(switch.without for switch in OTHERS),
             *(e.added for e in OTHERS),
         )
     }
@@ -67,8 +67,8 @@ def measured(world: World) -> dict[str, float]:
     row |= _cells(world, iterations)
     row["narrow"] = _narrow(world, iterations, ours[:, -1])
     row["radial"] = _radial(world, iterations)
-    moved = (world.train(IMPROVED, iterations, trials[IMPROVED], each) for each in RIGID)
-    row["rigid"] = max(_remaining(each).max() for each in moved)
+    moved = (world.train(IMPROVED, iterations, trials[IMPROVED], shift) for shift in RIGID)
+    row["rigid"] = max(_remaining(errors).max() for errors in moved)
     row["intact"] = world.train(IMPROVED, iterations, trials[IMPROVED], "intact").max()
     row["coupling"] = _coupling(world)
     return row
@@ -86,7 +86,9 @@ def _remaining(errors: np.ndarray) -> np.ndarray:
 
 def ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
     """Our error over theirs (seed, 2): the geometric mean over kinds and seeds."""
-    return float(np.exp(np.subtract(*(np.log(combined(each)).mean() for each in (ours, theirs)))))
+    return float(
+        np.exp(np.subtract(*(np.log(combined(errors)).mean() for errors in (ours, theirs))))
+    )
 
 
 def _few(world: World, trials: Mapping[str, "pd.DataFrame"]) -> "pd.DataFrame":

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.study.evidence.verdicts import RATIO, Verdict
-from recalib.study.hierarchy import hierarchy
-from recalib.study.statistics import Estimate
+from recalib.study.inference.hierarchy import hierarchy
+from recalib.study.inference.intervals import Estimate
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -33,7 +33,7 @@ def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame
     import pandas as pd  # a quarter of a second: no start waits for it
 
     effort = np.array(list(LUCK))[np.arange(setups) % len(LUCK)]
-    spread = np.array([LUCK[each] for each in effort])
+    spread = np.array([LUCK[level] for level in effort])
     rows = []
     for number, (effect, own) in enumerate(product(EFFECTS, HETEROGENEITIES)):
         random = np.random.default_rng([1996, number])
@@ -51,7 +51,7 @@ def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame
 
 
 PARTS = "mean", "heterogeneity", "luck", "another"
-COLUMNS = *(each.value for each in Verdict), "found", *(f"{part}_covered" for part in PARTS)
+COLUMNS = *(verdict.value for verdict in Verdict), "found", *(f"{part}_covered" for part in PARTS)
 
 
 def _study(
@@ -70,6 +70,7 @@ def _study(
     truths = mean, own, np.sqrt(np.square(spread).mean()), true[-1]
     intervals = (getattr(found, part) for part in PARTS)
     covered = [
-        each.low <= truth <= each.high for each, truth in zip(intervals, truths, strict=True)
+        interval.low <= truth <= interval.high
+        for interval, truth in zip(intervals, truths, strict=True)
     ]
-    return [*(verdict == each for each in Verdict), found.heterogeneity.low > 0, *covered]
+    return [*(verdict == possible for possible in Verdict), found.heterogeneity.low > 0, *covered]

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.study import lengths
+from recalib.study.configuration import lengths
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS, MOVED
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.measuring import measured, one_and_two_maps, ratio
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
-from recalib.study.plants import Resolved
+from recalib.study.scenarios.plants import Resolved
 
 NUMBER = -1  # it is none of the design
 MAPS, SCHEDULE = SWITCHES[0], SWITCHES[-1]
@@ -38,7 +38,7 @@ def reference_universe(study: Study, resolved: Resolved) -> Universe:
         levels={name: str(levels[0]) for name, levels in factors},
         home_deg=tuple(np.degrees(list(home)).tolist()),
         homes_refused=0,
-        moved=study.scenarios["translation_rotation"],
+        moved=study.scenarios[MOVED],
         damage=resolved.damages,
         position_error_cm=resolved.initial_position_error_cm,
         orientation_error_deg=resolved.initial_orientation_error_deg,

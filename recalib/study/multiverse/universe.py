@@ -8,9 +8,10 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Budget, Learner, Ranges, Study, Workspace
 from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.inference.measured import MOVED
 from recalib.study.multiverse.design import Designed
-from recalib.study.nominal import Nominal, nominal
-from recalib.study.trainings import budget, switched
+from recalib.study.plan.trainings import budget, switched
+from recalib.study.scenarios.nominal import Nominal, nominal
 
 DIGITS = 4  # of a length in m
 SMALL = (2, 2, 2)  # cells of a net that is spared some
@@ -85,7 +86,7 @@ def universe(study: Study, designed: Designed) -> Universe:
             "intact": (),
             "translation": (translation,),
             "rotation": (rotation,),
-            "translation_rotation": (translation, rotation),
+            MOVED: (translation, rotation),
             study.scenario: designed.damage,
         },
         learners={

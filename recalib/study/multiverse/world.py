@@ -18,7 +18,7 @@ from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
-from recalib.study.plants import nominal_controller
+from recalib.study.scenarios.plants import nominal_controller
 
 if TYPE_CHECKING:
     import pandas as pd

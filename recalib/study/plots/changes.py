@@ -5,10 +5,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.study.configuration.shipped import REFERENCE
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims.changes import compare, with_and_without
 from recalib.study.evidence.claims.maps import SEPARATE
 from recalib.study.evidence.results import Evidence
+from recalib.study.inference.intervals import Estimate
 from recalib.study.plots.palette import Style, styles_of
 from recalib.study.plots.style import (
     INTERVALS,
@@ -19,8 +21,6 @@ from recalib.study.plots.style import (
     note,
     with_intervals,
 )
-from recalib.study.shipped import REFERENCE
-from recalib.study.statistics import Estimate
 
 MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
 NESTED = "maps_improved", "maps_ritter"  # columns of the reference study's replicates
@@ -29,8 +29,8 @@ ANOTHER = ",\nanother learner"
 
 def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     """For each row its label, and what it does to the improved system and to Ritter's."""
-    rows, own = {}, evidence.fact("switches")
-    if own and evidence.fact("shipped"):
+    rows, own = {}, evidence.fact("switched")
+    if own and REFERENCE in evidence.files:
         measured = {across.column: across for across in SEPARATE.across.values()}
         reference = evidence.table(REFERENCE)
         rows[MAPS.label] = [measured[column].in_reference(reference) for column in NESTED]

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib.study.configuration.labels import LABELS, level_in_words
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import short
+from recalib.study.evidence.results import Evidence, Words
+from recalib.study.evidence.words import level_in_words, short
 from recalib.study.plots.palette import BORDER, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
 from recalib.study.plots.style import logarithmic, plain
@@ -46,7 +45,7 @@ def figure15(evidence: Evidence) -> Figure:
     below = 0.2 + 0.17 * len(rest) if unmoved else 0.0
     sheet = Sheet((LEFT, PLOT, RIGHT), heights, *_words(evidence, scales, len(unmoved)), below)
     for axes, (its, scale) in zip(sheet.panels, scales, strict=True):
-        scale(axes, its)
+        scale(axes, its, evidence.words())
     if unmoved:
         sheet.note("\n".join(rest))
     return sheet.figure
@@ -58,11 +57,11 @@ def _height(effects: "pd.DataFrame") -> float:
 
 def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     moved = sum(len(its) for its, _ in scales)
-    factors = [each for its, _ in scales for table in its.values() for each in table["factor"]]
+    factors = [factor for its, _ in scales for table in its.values() for factor in table["factor"]]
     text = f"Figure 15: {moved} of {moved + unmoved} claims depend on a choice beyond chance"
     most = max(dict.fromkeys(factors), key=factors.count, default="")
     if (often := factors.count(most)) > 1:
-        text += f";\n{often} of them on the same: {LABELS[most].asks} ..."
+        text += f";\n{often} of them on the same: {evidence.words()[most]['asks']} ..."
     explained = (
         "Where the paper is silent, something has to be chosen. For each claim: the choice with"
         " which its number is largest, instead of the one with which it is\nsmallest, averaged over"
@@ -72,21 +71,23 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     return text, explained
 
 
-def _times(axes: Axes, its: Mapping[str, "pd.DataFrame"]) -> None:
+def _times(axes: Axes, its: Mapping[str, "pd.DataFrame"], words: Words) -> None:
     most = max(table["high"].max() for table in its.values())
     end = max(2.1, 1.05 * most)
     logarithmic(axes.xaxis, *(tick for tick in TICKS if tick < end))
     axes.set(xlim=(0.95, end), xlabel="how many times as large; 1: the same")
-    _draw(axes, its, 1, "{} times")
+    _draw(axes, its, words, 1, "{} times")
 
 
-def _more(axes: Axes, its: Mapping[str, "pd.DataFrame"]) -> None:
+def _more(axes: Axes, its: Mapping[str, "pd.DataFrame"], words: Words) -> None:
     axes.set(xlim=(-0.02, 1), xlabel="by how much larger; 0: the same")
     plain(axes.xaxis, 0, 0.2, 0.4, 0.6, 0.8, 1)
-    _draw(axes, its, 0, "by {}")
+    _draw(axes, its, words, 0, "by {}")
 
 
-def _draw(axes: Axes, its: Mapping[str, "pd.DataFrame"], none: float, said: str) -> None:
+def _draw(
+    axes: Axes, its: Mapping[str, "pd.DataFrame"], words: Words, none: float, said: str
+) -> None:
     """Claims from above."""
     _, top = axes.get_ylim()
     axes.vlines(none, 0, top, **BORDER)
@@ -96,8 +97,9 @@ def _draw(axes: Axes, its: Mapping[str, "pd.DataFrame"], none: float, said: str)
         for row in effects.itertuples():
             top -= ROW
             middle = top + ROW / 2
-            largest, least = (level_in_words(row.factor, its) for its in (row.largest, row.least))
-            choice = f"{LABELS[row.factor].asks}: {largest},\ninstead of: {least}"
+            its_words = words[row.factor]
+            largest, least = (level_in_words(its_words, its) for its in (row.largest, row.least))
+            choice = f"{its_words['asks']}: {largest},\ninstead of: {least}"
             write(axes, -LEFT / PLOT + 0.04, middle, choice)
             axes.hlines(middle, row.low, row.high, color=NEUTRAL)
             axes.scatter(row.effect, middle, s=26, color=NEUTRAL, zorder=3)

@@ -10,9 +10,9 @@ from recalib.study.evidence.factor import CELLS, DOUBLE, PUBLISHED, leading
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.words import ranged
+from recalib.study.inference.intervals import estimate
 from recalib.study.plots.palette import BOTH, Style, styles_of
 from recalib.study.plots.style import INTERVALS, finish, line_across, logarithmic
-from recalib.study.statistics import estimate
 
 SMALL = 9.5  # points: a label no wider than its panel
 

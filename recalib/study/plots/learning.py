@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
-from recalib.study.measured import ERRORS, errors_of
+from recalib.study.inference.intervals import first_within, typical
+from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plots.palette import BORDER, BOTH, ErrorStyle, Style, styles_of
 from recalib.study.plots.style import (
     BAND,
@@ -26,7 +27,6 @@ from recalib.study.plots.style import (
     with_intervals,
     words,
 )
-from recalib.study.statistics import first_within, typical
 
 NAMED = 3  # damages in a title; more of them go by the name of their scenario
 NEAR = 1.2  # times: two numbers beside a linear axis that would stand on each other
@@ -77,8 +77,8 @@ def figure1(evidence: Evidence) -> Figure:
     for error in BOTH:
         for axes, row, where in zip(panels, (0, -1), ("left", "right"), strict=True):
             upper = ends.iloc[row][list(ERRORS)].idxmax() == error.column
-            near = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
-            beside = (18, (8 if upper else -8) if near else 0)
+            close = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
+            beside = (18, (8 if upper else -8) if close else 0)
             note(
                 axes,
                 f"{ends[error.column].iloc[row]:.{2 if row else 1}f} {error.unit}",

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import ERRORS, KINDS
+from recalib.study.inference.measured import ERRORS, KINDS
 from recalib.study.plots.palette import BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (
     finish,

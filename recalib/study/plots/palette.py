@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 from itertools import cycle
 from typing import Any
 
-from recalib.study.competitors import COMPETITORS, label_of
-from recalib.study.measured import ERRORS, KINDS, UNITS
+from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.inference.measured import ERRORS, KINDS, UNITS
+from recalib.study.plan.competitors import COMPETITORS, label_of
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
@@ -57,14 +58,15 @@ COLOURS, LINES = ("#5D3A9B", "#994F00"), (SOLID, DASHED)
 BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS))
 HOLDS, FAILS = "#44AA99", "#882255"
 NEUTRAL = "black"
+INK = "0.25"  # of pictures of ideas
 BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
 STYLES = {
-    name: Style(its.color, its.marker, DASHED if name == "ritter" else SOLID, its.label)
+    name: Style(its.color, its.marker, DASHED if name == RITTER else SOLID, its.label)
     for name, its in COMPETITORS.items()
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
-OTHER = {"improved": ("#80B9D9", "d"), "ritter": ("#EFA07A", "^")}
+OTHER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#EFA07A", "^")}
 # The first is Ritter's net with the cells of both maps; to the colour-blind, too, it is unlike his.
 UNKNOWN = ("#661100", "X"), ("#DDCC77", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
 

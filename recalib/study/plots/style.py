@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
-from recalib.storage import whole
+from recalib.files.storage import whole
 from recalib.study.plots.palette import BORDER, Style
 from recalib.study.plots.steady import LOG, steady
 
@@ -121,11 +121,9 @@ def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) 
     )
 
 
-def legend_under(axes: Axes, columns: int = 1) -> None:
+def legend_under(axes: Axes) -> None:
     """The legend of a panel with signs of its own, under it."""
-    axes.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns, fontsize=8, columnspacing=1
-    )
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=8)
 
 
 def line_across(

@@ -14,10 +14,10 @@ from recalib.study.evidence.claims.across import Setups
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
 from recalib.study.evidence.words import ranged, short
+from recalib.study.inference.intervals import LEVEL, Estimate
 from recalib.study.plots.palette import BORDER, HOLDS, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
 from recalib.study.plots.style import logarithmic, plain
-from recalib.study.statistics import LEVEL, Estimate
 
 LEFT, PLOT, RIGHT = 3.15, 3.7, 3.65  # inches: what is claimed, its numbers, its verdict
 TALL, LESS = 0.56, 0.45  # inches of a row: of a claim, and of another system beside it

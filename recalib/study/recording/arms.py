@@ -8,13 +8,13 @@ import rerun as rr
 
 from recalib.damaged.damage import Damage, apply
 from recalib.errors import InvalidFile
+from recalib.files.storage import read_file
+from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
 from recalib.nominal.robots import Robot
-from recalib.storage import read_file
 from recalib.study.recording.colours import BELIEVED, SHORT, WRONG
 from recalib.study.recording.markers import base_shift, circle, markers
 from recalib.study.recording.scene import Scene, unit_of
-from recalib.viewing import link_placements, log_meshes, send_frame
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `unit_of`
 FOOT = 0.7  # radius of the circle about a base that was moved, in these units

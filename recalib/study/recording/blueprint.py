@@ -6,8 +6,8 @@ import numpy as np
 import rerun.blueprint as rrb
 
 from recalib.nominal.poses import Workspace
-from recalib.study.competitors import label_of
-from recalib.study.recording.errors import PUBLISHED
+from recalib.study.plan.competitors import label_of
+from recalib.study.recording.measurements import PUBLISHED
 from recalib.study.recording.phases import ARM
 from recalib.study.recording.watched import Watched
 

@@ -72,15 +72,15 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     return flat @ placement.rotation.T + placement.translation
 
 
-def _gathered(robot: Robot, found: list[Marker], near: float) -> list[Marker]:
-    """The markers, with the words of those so near [m] to one another at the last of them."""
+def _gathered(robot: Robot, found: list[Marker], radius: float) -> list[Marker]:
+    """The markers; of those within a radius [m] of one another, the last has all words."""
     data = robot.arm.model.createData()
     pin.forwardKinematics(robot.arm.model, data, robot.home)
     places = [data.oMi[robot.links[marker.link]].act(marker.at) for marker in found]
     groups: list[list[int]] = []
     for number, place in enumerate(places):
         for group in groups:
-            if np.linalg.norm(place - places[group[-1]]) < near:
+            if np.linalg.norm(place - places[group[-1]]) < radius:
                 group.append(number)
                 break
         else:

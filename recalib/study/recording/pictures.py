@@ -11,7 +11,7 @@ from PIL import Image
 from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
-from recalib.storage import whole
+from recalib.files.storage import whole
 from recalib.study.recording.phases import AFTER, ARM, BEFORE, LEARNING, VISITS
 from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 

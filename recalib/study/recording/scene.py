@@ -60,6 +60,13 @@ class Scene:
         moments = len(clock[0].as_arrow_array())
         self.rec.send_columns(f"{self.learner}/{part}", clock, columns.partition([each] * moments))
 
+    def show(
+        self, part: str, columns: rr.ComponentColumnList, each: int, style: rr.AsComponents
+    ) -> None:
+        """Send columns at all measurements, with so many rows at each, and what stands still."""
+        self.send(part, self.motion.throughout()[0], columns, each)
+        self.log(part, style)
+
 
 def unit_of(workspace: Workspace) -> float:
     """m: half a side of the workspace, on average, by which everything drawn is sized."""

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.damaged.plant import Plant
-from recalib.interfaces import Learner
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.loop.interfaces import Learner
+from recalib.loop.training import History
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION, orientation_error, position_error
 from recalib.study.experiments.poses import ResultPoses, train_for_results
 from recalib.study.recording.phases import POSES
-from recalib.training import History
 
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 

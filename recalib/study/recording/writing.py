@@ -12,26 +12,30 @@ from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 
 from recalib.errors import RecalibError
-from recalib.interfaces import Learner
-from recalib.storage import whole
-from recalib.study.competitors import make_peer
+from recalib.files.storage import whole
+from recalib.loop.interfaces import Learner
 from recalib.study.configuration.damages import damages_among, disturbances_among
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.measured import ERRORS, errors_of
-from recalib.study.plants import Resolved
+from recalib.study.inference.intervals import typical
+from recalib.study.inference.measured import ERRORS, errors_of
+from recalib.study.plan.competitors import make_peer
+from recalib.study.plan.recordings import Recording
 from recalib.study.recording import captions, colours
 from recalib.study.recording.arms import send_arms
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.errors import send_errors, send_published
-from recalib.study.recording.landings import send_landings, send_scatter
-from recalib.study.recording.maps import send_map
+from recalib.study.recording.measurements import (
+    send_errors,
+    send_landings,
+    send_map,
+    send_published,
+    send_scatter,
+)
 from recalib.study.recording.phases import move
 from recalib.study.recording.scene import Scene, log_surroundings, send_target
 from recalib.study.recording.watched import Watched, watch
-from recalib.study.recordings import Recording
-from recalib.study.statistics import typical
+from recalib.study.scenarios.plants import Resolved
 
 
 class BrokenRecording(RecalibError):
@@ -148,7 +152,7 @@ def _fill(
         next(iter(watched.values())),
         max(its.history.moves[-1] for its in watched.values()),
     )
-    texts = {"about": captions.panel(resolved, watched), "beside": captions.beside(watched)}
+    texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
     rec.send_recording_name(title)
     rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))
     log_surroundings(rec, robot.workspace, main.desired, texts)

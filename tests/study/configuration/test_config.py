@@ -6,13 +6,13 @@ import pytest
 import yaml
 
 from recalib.nominal.arms import load_arm
+from recalib.study.checks.consistency import check
+from recalib.study.checks.geometry import check_robots
 from recalib.study.configuration import schema
-from recalib.study.configuration.checks import check
 from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguration
 from recalib.study.configuration.reading import read_study
-from recalib.study.configuration.robot_checks import check_robots
 from recalib.study.configuration.study import Study
-from recalib.study.trainings import Trainings
+from recalib.study.plan.trainings import Trainings
 from tests.conftest import ROOT, loaded_with
 
 SHIPPED = ROOT / "config.yaml"
@@ -69,7 +69,7 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("seed: 1\n\trobot: ur10\n", "2:1: a tab; valid: spaces"),
+        ("seed: 1\n\trobot: ur10\n", "2:1: a tab; expected: spaces"),
         ("robot: ur10\n  seed: 1\n", "2:7: no YAML: mapping values are not allowed here"),
         ("a:\n  b: 1\n   c: 1\n", "3:5: no YAML: mapping values are not allowed here"),
         ("a:\n    b: {c: 1}\n      d: 2\n", "3:7: wrong indentation"),
@@ -84,7 +84,7 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
         ("a: 'b\n", "2:1: no YAML: found unexpected end of stream in what begins in line 1"),
         ("a: %b\n", "1:4: no YAML: found character '%' that cannot start any token"),
         ("a: 1\n---\nb: 2\n", "2:1: no YAML: but found another document in what begins in line 1"),
-        ("- a\n", "1:1: no configuration; valid: keys with their values"),
+        ("- a\n", "1:1: no configuration; expected: keys with their values"),
     ],
 )
 def test_what_is_no_yaml_is_told_with_its_place(here, text, said):
@@ -98,7 +98,7 @@ def test_a_joint_that_slides_is_told_since_its_home_is_no_angle(here):
     tiago["home"] = dict.fromkeys(arm.joints, "10 deg")
     tiago["workspace"] = {"position": ["1 cm"] * 3, "orientation": ["1 deg"] * 3}
     (said,) = mistakes_of(here, TEXT, {"robots": {"tiago": tiago}})
-    assert said.endswith("robots.tiago.home.torso_lift_joint slides; valid: joints that turn")
+    assert said.endswith("robots.tiago.home.torso_lift_joint slides; expected: joints that turn")
 
 
 @pytest.mark.parametrize(
@@ -128,7 +128,7 @@ def test_a_file_that_says_nothing_is_refused(here, text):
     with pytest.raises(InvalidConfiguration) as caught:
         read_study(SHIPPED, "mine.yaml")
     assert caught.value.mistakes == [
-        "mine.yaml:1:1: no configuration; valid: keys with their values"
+        "mine.yaml:1:1: no configuration; expected: keys with their values"
     ]
 
 

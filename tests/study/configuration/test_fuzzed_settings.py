@@ -13,24 +13,24 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.study.chunks import bounds, chunks, searches_per_job
-from recalib.study.competitors import MOVES, PEERS
-from recalib.study.configuration.checks import check
+from recalib.loop.training import measuring_grid
+from recalib.study.checks.consistency import check
+from recalib.study.checks.geometry import check_robots
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.configuration.reading import read_study
-from recalib.study.configuration.robot_checks import check_robots
+from recalib.study.configuration.shipped import root_of
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import judging
 from recalib.study.evidence.needs import Request
 from recalib.study.experiments.search import draw
 from recalib.study.experiments.settings import rules_of
+from recalib.study.plan.chunks import bounds, chunks, searches_per_job
+from recalib.study.plan.competitors import MOVES, PEERS
+from recalib.study.plan.trainings import Trainings, searches, seeds
+from recalib.study.plan.trainings import rules as rules_named
 from recalib.study.plots.registry import drawn
-from recalib.study.shipped import root_of
 from recalib.study.studies import named_files
-from recalib.study.trainings import Trainings, searches, seeds
-from recalib.study.trainings import rules as rules_named
-from recalib.training import measuring_grid
 from tests.conftest import ROOT
 from tests.rules import Rules
 
@@ -46,9 +46,9 @@ FEW = {"robot", "scenario", "settings"}  # words: none of these values is anothe
 NAMED = "robots", "scenarios", "home"  # mappings whose keys are names
 REFUSAL = re.compile(
     r"(the command line|config\.yaml:\d+:\d+): [a-z]\S*"
-    r"(: (unknown|no valid) \w+; .+|: a name with another meaning; valid: a new one"
+    r"(: (unknown|no valid) \w+; .+|: a name with another meaning; try: a new one"
     r"| (is|has|lacks|moves) .+; ((valid|expected): .+|did you mean [\w.]+\?)"
-    r"|: .+ again; valid: once| is missing: .+| lacks [\w, ]+| does not fit: .+)",
+    r"|: .+ again; expected: once| is missing: .+| lacks [\w, ]+| does not fit: .+)",
     re.DOTALL,
 )
 

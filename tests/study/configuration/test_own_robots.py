@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import yaml
 
-from recalib.meshes import mesh_files
 from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.meshes import mesh_files
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.studies import read_studies
 from tests.conftest import ROOT
@@ -82,7 +82,7 @@ def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used
     fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
     its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
     assert study_of(tmp_path, entry, **its).scenario == "fall"
-    with pytest.raises(InvalidConfiguration, match="links is a list of 1; valid: 3 or more"):
+    with pytest.raises(InvalidConfiguration, match="links is a list of 1; expected: 3 or more"):
         study_of(tmp_path, entry)
 
 

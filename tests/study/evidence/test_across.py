@@ -7,8 +7,8 @@ import pytest
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.verdicts import CORRELATION, Comparison
-from recalib.study.hierarchy import hierarchy
-from recalib.study.statistics import Estimate
+from recalib.study.inference.hierarchy import hierarchy
+from recalib.study.inference.intervals import Estimate
 from tests.made_up import few_resamples
 
 SETUPS = 64
@@ -126,17 +126,6 @@ def test_what_a_choice_does_to_a_correlation_is_a_difference():
     said = ORDER.over(table, LEVELS).said(np.random.default_rng(2))["depends_on"]
     assert (said["factor"], said["from"], said["to"]) == ("home", "0", "1")
     assert said["effect"] == pytest.approx(0.2, abs=0.02)
-
-
-def test_the_factor_that_matters_is_found_with_how_much_it_matters():
-    random = np.random.default_rng(1)
-    values = 0.2 * random.normal(size=SETUPS) + np.where(LEVELS["home"] == "1", 0.5, 0)
-    with few_resamples():
-        table = effects(values, LEVELS, random)
-    first = table.iloc[0]
-    assert (first["factor"], first["least"], first["largest"]) == ("home", "0", "1")
-    assert first["low"] < 0.5 < first["high"] and first["effect"] > first["chance"]
-    assert len(table) == 4 and (table["effect"] - table["chance"]).is_monotonic_decreasing
 
 
 def test_in_95_percent_no_factor_without_effect_exceeds_chance():

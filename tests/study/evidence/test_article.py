@@ -16,7 +16,7 @@ GIVEN = {"1996"}  # the year of the paper is no result
 @pytest.fixture(scope="module")
 def known(made_up):
     page = PAGES["article.typ"]
-    return page.context(made_up.evidence(page.needs))
+    return page.context(made_up.evidence(page.NEEDS))
 
 
 @pytest.fixture(scope="module")

@@ -2,18 +2,15 @@
 
 import pytest
 
+from recalib.study.configuration.shipped import PIECES, REFERENCE, pieces
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence, Undeclared
-from recalib.study.shipped import PIECES, REFERENCE, pieces
-from recalib.study.trainings import Trainings
+from recalib.study.plan.trainings import Trainings
 from tests.made_up import MadeUp, without_one
 
 
 def asked(made_up: MadeUp) -> Evidence:
-    ask = made_up.request()
-    for table in PIECES:
-        ask.setups(table)
-    return ask.evidence
+    return made_up.request().read("outcomes? horizon?").evidence
 
 
 def test_no_table_is_read_before_the_last_piece_is_in(few, tmp_path):
@@ -46,17 +43,14 @@ def test_a_piece_that_was_not_declared_is_missed(few, tmp_path):
     [("results", ""), ("results/studies/my_results", ""), ("/there/results", "/there/")],
 )
 def test_tables_are_those_of_the_project_whose_results_are_read(few, root, project):
-    ask = Request(few, Trainings(few), root, str)
-    ask.shipped(REFERENCE)
+    ask = Request(few, Trainings(few), root, str).read(REFERENCE)
     assert ask.evidence.path(REFERENCE) == f"{project}{REFERENCE}"
 
 
 def test_another_study_has_no_campaign(few, tmp_path):
     other = MadeUp(tmp_path, few.model_copy(update={"name": "other"})).campaign()
-    ask = other.request()
-    for table in PIECES:
-        ask.setups(table)
+    ask = other.request().read(f"outcomes? horizon? {REFERENCE}?")
     assert ask.evidence.files == {}
     assert not ask.foreign
-    ask.shipped(REFERENCE)
+    ask.read(REFERENCE)
     assert ask.foreign and not ask.lacking, "it is known of the shipped study alone"

@@ -7,12 +7,12 @@ import pytest
 
 from recalib.study.evidence import choices, guidance
 from recalib.study.evidence.all_results import _on_its_way
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS
 
 
 def test_choices_say_how_much_was_searched(made_up):
     """A hundred trials of each search were made up, and 41 assignments."""
-    said = choices.context(made_up.evidence(choices.needs))
+    said = choices.context(made_up.evidence(choices.NEEDS))
     assert said == {
         "setups": 64,
         "damages": "forearm_link 4 cm",
@@ -46,7 +46,7 @@ def test_ritters_is_said_to_have_both_errors_of_the_improved_one_on_its_way(last
 
 
 def test_guidance_says_of_what_it_is_and_where_the_hybrid_is_not_the_best(made_up, few):
-    said = guidance.context(made_up.evidence(guidance.needs))
+    said = guidance.context(made_up.evidence(guidance.NEEDS))
     assert said["learners"] == list(few.benchmark.learners)
     assert said["scenarios"] == list(few.benchmark.scenarios)
     assert (said["seeds"], said["threshold"], said["budget"]) == (4, 0.1, 400)

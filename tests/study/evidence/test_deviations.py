@@ -9,18 +9,19 @@ from datetime import UTC, datetime
 
 import pytest
 
+from recalib.study.configuration.shipped import DESIGN, DEVIATIONS
+from recalib.study.configuration.values import from_file
 from recalib.study.evidence import deviations
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.deviations import (
+    NEEDS,
     REGISTERED,
     REMOVED,
-    Deviations,
     context,
     digests,
-    needs,
+    unnamed,
 )
 from recalib.study.evidence.pages import render
-from recalib.study.shipped import DESIGN, DEVIATIONS
 from tests.conftest import ROOT
 
 FILE = ROOT / "workflow" / "deviations.yaml"
@@ -28,8 +29,8 @@ READ_AGAIN = "34056fe"  # the commit before the re-reading
 
 
 @pytest.fixture(scope="module")
-def told() -> Deviations:
-    return Deviations.read(FILE)
+def told() -> dict:
+    return from_file(FILE).plain()
 
 
 def git(*arguments: str) -> str:
@@ -40,9 +41,9 @@ def git(*arguments: str) -> str:
 
 
 def test_each_criterion_choice_and_design_is_the_one_named_last(told):
-    unnamed = told.unnamed(digests(ROOT))
-    assert not unnamed, (
-        f"{', '.join(unnamed)}: not as workflow/deviations.yaml names it last. Try: add an entry to"
+    changed = unnamed(told, digests(ROOT))
+    assert not changed, (
+        f"{', '.join(changed)}: not as workflow/deviations.yaml names it last. Try: add an entry to"
         " `deviations` there that says what changed, why, what it did to the verdicts and which"
         " results had been seen; below its `digests`, put what"
         " `python -m recalib.study.evidence.deviations` prints."
@@ -77,11 +78,11 @@ def test_a_claim_has_another_digest_if_any_part_of_its_criterion_changes(part, m
     assert [name for name in now if now[name] != before[name]] == [first.id]
 
 
-def test_what_an_entry_names_replaces_what_was_registered(told):
-    entry = told.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
-    its = Deviations(registered={"a": "1", "b": "1", "c": "1"}, deviations=(entry,), reread=())
-    assert its.unnamed({"a": "1", "b": "2"}) == {}
-    found = its.unnamed({"b": "1", "c": "1", "d": "1"})
+def test_what_an_entry_names_replaces_what_was_registered():
+    entry = {"digests": {"b": "2", "c": REMOVED}}
+    its = {"registered": {"a": "1", "b": "1", "c": "1"}, "deviations": [entry, {}]}
+    assert unnamed(its, {"a": "1", "b": "2"}) == {}
+    found = unnamed(its, {"b": "1", "c": "1", "d": "1"})
     assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
 
 
@@ -104,13 +105,13 @@ def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
 
 
 def test_entries_are_in_the_order_of_time_and_only_the_last_is_without_a_commit(told):
-    days = [each.day for each in told.deviations]
+    days = [each["when"] for each in told["deviations"]]
     assert days == sorted(days)
-    assert all(each.commit for each in told.deviations if isinstance(each.when, datetime))
+    assert all("commit" in each for each in told["deviations"] if ":" in each["when"])
 
 
 def test_commits_are_of_the_time_that_is_told(told):
-    days = [(each.commit, each.day) for each in told.deviations if each.commit]
+    days = [(each["commit"], each["when"]) for each in told["deviations"] if "commit" in each]
     commits = [*dict(days)]
     seconds = map(int, git("show", "--no-patch", "--format=%ct", *commits).splitlines())
     at = [f"{datetime.fromtimestamp(each, UTC):%Y-%m-%d %H:%M}" for each in seconds]
@@ -120,25 +121,25 @@ def test_commits_are_of_the_time_that_is_told(told):
 def test_verdicts_before_the_re_reading_are_those_of_its_commit(told):
     page = git("show", f"{READ_AGAIN}:docs/results.md").split("## Claims\n")[1].split("\n## ")[0]
     rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| ")][2:]
-    before = {name: its for each in told.reread for name, its in each.before.items()}
+    before = {k: its for each in told["reread"] for k, its in each.get("before", {}).items()}
     assert [cells[2].replace("**", "") for cells in rows] == [*before.values()]
-    assert set(before) <= set(told.registered)
+    assert set(before) <= set(told["registered"])
 
 
 def test_every_claim_of_today_stands_for_a_claim_before_or_is_new(told):
-    now = [name for each in told.reread for name in each.now]
+    now = [name for each in told["reread"] for name in each["now"]]
     assert sorted(now) == sorted(claim.id for claim in CLAIMS), "in `reread` of deviations.yaml"
 
 
 def test_the_page_has_each_change_and_each_verdict_before_and_now(made_up, told):
-    said = context(made_up.evidence(needs))
+    said = context(made_up.evidence(NEEDS))
     page = render(ROOT / "workflow" / "templates" / "deviations.md.j2", said)
     assert re.findall(r"^## (.+)$", page, re.MULTILINE)[:-1] == [
-        each.what for each in told.deviations
+        each["what"] for each in told["deviations"]
     ]
-    for each in told.deviations:
-        told_here = page.split(f"\n## {each.what}\n", 1)[1].split("\n## ")[0]
-        assert all(text in told_here for text in (each.before, each.after, each.why, each.verdict))
+    for each in told["deviations"]:
+        told_here = page.split(f"\n## {each['what']}\n", 1)[1].split("\n## ")[0]
+        assert all(each[key] in told_here for key in ("before", "after", "why", "verdict", "seen"))
     rows = [line.split(" | ") for line in page.splitlines() if line.startswith("| separate-maps")]
     before = "not supported (not supported for the improved system, undecided for Ritter's)"
     judged = "**supported** (Ritter's, 1,000 iterations)"

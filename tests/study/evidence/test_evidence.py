@@ -2,8 +2,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.randomness import generator
-from recalib.storage import whole
+from recalib.files.storage import whole
+from recalib.numerics.randomness import generator
 from recalib.study.evidence.checks import CheckFailed, check, expect
 from recalib.study.evidence.summary import error_at_these_settings
 

@@ -4,12 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study import shipped
+from recalib.study.configuration import shipped
 from recalib.study.evidence.factor import (
     ANEW,
-    CELLS,
     EFFORTS,
-    ON_THE_WAY,
     errors_of,
     factor_table,
     in_words,
@@ -17,24 +15,18 @@ from recalib.study.evidence.factor import (
     watched,
 )
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.measured import ERRORS
+from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.measured import ERRORS
 from recalib.study.multiverse.efforts import rough
-from recalib.study.statistics import Estimate
 from tests.made_up import MadeUp
 
-
-def needs(ask):
-    for learner in ("improved", *CELLS):
-        ask.ladder(learner)
-    ask.shipped(shipped.EFFORTS)
-    for fact in ("iterations", "seed"):
-        ask.fact(fact)
+NEEDS = f"runs/{{scenario}}/{{ladder}}.parquet {shipped.EFFORTS} iterations seed"
 
 
 @pytest.fixture(scope="module")
 def table(few, tmp_path_factory):
     made_up = MadeUp(tmp_path_factory.mktemp("factor"), few)
-    rows = factor_table(made_up.evidence(needs))
+    rows = factor_table(made_up.evidence(NEEDS))
     return {(row["cells"], row["effort"], row["definition"]): row for row in rows}
 
 
@@ -46,7 +38,7 @@ def test_there_are_twelve_and_the_papers_own_reading_leads(table):
 
 def test_each_is_what_was_made_up(table):
     """Errors fall by the iterations, and a rough search leaves half as much again."""
-    for (_, effort, definition), row in table.items():
+    for (cells, effort, definition), row in table.items():
         fast, slow = EFFORTS[effort]
         expected = 70 / (1.5 if fast == "rough" else 1) * (1.5 if slow == "rough" else 1)
         # on the way there are ten measurements, and the next one counts
@@ -54,8 +46,9 @@ def test_each_is_what_was_made_up(table):
         assert row["factor"].mean == pytest.approx(expected, rel=off), (effort, definition)
         assert row["factor"].low <= row["factor"].mean <= row["factor"].high
         # Ritter's with full effort gets there in 10,000 iterations, and counts what it is asked
-        soon = definition == ON_THE_WAY and (fast, slow) == ("rough", "full")
-        assert row["longest"] == (50 if soon else 100)
+        whole = 50 if (fast, slow) == ("rough", "full") else 100
+        tried = 200 if cells == "both maps together" else 100
+        assert row["longest"] == (tried if definition == ANEW else whole)
         assert row["verdict"] == in_words(row["factor"])
 
 

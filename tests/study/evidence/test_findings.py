@@ -2,25 +2,21 @@
 
 from types import SimpleNamespace
 
-import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.study.configuration.shipped import DESIGN, POWER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.findings import (
-    FIRST,
-    FIRST_OUTCOMES,
+    NEEDS,
     _campaign,
     _ensemble,
-    _first_campaign,
     _refused,
     _said,
     _scaled,
     context,
-    needs,
 )
-from recalib.study.measured import ERRORS
-from recalib.study.shipped import DESIGN, POWER
+from recalib.study.inference.measured import ERRORS
 
 
 def test_refused_moves_are_said_by_learner_and_scenario_and_none_is_said_as_none():
@@ -101,14 +97,6 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
     assert _campaign(SimpleNamespace(setups=lambda table: None)) == {}
 
 
-def test_the_first_campaign_is_counted_on_the_side_where_a_claim_held():
-    columns = {column: [0.9, 1.1, 0.8] for column, _, _ in FIRST.values()}
-    outcomes = pd.DataFrame(columns | {"factor": [40.0, 60.0, np.inf]})
-    rows = _first_campaign(SimpleNamespace(table={FIRST_OUTCOMES: outcomes}.get))
-    assert {row["holds"] for row in rows[:-1]} == {2} and rows[-1]["holds"] == 2
-    assert {row["of"] for row in rows} == {3} and len(rows) == len(FIRST)
-
-
 def test_what_is_said_of_a_claim_besides_is_its_own():
     for claim in CLAIMS:
         said = _said({"id": claim.id, "verdict": "supported"})
@@ -120,7 +108,7 @@ def test_what_is_said_of_a_claim_besides_is_its_own():
 
 def test_the_rest_is_counted_in_the_results(made_up):
     """A hundred trials of each search were made up."""
-    said = context(made_up.evidence(needs))
+    said = context(made_up.evidence(NEEDS))
     assert (said["trials"], said["searches"]) == (100, 4)
     assert (said["iterations"], said["ritter_iterations"]) == (200, 10_000)
     assert said["scaled_robots"] == said["ensemble"]["robots"] == 12

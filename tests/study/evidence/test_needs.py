@@ -3,13 +3,13 @@
 import yaml
 
 from recalib.study.evidence.needs import FACTS, Request
-from recalib.study.trainings import Trainings
+from recalib.study.plan.trainings import Trainings
 from tests.conftest import ROOT
 
 
 def facts(study) -> dict:
     ask = Request(study, Trainings(study), "results", str)
-    return {name: ask.fact(name) for name in FACTS}
+    return ask.read(" ".join(FACTS)).evidence.facts
 
 
 def test_facts_of_the_shipped_study_are_those_of_its_file(study):
@@ -31,10 +31,16 @@ def test_facts_of_the_shipped_study_are_those_of_its_file(study):
         "ritter": "ritter",
         "short": "ritter_200",
         "compared": ["ritter_double", "improved"],
-        "shipped": True,
         "learners": its["experiments"]["learners"],
         "beside": [],
-        "switches": its["experiments"]["switches"],
+        "switched": [
+            "improved_theta_values",
+            "ritter_theta_increments",
+            "improved_jacobian_values",
+            "ritter_jacobian_increments",
+            "improved_exponential",
+            "ritter_equal_visits",
+        ],
         # a training of the learner's own length has the learner's name
         "ladder": {
             name: [

@@ -5,9 +5,9 @@ import pytest
 from recalib.study.configuration.reading import read_study
 from recalib.study.evidence.claims import CLAIMS, judging
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.outcome import needs, outcome
+from recalib.study.evidence.outcome import NEEDS, outcome
+from recalib.study.plan.trainings import Trainings
 from recalib.study.studies import CONFIGURATION, OTHERS, layers_of
-from recalib.study.trainings import Trainings
 from tests.conftest import ROOT
 
 SWITCHES = {"theta-increments", "jacobian-increments", "schedule"}
@@ -40,7 +40,7 @@ def test_the_shipped_study_judges_all():
 
 
 def test_errors_and_verdicts_are_said_and_where_to_look(made_up):
-    evidence = made_up.evidence(needs)
+    evidence = made_up.evidence(NEEDS)
     text = outcome(evidence)
     assert text.startswith("results: UR10, forearm_link 4 cm\n")
     for row in evidence.table("summary.csv").itertuples():

@@ -5,11 +5,11 @@ import pandas as pd
 import pytest
 from scipy.stats import binom
 
-from recalib.study import statistics
+from recalib.study.configuration.shipped import DESIGN, REFERENCE
 from recalib.study.evidence import effects
+from recalib.study.inference import intervals
+from recalib.study.inference.intervals import LEVEL
 from recalib.study.multiverse.power import LUCK
-from recalib.study.shipped import DESIGN, REFERENCE
-from recalib.study.statistics import LEVEL
 from tests.conftest import ROOT
 from tests.made_up import REPLICATES, MadeUp
 
@@ -23,7 +23,7 @@ def verdicts(study, tmp_path, monkeypatch):
 
     Each with luck of its own, as large as was assumed for the power of the campaign.
     """
-    monkeypatch.setattr(statistics, "RESAMPLES", 200)
+    monkeypatch.setattr(intervals, "RESAMPLES", 200)
     monkeypatch.setattr(effects, "RESAMPLES", 2)
     monkeypatch.chdir(ROOT)  # where the design is
     made_up = MadeUp(tmp_path, study)

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -13,8 +14,7 @@ from recalib.study.evidence.reference import (
     two_maps,
     width_order,
 )
-from recalib.study.lengths import MAPS
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS
 from tests.made_up import LUCK, MadeUp
 
 

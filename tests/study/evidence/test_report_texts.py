@@ -12,7 +12,7 @@ from tests.made_up import without_one
 @pytest.fixture
 def known(made_up, monkeypatch) -> dict:
     monkeypatch.chdir(ROOT)
-    return report.context(made_up.evidence(report.needs))
+    return report.context(made_up.evidence(report.NEEDS))
 
 
 @pytest.fixture
@@ -65,7 +65,7 @@ def test_a_page_of_docs_is_drawn_into_the_report_and_its_links_lead_nowhere_else
 
 
 def test_a_report_reads_what_it_declares_and_nothing_else(made_up):
-    evidence = made_up.evidence(report.needs)
+    evidence = made_up.evidence(report.NEEDS)
     for name, less in without_one(evidence):
         if name in evidence.files:
             with pytest.raises(Undeclared):
@@ -74,7 +74,7 @@ def test_a_report_reads_what_it_declares_and_nothing_else(made_up):
 
 def test_every_fact_of_the_report_is_said_by_a_page(made_up):
     texts = "".join(path.read_text() for path in (ROOT / report.TEXTS).glob("*.*"))
-    facts = made_up.evidence(report.needs).facts
+    facts = made_up.evidence(report.NEEDS).facts
     assert [fact for fact in facts if fact not in texts] == []
 
 

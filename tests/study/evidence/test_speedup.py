@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.study import statistics
 from recalib.study.evidence.speedup import iterations_needed, speed_up
+from recalib.study.inference import intervals
 
 RUNGS = np.array([100, 200, 400])
 
@@ -14,7 +14,7 @@ def rng(seed=1):
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     """A tenth of the resamples: enough to see an interval."""
-    monkeypatch.setattr(statistics, "RESAMPLES", 2000)
+    monkeypatch.setattr(intervals, "RESAMPLES", 2000)
 
 
 def test_the_first_rung_that_reaches_both_errors_counts():

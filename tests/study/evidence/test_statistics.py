@@ -5,8 +5,8 @@ import pytest
 from scipy.stats import norm, sem
 from scipy.stats import t as student
 
-from recalib.study import statistics
-from recalib.study.statistics import (
+from recalib.study.inference import intervals
+from recalib.study.inference.intervals import (
     Draws,
     bootstrap,
     combined,
@@ -34,7 +34,7 @@ def training(random, searches, of_searches=OF_SEARCHES, of_seeds=OF_SEEDS):
 @pytest.fixture
 def quick(monkeypatch):
     """A tenth of the resamples: enough for widths, and for shares of hundreds."""
-    monkeypatch.setattr(statistics, "RESAMPLES", 2000)
+    monkeypatch.setattr(intervals, "RESAMPLES", 2000)
 
 
 @pytest.mark.parametrize("searches", [4, 12])
@@ -109,33 +109,16 @@ def test_the_interval_of_a_ratio_has_the_degrees_of_freedom_of_both():
     assert [gap - low, high - gap] == pytest.approx([half] * 2, rel=0.08)
 
 
-@pytest.mark.parametrize(("searches", "freedom"), [([12], 11), ([40, 12, 30], 11 + 29)])
-def test_its_percentiles_are_those_that_make_the_interval_of_a_mean_students(searches, freedom):
-    """Of a normal bootstrap; of many trainings the two with the fewest searches count."""
-    draws = Draws(rng(1))
-    for count in searches:
-        draws.means(np.zeros((count, 2)))
-    repeated = norm.ppf((np.arange(statistics.RESAMPLES) + 0.5) / statistics.RESAMPLES)
-    found = draws.estimate(np.array([0.2, *repeated]))
-    half = np.sqrt(2 * 12 / 11) * student.ppf(0.975, freedom)
-    assert found == pytest.approx((0.2, -half, half), rel=0.015)
-
-
 def test_an_estimate_is_three_cells_of_a_table():
-    cells = statistics.Estimate(2.0, 1.0, 4.0).columns("error")
+    cells = intervals.Estimate(2.0, 1.0, 4.0).columns("error")
     assert cells == {"error": 2.0, "error_low": 1.0, "error_high": 4.0}
 
 
 def test_the_first_of_all_studies_is_the_one_itself():
     values = rng(0).normal(size=(4, 3, 2))
     means = Draws(rng(1)).means(values)
-    assert means.shape == (1 + statistics.RESAMPLES, 2)
+    assert means.shape == (1 + intervals.RESAMPLES, 2)
     assert np.allclose(means[0], values.mean(axis=(0, 1)))
-
-
-def test_one_search_has_no_interval():
-    found = estimate(rng(0).normal(1, 0.1, (1, SEEDS)), rng(1))
-    assert found.mean == pytest.approx(1, abs=0.2) and np.isnan([found.low, found.high]).all()
 
 
 def test_means_of_ratios_are_geometric():

@@ -1,5 +1,7 @@
 """Tables of the benchmark and of the real arm, beside what one computes by hand."""
 
+import zlib
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,8 +9,8 @@ import pytest
 from recalib.study.evidence.benchmark import errors, reached, seconds
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.guidance import moves_text
-from recalib.study.evidence.real import ERROR, real_errors
-from recalib.study.measured import ERRORS, errors_of
+from recalib.study.evidence.real_arm import ERROR, real_errors
+from recalib.study.inference.measured import ERRORS, errors_of
 
 SEEDS = 21
 SCENARIOS, LEARNERS = ("sag", "noise"), ("hybrid", "improved")
@@ -75,7 +77,7 @@ def test_moves_are_said_of_the_slower_error(moves, low, high, text):
     assert moves_text(pd.DataFrame({"moves": moves, "low": low, "high": high})) == text
 
 
-def test_errors_on_the_real_arm_are_means_over_subsets():
+def test_errors_on_the_real_arm_are_means_over_subsets(roots):
     runs = pd.DataFrame({"learner": ["b"] * 4 + ["a"] * 3, "poses": [5, 5, 5, 10, 5, 5, 5]})
     runs[ERROR] = [1.0, 2, 6, 4, 7, 8, 9]
     table = real_errors(runs, seed=1)
@@ -86,6 +88,8 @@ def test_errors_on_the_real_arm_are_means_over_subsets():
     ]
     assert table[ERROR].tolist() == [3, 4, 8]
     assert np.isnan(table[f"{ERROR}_low"][1]) and 7 <= table[f"{ERROR}_low"][2] < 8
+    real, b, a = (zlib.crc32(key) for key in (b"real", b"b", b"a"))
+    assert roots == [(1, real, b, 5), (1, real, b, 10), (1, real, a, 5)], "luck of its own"
 
 
 def test_the_errors_of_a_history_are_by_search_and_seed_in_its_first_or_last_measurement():

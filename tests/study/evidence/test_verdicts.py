@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Comparison, Verdict, of_published
-from recalib.study.statistics import Estimate
+from recalib.study.inference.intervals import Estimate
 
 SUPPORTED, CONTRADICTED, NONE, UNDECIDED = Verdict
 TENTH = Comparison(0.1)

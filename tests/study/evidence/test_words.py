@@ -1,11 +1,16 @@
 """What pages say of numbers and claims, word for word."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+from recalib.study.configuration.shipped import FACTORS
+from recalib.study.configuration.values import from_file
 from recalib.study.evidence import words
-from recalib.study.measured import ERRORS
-from recalib.study.statistics import Estimate
+from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.measured import ERRORS
+from tests.conftest import ROOT
 
 
 @pytest.mark.parametrize(
@@ -105,14 +110,17 @@ def test_setups_are_said_by_mean_heterogeneity_and_luck():
     assert words.over_setups({"status": "not measured"}) == "not measured"
 
 
+depends = partial(words.depends, from_file(ROOT / FACTORS).plain())
+
+
 def test_a_choice_is_said_to_matter_where_it_matters_more_than_chance():
     text = (
         "It is largest where Ritter's net has as many cells as both maps: 1.5 (1.32 to 1.78)"
         " against one map."
     )
-    assert words.depends(setups()) == text
-    assert words.depends(setups(1.2)) == "No choice moves it by more than chance would show."
-    assert words.depends({"status": "cannot vary"}) == ""
+    assert depends(setups()) == text
+    assert depends(setups(1.2)) == "No choice matters more than chance."
+    assert depends({"status": "cannot vary"}) == ""
 
 
 def test_an_estimate_is_said_with_its_interval_and_the_end_of_what_was_tried():

@@ -3,12 +3,13 @@ import pandas as pd
 import pytest
 
 from recalib.errors import UnknownName
-from recalib.interfaces import Outcome
-from recalib.study.competitors import PEERS, make_peer
+from recalib.loop.interfaces import Outcome
 from recalib.study.evidence.benchmark import moves_to_reach
 from recalib.study.evidence.guidance import moves_text, where_worse
-from recalib.study.experiments.benchmark import Timed, measured_at
-from recalib.study.measured import ERRORS
+from recalib.study.experiments.benchmark import Timed, compete, measured_at
+from recalib.study.inference.measured import ERRORS
+from recalib.study.plan.competitors import PEERS, make_peer
+from workflow.scripts.call import write
 
 
 def test_a_map_is_measured_where_its_moves_meet_a_budget():
@@ -23,6 +24,25 @@ def test_every_peer_can_be_made_and_knows_nothing_yet(controller):
         assert np.allclose(commands, desired, atol=1e-9), name
     with pytest.raises(UnknownName, match="gaussian_process"):
         make_peer("magic", 1, controller)
+
+
+def test_scenarios_side_by_side_are_what_each_of_them_is_alone(plan, tmp_path):
+    paths = []
+    for name in ("links", "rotation"):
+        paths.append(tmp_path / f"{name}.json")
+        write(paths[-1], plan.resolved(name))
+
+    def competed(*scenarios):
+        return compete([*scenarios], "affine", None, 2, (2, 4), (8, 3), tests=3, seed=1)
+
+    both = competed(*paths).drop(columns="seconds_per_move")
+    assert both.groupby(["scenario", "seed"])["moves"].agg(list).to_dict() == {
+        (name, seed): [2, 3, 4] for name in ("links", "rotation") for seed in (0, 1)
+    }
+    for path in paths:
+        alone = competed(path).drop(columns="seconds_per_move")
+        beside = both[both["scenario"] == path.stem].reset_index(drop=True)
+        pd.testing.assert_frame_equal(beside, alone, rtol=1e-6)
 
 
 def test_only_the_time_of_the_learner_is_taken():

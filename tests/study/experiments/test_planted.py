@@ -16,8 +16,8 @@ from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.trainings import rules, training
-from recalib.study.trainings import seeds as seeds_of
+from recalib.study.plan.trainings import rules, training
+from recalib.study.plan.trainings import seeds as seeds_of
 from tests.conftest import ROOT
 
 

@@ -1,13 +1,16 @@
 """What settings are chosen by, no result is measured on: neither by a slip nor in any job."""
 
+import zlib
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from recalib.damaged.disturbances import Noise
-from recalib.study.chunks import batches, chunks, searches_per_job
+from recalib.loop.training import History
 from recalib.study.configuration.damages import Assigned
-from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, trials
+from recalib.study.configuration.shipped import DESIGN, SEARCHED
+from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, replay, trials
 from recalib.study.experiments import poses as its
 from recalib.study.experiments.poses import (
     ResultPoses,
@@ -20,10 +23,9 @@ from recalib.study.experiments.trials import Search, search_for
 from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.universe import universe
-from recalib.study.plants import resolve
-from recalib.study.shipped import DESIGN, SEARCHED
-from recalib.study.trainings import Trainings, searches, seeds, training
-from recalib.training import History
+from recalib.study.plan.chunks import batches, chunks, searches_per_job
+from recalib.study.plan.trainings import Trainings, searches, seeds, training
+from recalib.study.scenarios.plants import resolve
 from tests.conftest import ROOT
 from tests.test_architecture import imported
 from workflow.scripts.call import write
@@ -53,9 +55,10 @@ def test_results_take_no_poses_of_a_search():
 
 @pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])
 def test_nobody_is_measured_where_it_learned(kind):
-    desired = for_results().desired
+    drawn = for_results()
+    drawn.tests[1, 2] = drawn.desired[1, 3]  # a single one of them
     with pytest.raises(ValueError, match="links: test poses are among those to learn from"):
-        kind("links", desired, desired[:, ::-1])
+        kind("links", drawn.desired, drawn.tests)
 
 
 @pytest.mark.parametrize("names", [Use, Stream])
@@ -78,7 +81,7 @@ def test_results_cannot_take_the_name_of_a_search():
 
 def test_nobody_trains_past_the_types():
     modules = (ROOT / "recalib" / "study").rglob("*.py")
-    train = {path.stem for path in modules if "recalib.training.train" in imported(path)}
+    train = {path.stem for path in modules if "recalib.loop.training.train" in imported(path)}
     assert train == {"poses"}
 
 
@@ -149,6 +152,55 @@ class Drawn:
 @pytest.fixture
 def drawn(monkeypatch):
     return Drawn(monkeypatch)
+
+
+def test_every_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
+    study, rules, drawn, roots, tmp_path, monkeypatch
+):
+    """The root of all randomness of a job, (seed, first key): nothing else, of nobody else."""
+    own = study.scenario
+
+    def job(rule, **which):
+        return rules.arguments(study, rule, **which) | {"seed": 77}
+
+    sample, scenario = ROOT / SEARCHED / "improved_200.csv", tmp_path / f"{own}.json"
+    write(scenario, resolve(**rules.arguments(study, "scenario", scenario=own) | {"damages": ()}))
+    said = type("Said", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    for name in ("read_of", "calibrate_hybrid", "Plant"):
+        monkeypatch.setattr(real_arm, name, lambda *_: None)
+    search = rules.arguments(study, "search", training="improved_200", chunk=0) | {"last": 1}
+    search["budget"] = search["budget"].model_copy(update={"seed": 77})
+    short = {"rules": job("study_replay")["rules"].model_copy(update={"iterations": 1})}
+    train = job("train", scenario=own, learner="improved", chunk=0)
+    draws = job("ensemble_chunk", series="scaled", learner="improved", chunk=0)
+    twin = job("real_twin", learner="improved") | {"poses": (2, 4, 400, 402), "subsets": 2}
+    twin["rules"] = twin["rules"].model_copy(update={"iterations": 200})
+    jobs = {
+        own: lambda: campaign.train_seeds(scenario, sample, tmp_path / "learned.npz", **train),
+        "efforts": lambda: efforts.efforts(
+            scenario, sample, **job("efforts_of", training="improved_200")
+        ),
+        f"search 1 for improved_200 on {own}": lambda: search_for(scenario, **search),
+        "ensemble": lambda: later(ensemble.train_draws(sample, **draws | {"first": 3, "last": 5})),
+        "twin": lambda: on_twin(real_arm.learn_on_twin("", "", sample, **twin)),
+        "replay": lambda: replay.replay(scenario, sample, **job("study_replay") | short),
+    }
+
+    def on_twin(table):
+        """Two moves an iteration; nobody is measured after a training has ended."""
+        assert len(table) == 3 * twin["subsets"]
+
+    def later(robots):
+        """The runs are the robots, and each has its own poses."""
+        assert sorted({*robots["robot"]}) == [3, 4]
+
+    for stream, run in jobs.items():
+        roots.clear()
+        run()
+        of_robots = (77, zlib.crc32(own.encode()))  # their luck, where a job does not say whose
+        met = {root[:2] for root in roots} | {of_robots}
+        assert met == {(77, zlib.crc32(stream.encode())), of_robots}, stream
 
 
 def run_all_jobs(study, rules, folder, monkeypatch):

@@ -11,10 +11,10 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.nominal_checks import WrongNominal
-from recalib.study.competitors import PEERS
 from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
 from recalib.study.experiments.tracker import read_of, read_whole_description
-from recalib.study.plants import nominal_robot
+from recalib.study.plan.competitors import PEERS
+from recalib.study.scenarios.plants import nominal_robot
 from tests.conftest import ROOT
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
@@ -108,6 +108,16 @@ def test_learners_leave_ever_smaller_errors(recording, ur5):
     assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
 
 
+@pytest.mark.parametrize("learner", LEARNERS)
+def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
+    """Where the tests were measured 1 m farther up, all of that metre remains."""
+    up = [0, 0, 1.0]
+    tests = recording[100:110]
+    far = replace(tests, measured=tests.measured + up)
+    left = remaining_errors(learner, ur5.arm, recording[:30], far)
+    assert np.abs(left - 1).max() < 0.01
+
+
 def test_every_peer_learns_from_recorded_poses_too():
     assert [*LEARNERS] == PEERS
 
@@ -129,7 +139,7 @@ def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, ur5, desc
 def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
     path = tmp_path / "half.toml"
     path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
-    with pytest.raises(InvalidFile, match=r"half\.toml: it lacks an instrument or a target"):
+    with pytest.raises(InvalidFile, match=r"half\.toml: its instrument or its target is missing"):
         read_whole_description(path)
     columns = {f"{joint} [rad]": recording.angles[:, i] for i, joint in enumerate(ur5.joints)}
     columns |= {f"{axis} [m]": recording.measured[:, i] for i, axis in enumerate("xyz")}

@@ -4,10 +4,10 @@ from scipy.stats import qmc
 
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
-from recalib.randomness import generator
+from recalib.numerics.randomness import generator
 from recalib.study.experiments.poses import Stream
-from recalib.study.plants import resolve
-from recalib.study.trainings import scenario_of
+from recalib.study.plan.trainings import scenario_of
+from recalib.study.scenarios.plants import resolve
 
 
 def test_a_scenario_may_name_its_robot(study):

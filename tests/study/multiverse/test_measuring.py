@@ -1,5 +1,6 @@
 """What is measured in a replicate of a setup, and with which luck, in tiny setups."""
 
+import zlib
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,20 +8,25 @@ import pandas as pd
 import pytest
 
 from recalib.learners.radial import RadialLearner
+from recalib.study.configuration.shipped import DESIGN, SEARCHED
+from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.experiments import poses, search
+from recalib.study.experiments.samples import read_sample
+from recalib.study.experiments.search import NETS
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
-from recalib.study.multiverse import horizon, measuring
+from recalib.study.inference.measured import ERRORS, KINDS, RIGID
+from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
-from recalib.study.shipped import DESIGN
-from recalib.study.trainings import budget as budget_of
+from recalib.study.plan.trainings import budget as budget_of
 from tests.conftest import ROOT
+from workflow.scripts.call import write
 
 ITERATIONS = 4
 
@@ -133,6 +139,45 @@ def test_replicates_share_neither_poses_nor_trials_and_what_is_compared_shares_p
         assert not {*map(tuple, one)} & {*map(tuple, other)}
     for its in (first, second):  # nor does a search know what its winner is trained on
         assert not {*map(tuple, its[0])} & {*map(tuple, its[1])}
+
+
+def test_a_search_follows_from_the_seed_of_its_budget_and_a_training_from_that_of_its_setup(
+    each, untrained, roots
+):
+    its = World(each.model_copy(update={"seed": 5}), 1)
+    its.search("improved", ITERATIONS)
+    its.train("ritter", ITERATIONS, trial(rules_in(each, "ritter")))
+    names = (each.budget.seed, f"search for improved_{ITERATIONS}, replicate 1"), (5, "replicate 1")
+    assert {root[:2] for root in roots} == {(seed, zlib.crc32(of.encode())) for seed, of in names}
+
+
+@pytest.mark.parametrize(("iterations", "grid"), [(4, [4]), (8, [2, 4, 8])])
+def test_winners_of_full_and_of_rough_searches_see_the_same_poses(
+    study, plan, untrained, monkeypatch, tmp_path, iterations, grid
+):
+    """A long training is measured on its way; a first round holds several rough searches."""
+    for name, value in (("LONG", 8), ("FIRST", 2), ("WATCHED", 3)):
+        monkeypatch.setattr(efforts, name, value)
+    write(tmp_path / "links.json", plan.resolved("links"))
+    sample, learner = ROOT / SEARCHED / "improved_200.csv", study.learners["improved"]
+    learner = learner.model_copy(update={"iterations": iterations})
+    told = tmp_path / "links.json", sample, "improved", learner
+    table = efforts.efforts(*told, rough_trials=16, seeds=2, tests=3, seed=1)
+    trials = read_sample(sample)
+    first = trials[trials["round"] == 1]
+    searches = {"full": trials["search"].nunique(), "rough": len(first) // 16}
+    for (effort, found), asked in zip(table.groupby("effort"), untrained, strict=True):
+        runs = [(search, seed) for search in range(searches[effort]) for seed in (0, 1)]
+        expected = [(*run, when) for run in runs for when in grid]
+        assert [*zip(found["search"], found["seed"], found["iteration"], strict=True)] == expected
+        assert (asked.desired == asked.desired[[0, 1] * searches[effort]]).all()
+        assert (asked.desired[:2] == untrained[0].desired[:2]).all()
+        widths = np.ravel(asked.learner.schedule.initial_width)[::2]
+        if effort == "rough":
+            best = first.groupby(np.arange(len(first)) // 16)["score"].idxmin()
+        else:
+            best = trials.groupby("search")["score"].idxmin()
+        assert widths.tolist() == trials.loc[best, "initial_width"].tolist()
 
 
 def test_the_search_for_two_maps_has_the_poses_and_the_trials_of_that_for_one(each, untrained):
@@ -274,3 +319,103 @@ def test_further_trials_begin_with_the_one_given_and_are_as_many_as_a_round(each
     columns = search.columns(its.rules)
     assert found[columns].iloc[0].to_dict() == start[columns].to_dict()
     assert (found[columns].iloc[1:] != start[columns]).any(axis=None)
+
+
+class Planted(World):
+    """A replicate in which each training ends with errors of its own, which are known."""
+
+    def __init__(self):
+        improved = SimpleNamespace(iterations=ITERATIONS)
+        self.universe = SimpleNamespace(
+            learners={"improved": improved},
+            rough_trials=2,
+            seed=7,
+            scenarios=("rotation", "translation"),
+        )
+        self.replicate, self.sampled = 3, []
+        sample = SimpleNamespace(sample=lambda rng, poses: self.sampled.append(rng.random()))
+        self.controller = SimpleNamespace(robot=SimpleNamespace(workspace=sample))
+
+    def arm(self, scenario):
+        return scenario
+
+    def search(self, learner, iterations, like="", fixed=None, kind=None):
+        def trials(of):
+            wide, narrow = ([f"{its}/{net}" for its in ("pose", *KINDS)] for net in NETS)
+            same = {name: [3.0, 1, 2] for name in ("score", *ERRORS, *wide)}
+            return pd.DataFrame({"round": 1, "of": of} | same | dict.fromkeys(narrow, 1.0))
+
+        said = f"{learner} {iterations} {like} {fixed or {}}"
+        return SimpleNamespace(
+            all_rounds=lambda: trials(said),
+            further=lambda start: trials(f"{said} from {start['of']}"),
+        )
+
+    def train(self, learner, iterations, trials, scenario="", kind=None):
+        last = self.last(learner, iterations, trials["of"].iloc[0], len(trials), scenario)
+        return np.stack([FIRST, np.outer([1, 4], last)], axis=1)
+
+    @staticmethod
+    def last(*training) -> np.ndarray:
+        """(2,) of the first seed; of the second, four times that."""
+        return np.random.default_rng(zlib.crc32(repr(training).encode())).uniform(0.1, 1, 2)
+
+
+FIRST = np.array([[10.0, 20], [30, 60]])  # (seed, 2), of all trainings
+HUNDRED = np.arange(101)
+
+
+def test_every_number_of_a_replicate_is_what_it_says(monkeypatch):
+    def coupled(controller, arm, desired):
+        return pd.DataFrame({"orientation": {"rotation": 2, "translation": 1}[arm] * HUNDRED})
+
+    monkeypatch.setattr(measuring, "coupling", coupled)
+    world = Planted()
+
+    def last(name, iterations=4, of="", like="", fixed="{}", count=3, scenario=""):
+        return world.last(
+            name, iterations, of or f"{name} {iterations} {like} {fixed}", count, scenario
+        )
+
+    def two_over_one(single, separate, iterations):
+        start = f"{single} {iterations}  {{}}"
+        one = last(single, iterations, f"{start} from {start}")
+        two = last(separate, iterations, f"{separate} {iterations} {single} {{}} from {start}")
+        return np.sqrt(np.prod(two / one))
+
+    def remaining(*training, **how):
+        return 2 * last(*training, **how) / np.sqrt(FIRST.prod(axis=0))
+
+    usual = "improved 4  {}"
+    small = last("improved_small_supernet") / last("improved_small_subnet")
+    wide = last("improved", fixed="{'position/g_k': 2.0}")
+    radial = [last(name, like=f"radial {name}") for name in ("improved", "improved_theta_values")]
+    expected = {
+        "initial_position_error_cm": 20,
+        "initial_orientation_error_deg": 40,
+        "final_position_error_cm": 2.5 * last("improved")[0],
+        "final_orientation_error_deg": 2.5 * last("improved")[1],
+        "remaining": remaining("improved").max(),
+        "remaining_ritter": remaining("ritter").min(),
+        "remaining_rough": remaining("improved", count=2).max(),
+        "maps_improved": two_over_one("improved_single_map", "improved", 4),
+        "maps_ritter": two_over_one("ritter", "ritter_separate_maps", 4),
+        "maps_ritter_late": two_over_one("ritter", "ritter_separate_maps", 1000),
+        "order_position": 1,
+        "order_orientation": -1,
+        "cells_position": small[0],
+        "cells_orientation": 1 / small[1],
+        "narrow": last("improved")[0] / wide[0],
+        "radial": np.sqrt(np.prod(radial[0] / radial[1])),
+        "rigid": max(remaining("improved", of=usual, scenario=each).max() for each in RIGID),
+        "intact": 60,
+        "coupling": 2 * 95,
+    }
+    for its in SWITCHES[1:]:
+        ours, ritters = last("improved") / last(its.without), last(its.added) / last("ritter")
+        expected[f"{its.key}_improved"] = np.sqrt(np.prod(ours))
+        expected[f"{its.key}_ritter"] = np.sqrt(np.prod(ritters))
+    assert measured(world) == pytest.approx(expected)
+    assert world.sampled == [np.random.default_rng([7, 3]).random()]
+    ends = horizon._tuned(world, "ritter", 8)
+    assert ends == pytest.approx(2.5 * last("ritter", 8))

@@ -3,10 +3,10 @@
 import pandas as pd
 import pytest
 
+from recalib.study.configuration.shipped import POWER
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.multiverse import power as module
 from recalib.study.multiverse.power import power
-from recalib.study.shipped import POWER
 from tests.conftest import ROOT
 
 WORDS = [str(each) for each in Verdict]

@@ -12,6 +12,7 @@ from recalib.damaged.damage import BaseShift, apply
 from recalib.errors import RecalibError, UnfitWorkspace
 from recalib.nominal.poses import pose_errors
 from recalib.study.configuration.damages import damages_among
+from recalib.study.configuration.shipped import DESIGN
 from recalib.study.configuration.universes import Factors
 from recalib.study.experiments.settings import rules_of
 from recalib.study.multiverse import homes
@@ -21,9 +22,8 @@ from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import metric, universe, wider, width_units
-from recalib.study.plants import nominal_controller, nominal_robot
-from recalib.study.shipped import DESIGN
-from recalib.study.trainings import budget
+from recalib.study.plan.trainings import budget
+from recalib.study.scenarios.plants import nominal_controller, nominal_robot
 from tests.conftest import ROOT, changed
 
 FACTORS = list(Factors.model_fields)

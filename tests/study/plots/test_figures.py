@@ -1,6 +1,7 @@
 """Figures: drawn from what they declare, for any study, and the same on every machine."""
 
 import re
+import runpy
 from importlib import import_module
 
 import numpy as np
@@ -38,6 +39,16 @@ def test_noise_in_the_last_digits_changes_no_byte(figure, made_up, disturbed, tm
     evidence = (evidence_of(figure, results) for results in (made_up, disturbed))
     first, again = (bytes_of(figure, its, tmp_path) for its in evidence)
     assert first == again and min(map(len, first)) > 5000
+
+
+@pytest.mark.slow
+def test_the_committed_pictures_of_ideas_are_those_that_their_code_draws(tmp_path):
+    runpy.run_path(str(ROOT / "figures" / "ideas.py"))["draw"](tmp_path)
+    drawings = sorted(tmp_path.iterdir())
+    assert len(drawings) == 8
+    assert all(
+        path.read_bytes() == (ROOT / "figures" / path.name).read_bytes() for path in drawings
+    )
 
 
 @pytest.mark.parametrize("figure", FIGURES)

@@ -8,12 +8,13 @@ import pandas as pd
 import pytest
 from matplotlib.text import Text
 
-from recalib.study.configuration.labels import LABELS, level_in_words
+from recalib.study.configuration.shipped import DESIGN, FACTORS, REFERENCE
 from recalib.study.configuration.universes import Factors
+from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.words import level_in_words
 from recalib.study.plots.registry import draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt
-from recalib.study.shipped import DESIGN, REFERENCE
 from tests.conftest import ROOT
 from tests.made_up import MadeUp, evidence_of, few_resamples
 
@@ -133,11 +134,12 @@ def test_figure_15_names_the_planted_choice_in_words(figures, planted):
 
 
 def test_every_choice_has_words(study):
-    assert [*LABELS] == [*Factors.model_fields]
+    labels = from_file(ROOT / FACTORS).plain()
+    assert [*labels] == [*Factors.model_fields]
     for factor, levels in study.universes.factors:
-        words = [level_in_words(factor, level) for level in levels]
+        words = [level_in_words(labels[factor], level) for level in levels]
         assert len({*words}) == len(levels) and not any("_" in word for word in words)
-        assert {*LABELS[factor].levels} == {*map(str, levels)}
+        assert {*labels[factor]} == {"asks", *map(str, levels)}
 
 
 def test_figures_of_setups_are_drawn_once_all_are_measured(few, tmp_path):

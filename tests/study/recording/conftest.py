@@ -12,10 +12,10 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
 from recalib.study.experiments.poses import Stream, train_for_results
-from recalib.study.plants import resolve
+from recalib.study.plan.recordings import Recording
+from recalib.study.plan.trainings import Measuring
 from recalib.study.recording.writing import write_recording
-from recalib.study.recordings import Recording
-from recalib.study.trainings import Measuring
+from recalib.study.scenarios.plants import resolve
 from tests.conftest import changed
 
 SEED, ITERATIONS, TESTS = 7, 40, 30

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from recalib.damaged.disturbances import Noise
+from recalib.study.plan.recordings import Recording
 from recalib.study.recording import captions
 from recalib.study.recording.phases import POSES
 from recalib.study.recording.watched import REPEATED
-from recalib.study.recordings import Recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS
 
 
@@ -42,12 +42,12 @@ def test_its_texts_name_the_robot_what_is_wrong_with_it_and_the_learners(columns
 @pytest.mark.parametrize("damages", [(), (Noise(0.0002, 0.0003),)], ids=["intact", "noise alone"])
 def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(resolved, recording, damages):
     its, learned = resolved(damages), recording[1]["improved"]
-    panel = captions.panel(its, {"improved": learned})
+    panel = captions.about(its, {"improved": learned})
     assert "Nothing is wrong" in panel and "damage" not in panel and "miss" not in panel
     assert "although there is nothing to correct" in panel and ("noise" in panel) == bool(damages)
     assert captions.when(its) == ("before learning", "after learning")
     assert captions.when(resolved(DAMAGES)) == ("before recalibration", "after recalibration")
     history = learned.history
     nothing = replace(history, position=0 * history.position, orientation=0 * history.orientation)
-    panel = captions.panel(its, {"improved": replace(learned, history=nothing)})
+    panel = captions.about(its, {"improved": replace(learned, history=nothing)})
     assert "that there is nothing to correct" in panel and "stay below 0.001 cm and 0.001°" in panel

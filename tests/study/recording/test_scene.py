@@ -9,8 +9,8 @@ from recalib.damaged.plant import Plant
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
 from recalib.study.experiments.poses import Stream
-from recalib.study.measured import ERRORS
-from recalib.study.recording import colours, landings, markers, scene
+from recalib.study.inference.measured import ERRORS
+from recalib.study.recording import colours, markers, measurements, scene
 from recalib.study.recording.blueprint import seen_from
 from recalib.study.recording.phases import AFTER, BEFORE, END, FRAMES_A_SECOND, POSES, move
 from recalib.study.recording.watched import REPEATED, visiting_order, watch
@@ -147,7 +147,7 @@ def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(
     training = recording[1]["improved"]
     assert training.scatter.shape == (POSES, REPEATED, 3)
     assert training.scatter.std() == pytest.approx(0.0002, rel=0.2)  # of 360 numbers
-    assert landings.enlarged(training) == 100
+    assert measurements.enlarged(training) == 100
     _, lines = columns("/improved/measured", "LineStrips3D:strips", "moves")
     starts, ends = np.reshape(lines[-1], (POSES, REPEATED, 2, 3)).swapaxes(0, 2)
     landed = training.achieved[-1, :, :3, 3]

@@ -7,19 +7,19 @@ import pandas as pd
 import pytest
 from rerun.chunk import RrdReader
 
-from recalib import meshes
 from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
-from recalib.study.competitors import make_peer
+from recalib.nominal import meshes
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.measured import ERRORS, errors_of
+from recalib.study.inference.intervals import typical
+from recalib.study.inference.measured import ERRORS, errors_of
+from recalib.study.plan.competitors import make_peer
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.phases import LEARNING, VISITS, move
 from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
-from recalib.study.statistics import typical
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
 from workflow.scripts import call
 

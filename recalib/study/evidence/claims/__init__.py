@@ -5,6 +5,7 @@ What changed in them after a result had been seen stands in `workflow/deviations
 
 from collections.abc import Callable
 
+from recalib.study.configuration.shipped import root_of
 from recalib.study.configuration.study import Study
 from recalib.study.evidence.claims import (
     changes,
@@ -25,8 +26,7 @@ from recalib.study.evidence.claims import (
 )
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.shipped import root_of
-from recalib.study.trainings import Trainings
+from recalib.study.plan.trainings import Trainings
 
 CLAIMS = (
     identity.CLAIM,
@@ -61,8 +61,7 @@ def judging(request: Callable[[], Request]) -> dict[str, Evidence]:
     """
     found = {}
     for claim in CLAIMS:
-        ask = request()
-        claim.ask(ask)
+        ask = request().read(claim.all_needs)
         if (ask.study.experiments.evidence or ask.trained) and not ask.foreign:
             found[claim.id] = ask.evidence
     return found
@@ -77,6 +76,4 @@ def missing(study: Study) -> list[str]:
     """The keys that would have to say more for all claims to be judged, such as `learners: x`."""
     root = root_of(study.name)
     ask = Request(study, Trainings(study), root, lambda name: f"{root}/search/{name}.csv")
-    for claim in CLAIMS:
-        claim.ask(ask)
-    return ask.lacking
+    return ask.read(" ".join(claim.all_needs for claim in CLAIMS)).lacking

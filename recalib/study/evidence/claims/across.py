@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
-from recalib.study.hierarchy import Hierarchy, hierarchy, student
-from recalib.study.statistics import Estimate
+from recalib.study.inference.hierarchy import Hierarchy, hierarchy, student
+from recalib.study.inference.intervals import Estimate
 
 if TYPE_CHECKING:
     import pandas as pd

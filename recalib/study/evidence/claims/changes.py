@@ -7,9 +7,8 @@ import numpy as np
 from recalib.study.configuration.switches import SWITCHES, Switch
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
-from recalib.study.statistics import Estimate, combined, ratio
+from recalib.study.inference.intervals import Estimate, combined, ratio
 
 BY_KEY = {switch.key: switch for switch in SWITCHES}
 SYSTEMS = "improved system", "Ritter's"
@@ -18,7 +17,7 @@ RATIO_OF = "error with it / without it"
 
 def compare(evidence: Evidence, ours: str, theirs: str) -> Estimate:
     """The error of one training over that of another."""
-    errors = (combined(evidence.errors(each)) for each in (ours, theirs))
+    errors = (combined(evidence.errors(name)) for name in (ours, theirs))
     return ratio(*errors, evidence.rng(ours, theirs))
 
 
@@ -28,28 +27,14 @@ def with_and_without(evidence: Evidence, switch: Switch) -> dict[str, tuple[str,
     return dict(zip(SYSTEMS, pairs, strict=True))
 
 
-def ask_for(ask: Request, switches: tuple[Switch, ...]) -> None:
-    """Ask for what `with_and_without` compares."""
-    for role in ("improved", "short"):
-        ask.history(ask.fact(role))
-    for switch in switches:
-        for learner in (switch.without, switch.added):
-            ask.history(learner, key="experiments.switches: true")
-    ask.fact("seed")
-
-
 def claim(key: str, **said) -> Claim:
     """The claim that a change helps."""
     switch = BY_KEY[key]
 
-    def needs(ask: Request) -> None:
-        ask_for(ask, (switch,))
-        ask.fact("iterations")
-
     def measure(evidence: Evidence, _: Mapping) -> Finding:
         pairs, by_kind = with_and_without(evidence, switch), []
         for system, pair in pairs.items():
-            logarithms = (np.log(evidence.errors(each)).mean(axis=(0, 1)) for each in pair)
+            logarithms = (np.log(evidence.errors(name)).mean(axis=(0, 1)) for name in pair)
             kinds = np.exp(np.subtract(*logarithms))
             by_kind.append(f"{system}, {kinds[0]:.2f} in position, {kinds[1]:.2f} in orientation")
         estimates = {system: compare(evidence, *pair) for system, pair in pairs.items()}
@@ -58,7 +43,8 @@ def claim(key: str, **said) -> Claim:
     return Claim(
         criterion="The error with the change over that without it is below 1. The error is the"
         " geometric mean of position and orientation error after {iterations} iterations.",
-        needs=needs,
+        needs="runs/{scenario}/{improved}.parquet runs/{scenario}/{short}.parquet seed iterations"
+        f" runs/{{scenario}}/{switch.without}.parquet runs/{{scenario}}/{switch.added}.parquet",
         measure=measure,
         across={
             system: Across(f"{key}_{column}", RATIO_OF)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from recalib.errors import UnknownName
+from recalib.study.configuration.shipped import REFERENCE
 from recalib.study.evidence.claims.across import (
     CANNOT_VARY,
     NOT_MEASURED,
@@ -13,11 +14,9 @@ from recalib.study.evidence.claims.across import (
     Setups,
     rounded,
 )
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.shipped import REFERENCE
-from recalib.study.statistics import Estimate
+from recalib.study.inference.intervals import Estimate
 
 WORDS = {0.1: "tenth", 0.25: "quarter", 3.0: "three"}
 
@@ -64,12 +63,13 @@ class Finding:
         for label, estimate in self.estimates.items():
             least, most = self.ends.get(label, (-np.inf, np.inf))
             within = [
-                least if np.isnan(each) or each < least else min(each, most) for each in estimate
+                least if np.isnan(value) or value < least else min(value, most)
+                for value in estimate
             ]
             known = label in self.ends or estimate.low < estimate.high
             measured[label] = within[0]
             if known:
-                interval[label] = [rounded(each) for each in within[1:]]
+                interval[label] = [rounded(bound) for bound in within[1:]]
             parts = [
                 name
                 for name, number in zip(estimate._fields, within, strict=True)
@@ -102,7 +102,7 @@ class Claim:
         reason: why just that would.
         limits: the numbers that decide; figures draw them, too.
         across: how it is measured in a setup, by system: first the one on which the paper makes it.
-        needs: asks for what `measure` reads.
+        needs: what `measure` reads; see `recalib.study.evidence.needs`.
         measure: from evidence and limits to what was found in the study itself. Estimates by the
             names of the systems are compared as the setups are.
         figures: that show it.
@@ -118,20 +118,16 @@ class Claim:
     published: str = "no number"
     limits: Mapping[str, Limit] = field(default_factory=dict)
     across: Mapping[str, Across] = field(default_factory=dict)
-    needs: Callable[[Request], None] = lambda ask: None
+    needs: str = ""
     measure: Callable[[Evidence, Mapping[str, Limit]], Finding] | None = None
     figures: tuple[str, ...] = ()
 
-    def ask(self, request: Request) -> None:
-        """Ask for all that judging it reads."""
-        self.needs(request)
-        if not self.across:
-            return
-        request.fact("seed")
-        if self.measure is None:
-            request.shipped(REFERENCE)
-        for table in {across.table for across in self.across.values()}:
-            request.setups(table)
+    @property
+    def all_needs(self) -> str:
+        """All that judging it reads."""
+        setups = {f"{across.table}?" for across in self.across.values()}
+        needs = [self.needs, *(["seed", *setups] if setups else [])]
+        return " ".join(needs if self.measure else [*needs, REFERENCE])
 
     def judge(self, evidence: Evidence) -> dict:
         """What was measured and the verdict, as the contract of claims.json has them.

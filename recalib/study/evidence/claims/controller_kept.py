@@ -4,10 +4,6 @@ from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import Verdict
 
 
-def needs(ask):
-    ask.files("mapping/replay.parquet")
-
-
 def measure(evidence, limits):
     table = evidence.table("mapping/replay.parquet")
     difference = float(table["difference"].max())
@@ -29,6 +25,6 @@ CLAIM = Claim(
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"
     " learns bit for bit the same.",
     reason="Then nothing else can have reached it.",
-    needs=needs,
+    needs="mapping/replay.parquet",
     measure=measure,
 )

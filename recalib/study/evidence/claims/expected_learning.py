@@ -6,10 +6,6 @@ from recalib.study.evidence.verdicts import Verdict
 SMALL = 0.3  # widths up to this one see one face of the workspace only
 
 
-def needs(ask):
-    ask.files("mapping/visits.parquet")
-
-
 def measure(evidence, limits):
     table = evidence.table("mapping/visits.parquet")
     away = table[table["distance"] >= limits["away"] * table["width"]]
@@ -40,7 +36,7 @@ CLAIM = Claim(
     " errors for all cells at least {away} sigma from the border.",
     reason="Three widths hold 99.7 % of a Gaussian; {deviation:percent} is below what any schedule"
     " could show.",
-    needs=needs,
+    needs="mapping/visits.parquet",
     measure=measure,
     figures=("figure8",),
 )

@@ -4,14 +4,9 @@ from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.claims.remaining import both
 from recalib.study.evidence.verdicts import Comparison
-from recalib.study.statistics import typical
+from recalib.study.inference.intervals import typical
 
 LEFT = Limit(0.1)
-
-
-def needs(ask):
-    ask.history(ask.fact("improved"))
-    ask.facts("seed", "iterations")
 
 
 def measure(evidence, limits):
@@ -38,7 +33,7 @@ CLAIM = Claim(
     " iterations.",
     reason="The curves cannot be compared number by number; an order of magnitude is the least that"
     " a figure would show.",
-    needs=needs,
+    needs="runs/{scenario}/{improved}.parquet seed iterations",
     measure=measure,
     across={"improved system": Across("remaining", "larger remaining share", Comparison(LEFT))},
     figures=("figure1",),

@@ -4,12 +4,8 @@ import numpy as np
 
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
-from recalib.study.hierarchy import student
-from recalib.study.statistics import Estimate
-
-
-def needs(ask):
-    ask.files("mapping/quantisation.parquet")
+from recalib.study.inference.hierarchy import student
+from recalib.study.inference.intervals import Estimate
 
 
 def measure(evidence, limits):
@@ -43,6 +39,6 @@ CLAIM = Claim(
     " Kohonen's rule, and at most {worse} times the least that k-means finds.",
     reason="To minimise is to be at the least that is known, within a tenth. The Kohonen step is"
     " what the paper leaves out.",
-    needs=needs,
+    needs="mapping/quantisation.parquet",
     measure=measure,
 )

@@ -3,17 +3,11 @@
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import Comparison
-from recalib.study.measured import ERRORS
-from recalib.study.statistics import Estimate
+from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.measured import ERRORS
 
 SCENARIO = "intact"
 ERROR = Limit(0.001)
-
-
-def needs(ask):
-    for role in ("improved", "short"):
-        ask.history(ask.fact(role), SCENARIO)
-    ask.fact("iterations")
 
 
 def measure(evidence, limits):
@@ -40,7 +34,7 @@ CLAIM = Claim(
     " degrees in every measurement.",
     reason="Rounding and the controller's tolerance leave far less, and no instrument on a robot"
     " sees as much.",
-    needs=needs,
+    needs="runs/intact/{improved}.parquet runs/intact/{short}.parquet iterations",
     measure=measure,
     across={"improved system": Across("intact", "largest error [cm, degrees]", Comparison(ERROR))},
     figures=("figure3",),

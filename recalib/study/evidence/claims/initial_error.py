@@ -2,14 +2,9 @@
 
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.measured import ERRORS
+from recalib.study.inference.measured import ERRORS
 
 NEAR = 0.05  # of both published errors
-
-
-def needs(ask):
-    ask.assignments()
-    ask.fact("published")
 
 
 def measure(evidence, limits):
@@ -27,7 +22,7 @@ def measure(evidence, limits):
         f" {nearest[ERRORS[1]]:.2f} degrees. The home of the robot was chosen so that such errors"
         " occur, so this says that they are possible, not that they are likely."
     )
-    holds = all(limits["tail"] <= each <= 1 - limits["tail"] for each in below.values())
+    holds = all(limits["tail"] <= share <= 1 - limits["tail"] for share in below.values())
     verdict = Verdict.SUPPORTED if holds else Verdict.CONTRADICTED
     return Finding(verdict=verdict, numbers=below, note=note)
 
@@ -46,7 +41,7 @@ CLAIM = Claim(
     " assignments of the damage on our robot.",
     reason="The robot, the links, the encoders and the signs are not published, so only"
     " plausibility can be tested.",
-    needs=needs,
+    needs="assignments/{robot}.parquet published",
     measure=measure,
     figures=("figure10",),
 )

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
-from recalib.study.evidence.needs import Request
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 
@@ -12,10 +11,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 EQUAL = 1 - 1e-6  # nearer to 1, two means differ by rounding
-
-
-def needs(ask: Request) -> None:
-    ask.files("mapping/propagation.parquet")
 
 
 def integral_ratios(table: "pd.DataFrame") -> "pd.Series":
@@ -68,7 +63,7 @@ def claim(kind: str, **said) -> Claim:
         " E_clas. The condition: f' varies less about f than about a constant, whichever constant.",
         reason="The paper calls it easy to prove. Its integrals use the winner's own values for the"
         " constants; the condition is free of them.",
-        needs=needs,
+        needs="mapping/propagation.parquet",
         measure=lambda evidence, limits: found(evidence, limits, kind),
         figures=("figure7",),
         **said,

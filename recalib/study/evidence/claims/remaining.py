@@ -1,8 +1,8 @@
 """Which share of the initial errors remains at the end: what several claims compare."""
 
 from recalib.study.evidence.results import Evidence
-from recalib.study.measured import KINDS
-from recalib.study.statistics import Estimate, geometric
+from recalib.study.inference.intervals import Estimate, geometric
+from recalib.study.inference.measured import KINDS
 
 
 def remaining(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:

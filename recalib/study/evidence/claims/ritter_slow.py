@@ -8,11 +8,6 @@ from recalib.study.evidence.verdicts import Comparison
 LEFT = Limit(0.25)
 
 
-def needs(ask):
-    ask.history(ask.fact("short"))
-    ask.facts("iterations", "seed")
-
-
 def measure(evidence, limits):
     shares = both(evidence, evidence.fact("short"))
     return Finding({"Ritter's": min(shares.values())} | shares)
@@ -30,7 +25,7 @@ CLAIM = Claim(
     " a {left:word} of the initial ones.",
     reason="The paper shows 200 iterations of its improvement; a learner that keeps a {left:word}"
     " of the error there is not quick.",
-    needs=needs,
+    needs="runs/{scenario}/{short}.parquet iterations seed",
     measure=measure,
     across={
         "Ritter's": Across(

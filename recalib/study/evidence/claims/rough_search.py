@@ -7,10 +7,6 @@ from recalib.study.evidence.verdicts import Comparison
 LEFT = Limit(0.1)
 
 
-def needs(ask):
-    ask.fact("rough_trials")
-
-
 CLAIM = Claim(
     id="rough-search",
     section="7",
@@ -21,7 +17,7 @@ CLAIM = Claim(
     criterion="With the best of {rough_trials} quasi-random trials, both errors end below"
     " a {left:word} of the initial ones.",
     reason="It is the criterion of Figure 1, whose parameters were found so.",
-    needs=needs,
+    needs="rough_trials",
     across={
         "improved system": Across("remaining_rough", "larger remaining share", Comparison(LEFT))
     },

@@ -1,0 +1,102 @@
+"""Files of what was learned: enough to go on or to correct commands elsewhere, on the same robot.
+
+`recalib.learners.loading` makes learners of them again.
+
+A file is an archive (`recalib.files.archives`). Its header has the format's version, the kind of
+learner and what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.files.archives import read_archive, refused, write_archive
+from recalib.learners.kinds import kind_of
+from recalib.loop.interfaces import Savable, State
+
+if TYPE_CHECKING:  # to join files takes no robot
+    from recalib.nominal.robots import Robot
+
+FORMAT, VERSION = "recalib learner", 6
+WRITER = "recalib.save"
+ALIKE = 1e-9  # m, rad: numbers of two robots that differ by less are the same
+PROBES = 8  # joint angles at which the kinematics of two robots are compared
+
+Path = str | PathLike[str]
+
+
+def save(path: Path, learner: Savable, robot: "Robot") -> None:
+    """Write what a learner has learned on a robot.
+
+    Raises UnknownName (a learner of no known kind).
+    """
+    header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "kind": kind_of(learner),
+        "settings": learner.settings(),
+        "robot": identity(robot),
+    }
+    _write(path, header, learner.state())
+
+
+def join(path: Path, parts: Iterable[Path]) -> None:
+    """Write one file with the runs of several, of the same kind of learner on the same robot.
+
+    Raises InvalidFile.
+    """
+    header: dict[str, Any] = {}
+    states: list[State] = []
+    by_run: list[Any] = []
+    for part in parts:
+        its_header, its_states = read(part)
+        by_run += its_header["settings"].pop("by_run", [])
+        if its_header != (header := header or its_header):
+            raise InvalidFile(part, "it is of another learner or robot than the first")
+        states += its_states
+    if by_run:
+        header["settings"]["by_run"] = by_run
+    _write(path, header, states)
+
+
+def identity(robot: "Robot") -> dict[str, Any]:
+    """What tells a robot from others, in the types of JSON: what it does, not what it is called."""
+    joints = np.arange(len(robot.joints)) + 1
+    angles = np.sin(np.outer(np.arange(PROBES) + 1, joints))  # rad, a mixture of all joints
+    numbers = {
+        "kinematics": robot.arm.forward(angles),
+        "home": robot.home,
+        "workspace": robot.workspace.to_poses(1 - np.eye(6)),
+    }
+    names = {"joints": [*robot.joints], "tool": robot.arm.tool}
+    return names | {name: value.ravel().tolist() for name, value in numbers.items()}
+
+
+def differences(learned: Mapping[str, Any], here: Mapping[str, Any]) -> list[str]:
+    """What differs between the identities of two robots."""
+    found = [
+        f"its {name} {'are' if name == 'joints' else 'is'} {learned[name]}, not {here[name]}"
+        for name in ("joints", "tool")
+        if learned[name] != here[name]
+    ]
+    if learned["joints"] != here["joints"]:
+        return found
+    for name in ("kinematics", "home", "workspace"):
+        gap = np.abs(np.subtract(learned[name], here[name])).max()
+        if not gap <= ALIKE:
+            found.append(f"its {name} differs by up to {gap:.3g} m or rad")
+    return found
+
+
+def _write(path: Path, header: Mapping[str, Any], states: Sequence[State]) -> None:
+    write_archive(path, header, {str(run): state for run, state in enumerate(states)})
+
+
+def read(path: Path) -> tuple[dict[str, Any], list[State]]:
+    """Header and runs of a file. Raises InvalidFile: not whole, or not of this format."""
+    header, groups = read_archive(path, (FORMAT, VERSION), WRITER)
+    with refused(path, WRITER):
+        return header, [groups[str(run)] for run in range(len(groups))]

@@ -1,0 +1,149 @@
+"""The trial loop: a learner drives robots, pose after pose, and is measured on other poses.
+
+Afterwards its commands are `corrected`.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from recalib.loop.interfaces import Commandable, Learner
+from recalib.nominal.poses import Workspace, pose_errors
+
+SUMMARIES: Mapping[str, Callable[[np.ndarray], np.ndarray]] = {
+    "": lambda errors: errors.mean(axis=-1),
+    "_p95": lambda errors: np.percentile(errors, 95, axis=-1),
+    "_max": lambda errors: errors.max(axis=-1),
+}
+
+
+@dataclass(frozen=True)
+class History:
+    """What was measured, and when; where one robot was trained by itself, without the run axis.
+
+    Attributes:
+        iterations, moves: (measurement,) done before each measurement, in each run.
+        refused: (run, measurement) moves refused until then.
+        position: (run, measurement, summary) mean, 95th percentile and maximum of the position
+            errors in m.
+        orientation: the same of the orientation errors in rad.
+    """
+
+    iterations: np.ndarray
+    moves: np.ndarray
+    refused: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+
+    @property
+    def position_error(self) -> np.ndarray:
+        """Mean position errors (run, measurement) in m."""
+        return self.position[..., 0]
+
+    @property
+    def orientation_error(self) -> np.ndarray:
+        """Mean orientation errors (run, measurement) in rad."""
+        return self.orientation[..., 0]
+
+    def of_run(self, run: int) -> Self:
+        """That of one of several runs."""
+        parts = {name: getattr(self, name)[run] for name in ("refused", "position", "orientation")}
+        return replace(self, **parts)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """A table by its columns, a row for each run and measurement; errors in cm and degrees."""
+        runs = self.refused.size // len(self.iterations)
+        table = {
+            "run": np.repeat(np.arange(runs), len(self.iterations)),
+            "iteration": np.tile(self.iterations, runs),
+            "moves": np.tile(self.moves, runs),
+            "refused": self.refused.ravel(),
+        }
+        for index, suffix in enumerate(SUMMARIES):
+            table[f"position_error{suffix}_cm"] = 100 * self.position[..., index].ravel()
+            table[f"orientation_error{suffix}_deg"] = np.degrees(
+                self.orientation[..., index].ravel()
+            )
+        return table
+
+
+def measure(
+    plant: Commandable, learner: Learner, tests: np.ndarray, error: str = "norm"
+) -> tuple[np.ndarray, np.ndarray]:
+    """Position [m] and orientation errors [rad], each (run, summary), at poses (run, pose, 6).
+
+    Measuring is no learning: its moves are not counted.
+
+    Args:
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+    """
+    achieved, _ = plant.achieve(learner.command(tests))
+    errors = pose_errors(plant.workspace, achieved, plant.workspace.to_poses(tests), error)
+    position, orientation = (
+        np.stack([summary(its) for summary in SUMMARIES.values()], axis=-1) for its in errors
+    )
+    return position, orientation
+
+
+def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:
+    """After how many iterations to measure a training.
+
+    After every so many, in one of up to `evenly` iterations; about `points` times on a logarithmic
+    grid in a longer one.
+    """
+    if iterations <= evenly:
+        return sorted({*range(0, iterations, every), iterations})
+    return sorted({0, *np.geomspace(1, iterations, points).round().astype(int).tolist()})
+
+
+def train(
+    plant: Commandable,
+    learner: Learner,
+    desired: np.ndarray,
+    tests: np.ndarray,
+    measure_at: Sequence[int],
+    progress: Callable[[int, float, float], None] = lambda *_: None,
+    error: str = "norm",
+) -> History:
+    """Train a learner, and measure it now and then.
+
+    Args:
+        plant: the robots.
+        learner: that drives them.
+        desired: (run, iteration, 6) poses to learn from; for one robot, (iteration, 6).
+        tests: (run, pose, 6) poses to measure on; for one robot, (pose, 6).
+        measure_at: numbers of iterations after which learning is interrupted for a measurement; 0
+            is before the first.
+        progress: called after each measurement with the iteration and the mean errors over runs in
+            cm and degrees.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+    """
+    if desired.ndim == 2:
+        poses = desired[None], tests[None]
+        return train(plant, learner, *poses, measure_at, progress, error).of_run(0)
+    iterations = desired.shape[1]
+    position, orientation, moves, refused = [], [], [], []
+    for iteration in range(iterations + 1):
+        if iteration in measure_at:
+            errors = measure(plant, learner, tests, error)
+            position.append(errors[0])
+            orientation.append(errors[1])
+            moves.append(plant.moves)
+            refused.append(np.broadcast_to(plant.refused, len(desired)))
+            progress(iteration, 100 * errors[0][:, 0].mean(), np.degrees(errors[1][:, 0].mean()))
+        if iteration < iterations:
+            learner.learn(desired[:, iteration], plant.execute, iteration / iterations)
+    by_run = (np.stack(measured, axis=1) for measured in (refused, position, orientation))
+    return History(np.array(sorted(measure_at)), np.array(moves), *by_run)
+
+
+def corrected(learner: Learner, workspace: Workspace, poses: np.ndarray) -> np.ndarray:
+    """Pose commands (n, 4, 4) [m] that take the tool of one robot to desired poses (n, 4, 4) [m].
+
+    Args:
+        learner: that learned on this robot, in one run.
+        workspace: of the robot.
+    """
+    return workspace.to_poses(learner.command(workspace.to_coordinates(poses)[None])[0])

@@ -1,0 +1,1 @@
+"""What is computed with: compiled loops, random numbers, regression."""

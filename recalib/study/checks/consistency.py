@@ -1,0 +1,197 @@
+"""What types cannot say of a study: names that must exist, and what goes together.
+
+What depends on a robot's geometry is in `recalib.study.checks.geometry`.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+from recalib.damaged.damage import BaseShift
+from recalib.damaged.kinds import DISTURBANCES
+from recalib.errors import UnknownName
+from recalib.study.configuration.damages import Assigned, Entry, describe
+from recalib.study.configuration.messages import KeyPath, Mistake, dotted, unknown, unlike
+from recalib.study.configuration.study import Study
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
+from recalib.study.evidence.claims import missing
+from recalib.study.inference.measured import MOVED, RIGID
+from recalib.study.plan.competitors import MOVES, PEERS
+from recalib.study.plan.trainings import training
+
+
+def check(study: Study) -> list[Mistake]:
+    """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
+    for kind in (_names, _meanings, _amounts, _evidence):
+        if found := list(kind(study)):
+            return found
+    return []
+
+
+def _places(path: KeyPath, names: Iterable[str]) -> dict[KeyPath, str]:
+    """Where each name of a list, or each key of a mapping, stands."""
+    by_key = isinstance(names, Mapping)
+    return {(*path, name if by_key else index): name for index, name in enumerate(names)}
+
+
+def _names(study: Study) -> Iterator[Mistake]:
+    """Names that do not exist, or that mean two things."""
+    plan, benchmark, real = study.experiments, study.benchmark, study.real
+    known = list(study.every_learner)
+    on_robots = [f"{name}-{robot}" for name in study.scenarios for robot in study.robots]
+    for places, valid in (
+        ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
+        (_places(("experiments", "robots"), plan.robots), study.robots),
+        (_places(("universes", "factors", "robot"), study.universes.factors.robot), study.robots),
+        ({("scenario",): study.scenario}, study.scenarios),
+        (_places(("experiments", "scenarios"), plan.scenarios), [*study.scenarios, *on_robots]),
+        (_places(("benchmark", "scenarios"), benchmark.scenarios), [*study.scenarios, *on_robots]),
+        (_places(("experiments", "ladder"), plan.ladder), known),
+        (_places(("real", "learners"), real.learners), PEERS),
+    ):
+        for path, name in places.items():
+            if name not in valid:
+                yield unknown(path, name, valid)
+    for places, peers in (
+        (_places(("experiments", "learners"), plan.learners), ()),
+        (_places(("experiments", "beside"), plan.beside), ()),
+        (_places(("experiments", "ensemble"), plan.ensemble), ()),
+        (_places(("benchmark", "learners"), benchmark.learners), PEERS),
+        (_places(("real", "twin"), real.twin), ()),
+    ):
+        for path, name in places.items():
+            if name not in peers and not _is_training(study, name):
+                iterations = (f"{stem}_ITERATIONS" for stem in study.learners)
+                yield unknown(path, name, [*peers, *known, *iterations])
+    if plan.switches:
+        for name in (IMPROVED, RITTER):
+            if name not in study.learners:
+                yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
+    taken = {*PEERS, *(name for switch in SWITCHES for name in (switch.without, switch.added))}
+    for name in study.learners:
+        stem, _, end = name.rpartition("_")
+        if name in taken or (stem in study.learners and end.isdecimal()):
+            yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
+
+
+def _is_training(study: Study, name: str) -> bool:
+    try:
+        training(study, name)
+    except UnknownName:
+        return False
+    return True
+
+
+def _meanings(study: Study) -> Iterator[Mistake]:
+    """What would not be what it is called, or be there twice under two names."""
+    plan, benchmark = study.experiments, study.benchmark
+    for path, names in (
+        (("experiments", "learners"), plan.learners),
+        (("experiments", "beside"), plan.beside),
+        (("benchmark", "learners"), benchmark.learners),
+        (("real", "twin"), study.real.twin),
+    ):
+        first: dict[tuple, str] = {}
+        for place, name in _places(path, names).items():
+            which = (name,) if name in PEERS else training(study, name)
+            if (other := first.setdefault(which, name)) != name:
+                yield unlike(place, name, f"another than {other}, which it is")
+    if plan.switches:
+        for switch in SWITCHES:
+            for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
+                stood = getattr(study.learners[name], switch.key)
+                if stood != valid:
+                    when = "while experiments.switches is true"
+                    yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
+    path = "scenarios", MOVED
+    if [type(entry) for entry in study.scenarios.get(MOVED, ())] != [BaseShift, BaseShift]:
+        yield Mistake(
+            path, " is something else; expected: translate, then rotate, for the universes"
+        )
+    yield from _rungs(study)
+
+
+def _rungs(study: Study) -> Iterator[Mistake]:
+    """Rungs of the universes between which no factor can lie, or none that the claim is about."""
+    from recalib.study.evidence.claims.speed_up import LONG  # it knows what a study is
+
+    path, rungs = ("universes", "rungs"), study.universes.rungs
+    if len(rungs) < 2:
+        yield unlike(path, rungs, "two or more, between which the factor is sought")
+    elif list(rungs) != sorted(rungs):
+        yield unlike(path, rungs, "the lowest first")
+    elif IMPROVED in study.learners:
+        iterations, own = ("learners", IMPROVED, "iterations"), study.learners[IMPROVED].iterations
+        times = int(LONG) if study.experiments.evidence else 1
+        if rungs[-1] <= times * own:
+            why = f"so that a factor above {times} can be found"
+            most = f"below {rungs[-1] / times:g} with {dotted(path)} up to {rungs[-1]}, {why}"
+            other = unlike(iterations, own, most)
+            valid = f"one above {times * own}, {why}"
+            yield unlike(path, rungs, valid)._replace(other=other)
+
+
+def _amounts(study: Study) -> Iterator[Mistake]:
+    """More of something than there can be, or less than it takes."""
+    yield from _budgets(study)
+    if study.experiments.evidence:  # nothing else is scaled
+        yield from _scales(study)
+    for name, entries in study.scenarios.items():
+        kinds = [type(entry) for entry in entries]
+        for index, (entry, kind) in enumerate(zip(entries, kinds, strict=True)):
+            if entry in entries[:index] or (kind in DISTURBANCES and kind in kinds[:index]):
+                what = next(iter(describe(entry)))
+                yield Mistake(("scenarios", name, index), f": {what} again; expected: once")
+
+
+def _budgets(study: Study) -> Iterator[Mistake]:
+    """Budgets of moves at which a learner cannot be measured."""
+    plan = study.benchmark
+    for place, moves in _places(("benchmark", "longer"), plan.longer).items():
+        if moves in plan.moves:
+            yield unlike(place, moves, "a budget that is not among benchmark.moves")
+    for name in plan.learners:
+        most = 0 if name in PEERS else MOVES * training(study, name).iterations
+        if most and not any(
+            budget <= most and budget % MOVES == 0 for budget in (*plan.moves, *plan.longer)
+        ):
+            valid = f"a list with an even number up to {most}, after which {name} can be measured"
+            yield unlike(("benchmark", "moves"), plan.moves, valid)
+
+
+def _scales(study: Study) -> Iterator[Mistake]:
+    """Damages that turn an encoder by more than there is."""
+    most = math.pi / max(study.paper_damage.shift)
+    places = _places(("mapping", "scales"), study.mapping.scales)
+    for learner, series in study.experiments.ensemble.items():
+        for name, its in series.items():
+            places |= _places(("experiments", "ensemble", learner, name, "scales"), its.scales)
+    for place, scale in places.items():
+        if scale > most * (1 + 1e-9):
+            yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")
+
+
+def _is_idle(entry: Entry | None) -> bool:
+    """Whether it moves the robot by nothing."""
+    return isinstance(entry, BaseShift) and not any((*entry.translation, *entry.rotation))
+
+
+def _evidence(study: Study) -> Iterator[Mistake]:
+    """What the claims need."""
+    if not study.experiments.evidence:
+        return
+    when = "while experiments.evidence is true"
+    if study.scenarios.get("intact"):
+        yield Mistake(("scenarios", "intact"), f" is damaged; expected: an empty list {when}")
+    for name in RIGID:
+        entries = study.scenarios.get(name, [None])  # what is missing is told below
+        if all(map(_is_idle, entries)):
+            what = "moves nothing" if entries else "is an empty list"
+            yield Mistake(("scenarios", name), f" {what}; expected: damages {when}")
+    own = study.scenarios[study.scenario]
+    for part in ("links", "encoders"):
+        if Assigned(assigned=part) not in own:
+            fault = f" has no assigned: {part}; expected: the paper's damage {when}"
+            yield Mistake(("scenarios", study.scenario), fault)
+    if lacking := missing(study):
+        with_ = "; ".join(lacking)
+        yield unlike(("experiments", "evidence"), True, f"false, or true with {with_}")

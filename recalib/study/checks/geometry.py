@@ -1,0 +1,204 @@
+"""Whether the robots of a study can have its damages and serve its workspaces.
+
+Apart from the other checks, since it loads the robots, and asks of them what is to be run.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+
+import numpy as np
+
+from recalib.damaged.damage import BaseShift, Damage, apply
+from recalib.damaged.words import words
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.files.quantities import LENGTH
+from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot, link_end
+from recalib.spelling import instead, listed
+from recalib.study.configuration.damages import Assigned, describe
+from recalib.study.configuration.messages import Mistake, shown, unknown, unlike
+from recalib.study.configuration.study import Study
+from recalib.study.plan.trainings import scenario_of
+from recalib.study.scenarios.assignments import Ways
+from recalib.study.scenarios.nominal import nominal
+from recalib.study.scenarios.plants import nominal_robot
+
+
+def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
+    """The mistakes that only the robots know of: in what describes them, and in scenarios.
+
+    Args:
+        study: one that has passed `check`.
+        scenarios: those that are to be run, each on the study's robot or NAME-ROBOT.
+    """
+    used = list(dict.fromkeys(scenario_of(study, scenario) for scenario in scenarios))
+    robots: dict[str, Robot] = {}
+    found: list[Mistake] = []
+    for name, entry in study.robots.items():
+        try:
+            robots[name] = nominal_robot(nominal(study, name))
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+        else:
+            slides = list(_of_slides(robots[name]))
+            found += slides or _of_links(robots[name], entry.links)
+    if found:
+        return found
+    assigned = []
+    for name in dict.fromkeys(robot for _, robot in used):
+        try:
+            Controller(robots[name], study.controller.greatest_condition)
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+            continue
+        its = [scenario for scenario, robot in used if robot == name]
+        for scenario in its:
+            found += _of_scenario(study, scenario, robots[name])
+        if any(isinstance(entry, Assigned) for own in its for entry in study.scenarios[own]):
+            assigned.append(robots[name])
+    if assigned and not found:
+        found += _of_assignment(study, assigned)
+    if study.experiments.evidence and not found:
+        found += _of_mapping(robots[study.robot])
+        found += _of_series(study, robots[study.robot])
+    return found
+
+
+def _of_robot(name: str, error: RecalibError) -> Mistake:
+    match error:
+        case UnknownName():
+            keys = ("tool", "home", "limits")
+            key = next((key for key in keys if key in error.kind), None)
+            path = (key, error.name) if key in ("home", "limits") else (key,)
+            if key:
+                return unknown(("robots", name, *path), error.name, error.valid)
+            stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
+            return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
+        case InvalidFile():
+            return unlike(("robots", name, "urdf"), error.path, "a file that is there")
+        case InvalidSetting(key="home"):
+            return Mistake(("robots", name, "home"), f" lacks joints; expected: {error.valid}")
+        case InvalidSetting():
+            return unlike(("robots", name, *error.key.split(".")), error.value, error.valid)
+        case UnfitWorkspace():
+            return Mistake(("robots", name, "workspace"), f" does not fit: {error}")
+    return Mistake(("robots", name, "urdf"), f" does not fit: {error}")
+
+
+def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | None:
+    try:
+        apply(robot, [damage])
+    except (UnknownName, InvalidSetting) as error:
+        return error
+    return None
+
+
+def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
+    """Links and joints that the robot lacks, amounts that are too much for it, and a base from
+    which it does not even reach the middle of its workspace.
+    """
+    moved: list[BaseShift] = []
+    for index, entry in enumerate(study.scenarios[scenario]):
+        path = "scenarios", scenario, index
+        if isinstance(entry, BaseShift):
+            moved.append(entry)
+            if not _reaches_middle(robot, moved):
+                key, stood = next(iter(describe(entry).items()))
+                where = f"the middle of the workspace within reach of the {robot.name}"
+                yield unlike((*path, key), stood, f"less, so that it leaves {where}")
+                return
+        elif isinstance(entry, Damage) and (error := _refused(robot, entry)):
+            keys = [word.key for word in words(type(entry)).values()]
+            if isinstance(error, UnknownName):
+                yield unknown((*path, keys[0]), error.name, error.valid)
+            else:
+                yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
+
+
+def _reaches_middle(robot: Robot, moved: Iterable[BaseShift]) -> bool:
+    """Whether a command takes the moved robot to the middle of its workspace."""
+    home = robot.home[None]
+    middle, now = (apply(robot, shifts).forward(home) for shifts in ((), moved))
+    angles, errors = Chain.of(robot.arm).solve(middle @ np.linalg.inv(now) @ middle, home)
+    within = (robot.lower <= angles) & (angles <= robot.upper)
+    return bool(errors[0] <= TOLERANCE and within.all())
+
+
+def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
+    """Links that a robot lacks."""
+    for index, link in enumerate(links):
+        if link not in robot.links:
+            yield unknown(("robots", robot.name, "links", index), link, robot.links)
+
+
+def _of_slides(robot: Robot) -> Iterator[Mistake]:
+    """Joints that slide: a study would take their lengths for angles."""
+    for joint, slides in zip(robot.joints, robot.arm.slides, strict=True):
+        if slides:
+            yield Mistake(
+                ("robots", robot.name, "home", joint), " slides; expected: joints that turn"
+            )
+
+
+def _of_assignment(study: Study, robots: Sequence[Robot]) -> Iterator[Mistake]:
+    """Too few links or joints, or links that are too short, for the paper's damage."""
+    damage = study.paper_damage
+    places = {robot.name: study.robots[robot.name].links for robot in robots}
+    joints = {robot.name: robot.joints for robot in robots}
+    for key, amounts, those in (
+        ("shorten", damage.shorten, places),
+        ("shift", damage.shift, joints),
+    ):
+        name = min(those, key=lambda robot, those=those: len(those[robot]))
+        if len(amounts) > len(those[name]):
+            few, many = f" is a list of {len(those[name])}", f" is a list of {len(amounts)}"
+            needed = f"{len(amounts)} or more, one for each length of paper_damage.shorten"
+            other = Mistake(("robots", name, "links"), f"{few}; expected: {needed}")
+            fault = f"{many}; expected: at most {len(those[name])} on the {name}"
+            yield Mistake(("paper_damage", key), fault, other if key == "shorten" else None)
+    whole = {
+        (robot.name, link): np.linalg.norm(
+            link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+        )
+        for robot in robots
+        for link in places[robot.name]
+    }
+    most, (name, link) = max(damage.shorten), min(whole, key=whole.get)
+    if most >= whole[name, link]:
+        valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
+        short = (
+            f"{link}, {100 * length:.2f} cm long"
+            for (its, link), length in whole.items()
+            if its == name and most >= length
+        )
+        longer = f"longer than {LENGTH.write(most)}, which paper_damage.shorten takes off"
+        other = Mistake(
+            ("robots", name, "links"), f" has {listed(short, 'and')}; expected: {longer}"
+        )
+        key = "paper_damage", "shorten", damage.shorten.index(most)
+        yield unlike(key, LENGTH.write(most), valid)._replace(other=other)
+
+
+def _of_mapping(robot: Robot) -> Iterator[Mistake]:
+    """An arm whose posture is the controller's choice: its true mapping is not known."""
+    if len(robot.joints) > 6:
+        valid = f"false with the {robot.name}, an arm of {len(robot.joints)} joints"
+        yield unlike(("experiments", "evidence"), True, valid)
+
+
+def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """Series of more robots than there are assignments that leave something of every link."""
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    ways = Ways(links, damage.shorten, robot.joints, damage.shift)
+    refused = cache(lambda damage: _refused(robot, damage))
+    for learner, series in study.experiments.ensemble.items():
+        for name, its in series.items():
+            scaled = ([damage.scaled(max(its.scales)) for damage in short] for short in ways.short)
+            fit = sum(not any(map(refused, short)) for short in scaled)
+            most = fit * len(ways.shifted)
+            if its.draws > most:
+                path = "experiments", "ensemble", learner, name, "draws"
+                yield unlike(
+                    path, its.draws, f"at most {most}, for which the links are long enough"
+                )

@@ -1,0 +1,1 @@
+"""What measurements say: intervals, and what alternative setups have in common."""

@@ -1,0 +1,64 @@
+"""Which recordings a study has, and what is recorded."""
+
+from recalib.study.configuration.damages import Assigned
+from recalib.study.configuration.part import Frozen
+from recalib.study.configuration.study import Learner, Study
+from recalib.study.plan.trainings import Measuring, measuring, rules, scenario_of, training
+from recalib.study.scenarios.nominal import digest_of
+
+TODAYS, FEW = "geometric", 5  # the learner that is recorded beside the paper's, and its moves
+
+
+class Recording(Frozen):
+    """Learners that are recorded side by side, by name: today's have no settings, and few moves."""
+
+    scenario: str
+    learners: dict[str, Learner | None]
+    moves: int
+    measuring: Measuring
+    seed: int
+    published: dict[str, float]
+    meshes_sha256: str
+    """Digest of the meshes that are drawn."""
+
+    def papers(self) -> list[str]:
+        """Those of the paper, whose trainings are experiments of the study."""
+        return [name for name, learner in self.learners.items() if learner]
+
+
+def recorded(study: Study) -> list[str]:
+    """The learners that are recorded side by side: those of the shortest trainings."""
+    named = study.experiments.learners
+    iterations = {name: training(study, name).iterations for name in named}
+    return [name for name in named if iterations[name] == min(iterations.values())]
+
+
+def recordings(study: Study) -> list[str]:
+    """The names of all recordings; none of a study without a learner that is recorded."""
+    its, own = study.experiments.scenarios if recorded(study) else (), study.scenario
+    return [*its, *([f"{own}.today"] if own in its else [])]
+
+
+def recording(study: Study, name: str) -> Recording:
+    """The recording of a scenario; SCENARIO.today: of one of today's learners beside a map.
+
+    What is published belongs to the paper's damage.
+    """
+    from recalib.nominal.descriptions import find_urdf
+    from recalib.nominal.meshes import mesh_files
+
+    scenario, _, today = name.partition(".")
+    robot = study.robots[scenario_of(study, scenario)[1]]
+    assigned = any(isinstance(entry, Assigned) for entry in study.scenarios[study.scenario])
+    papers = {learner: rules(study, learner) for learner in recorded(study)}
+    first = next(iter(papers))
+    published = study.paper_damage.published.model_dump()
+    return Recording(
+        scenario=scenario,
+        learners={TODAYS: None, first: papers[first]} if today else papers,
+        moves=FEW,
+        measuring=measuring(study),
+        seed=study.seed,
+        published=published if assigned and scenario == study.scenario else {},
+        meshes_sha256=digest_of(mesh_files(find_urdf(robot.urdf))),
+    )

@@ -1,0 +1,88 @@
+"""What was measured while the arm learned: errors, landings and their scatter, cells of a map."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import rerun as rr
+
+from recalib.study.inference.measured import ERRORS, UNITS
+from recalib.study.recording.colours import BELIEVED, DIM, GREY, LIT, MEASURED, of_misses
+from recalib.study.recording.scene import AXIS, Scene, axes_of, unit_of
+from recalib.study.recording.watched import Cells, Watched
+
+PUBLISHED = "paper"  # the entity's name beside those of the learners
+VISIBLE = 0.01  # m: measurements that scatter less are drawn enlarged
+
+
+def send_errors(scene: Scene, colour: Sequence[int]) -> None:
+    """Mean errors over all test poses."""
+    results = scene.watched.history.columns()
+    # a few moves in a moment are no noise to be averaged
+    style = rr.SeriesLines(names=scene.learner, colors=colour, widths=3, aggregation_policy="off")
+    for quantity in ERRORS:
+        _plot(scene, f"errors/{quantity}/{scene.learner}", results[quantity], style)
+
+
+def send_published(scene: Scene, published: Mapping[str, float]) -> None:
+    """The published initial errors, where there are any, as straight lines in the plots."""
+    for quantity, unit in zip(ERRORS, UNITS, strict=True):
+        if quantity in published:
+            name = f"the paper, before: {published[quantity]} {unit}"
+            level = np.full(len(scene.motion.moves), published[quantity])
+            style = rr.SeriesLines(names=name, colors=GREY, widths=1)
+            _plot(scene, f"errors/{quantity}/{PUBLISHED}", level, style)
+
+
+def _plot(scene: Scene, entity: str, values: np.ndarray, style: rr.SeriesLines) -> None:
+    clock, rows = scene.motion.throughout()
+    scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=values[rows]))
+    scene.rec.log(entity, style, static=True)
+
+
+def send_landings(scene: Scene) -> None:
+    """Achieved frames, and the misses as lines in a colour that tells their length."""
+    watched, unit = scene.watched, unit_of(scene.workspace)
+    _, rows = scene.motion.throughout()
+    achieved, poses = watched.achieved[rows], len(watched.desired)
+    starts = np.broadcast_to(watched.desired[:, :3, 3], achieved[..., :3, 3].shape)
+    misses = np.stack([starts, achieved[..., :3, 3]], axis=-2).reshape(-1, 2, 3)
+    axes = axes_of(achieved.reshape(-1, 4, 4), AXIS * unit)
+    colours = of_misses(watched.misses[rows].ravel())
+    lines = rr.LineStrips3D.columns(strips=axes, colors=np.repeat(colours, 3, axis=0))
+    scene.show("achieved", lines, 3 * poses, rr.LineStrips3D.from_fields(radii=0.014 * unit))
+    lines = rr.LineStrips3D.columns(strips=misses, colors=colours)
+    scene.show("miss", lines, poses, rr.LineStrips3D.from_fields(radii=0.03 * unit))
+
+
+def send_scatter(scene: Scene) -> None:
+    """Lines from where the arm lands to what was measured there: noise, outliers, repeatability."""
+    watched, (_, rows) = scene.watched, scene.motion.throughout()
+    poses, repeated, _ = watched.scatter.shape
+    landed = np.repeat(watched.achieved[rows, :, None, :3, 3], repeated, axis=2)
+    ends = landed + enlarged(watched) * watched.scatter
+    lines = rr.LineStrips3D.columns(strips=np.stack([landed, ends], axis=-2).reshape(-1, 2, 3))
+    style = rr.LineStrips3D.from_fields(radii=0.009 * unit_of(scene.workspace), colors=MEASURED)
+    scene.show("measured", lines, poses * repeated, style)
+
+
+def enlarged(watched: Watched) -> int:
+    """How many times as large the errors of measurements are drawn to be visible: 1, 10, ..."""
+    spread, times = np.sqrt(np.square(watched.scatter).sum(axis=-1).mean()), 1
+    while 0 < spread * times < VISIBLE:
+        times *= 10
+    return times
+
+
+def send_map(scene: Scene, cells: Cells) -> None:
+    """The supernet's cells, brighter and larger the more they learned last.
+
+    Their corrections are true to scale.
+    """
+    unit, (_, rows) = unit_of(scene.workspace), scene.motion.throughout()
+    weights = cells.weights[rows].ravel()
+    light = (DIM + weights[:, None] * (LIT - DIM)).astype(np.uint8)
+    points = rr.Points3D.columns(radii=(0.022 + 0.038 * weights) * unit, colors=light)
+    scene.show("map/cells", points, len(cells.centres), rr.Points3D(cells.centres))
+    arrows = rr.Arrows3D.columns(vectors=cells.corrections[rows].reshape(-1, 3))
+    style = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=BELIEVED)
+    scene.show("map/corrections", arrows, len(cells.centres), style)

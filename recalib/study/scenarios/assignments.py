@@ -1,0 +1,129 @@
+"""Which links, which encoders, which signs? Every way to assign the paper's damage (section 7).
+
+The paper says by how much three links were shortened and three encoders were shifted, and what
+the initial errors were. It says neither which links and encoders nor which signs.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import permutations, product
+
+import numpy as np
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import pose_errors
+from recalib.numerics.randomness import generator
+from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.scenarios.nominal import Nominal
+from recalib.study.scenarios.plants import Assignment, nominal_controller
+
+TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
+
+
+def shortenings(
+    links: Sequence[str], lengths: Sequence[float], along: str
+) -> list[tuple[LinkShortening, ...]]:
+    """Every way to take the lengths [m] off as many different links."""
+    ways = dict.fromkeys(
+        tuple(sorted(zip(chosen, lengths, strict=True)))
+        for chosen in permutations(links, len(lengths))
+    )
+    return [tuple(LinkShortening(link, length, along) for link, length in way) for way in ways]
+
+
+def shifts(joints: Sequence[str], angles: Sequence[float]) -> list[tuple[EncoderShift, ...]]:
+    """Every way to shift as many different encoders by the angles [rad], in either direction."""
+    ways = dict.fromkeys(
+        tuple(sorted(zip(chosen, signed, strict=True)))
+        for chosen in permutations(joints, len(angles))
+        for signed in product(*((angle, -angle) for angle in angles))
+    )
+    return [tuple(EncoderShift(joint, angle) for joint, angle in way) for way in ways]
+
+
+class Ways:
+    """Every way to assign the paper's damage to a robot, in one order.
+
+    Args:
+        links: to which the lengths [m] may be assigned.
+        joints: to whose encoders the angles [rad] may be, with either sign.
+        along: which direction links are shortened; see `LinkShortening`.
+    """
+
+    def __init__(
+        self,
+        links: Sequence[str],
+        lengths: Sequence[float],
+        joints: Sequence[str],
+        angles: Sequence[float],
+        along: str = "line",
+    ):
+        self._links, self._joints = list(links), list(joints)
+        self.short, self.shifted = shortenings(links, lengths, along), shifts(joints, angles)
+
+    def __len__(self) -> int:
+        return len(self.short) * len(self.shifted)
+
+    def __getitem__(self, index: int) -> tuple[LinkShortening | EncoderShift, ...]:
+        """The damages of one assignment, links first, each from the base to the tool."""
+        short, shifted = divmod(int(index), len(self.shifted))
+        links = sorted(self.short[short], key=lambda damage: self._links.index(damage.link))
+        joints = sorted(self.shifted[shifted], key=lambda damage: self._joints.index(damage.joint))
+        return (*links, *joints)
+
+
+def initial_errors(
+    controller: Controller, ways: Ways, coordinates: np.ndarray, error: str = "norm"
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Mean position [m] and orientation errors [rad] of the uncorrected robot.
+
+    Args:
+        coordinates: (n, 6) desired poses over which the errors are averaged.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+
+    Yields both (shift,) for each of the shortenings.
+    """
+    robot = controller.robot
+    desired = robot.workspace.to_poses(coordinates)
+    angles = controller.inverse(desired)
+    offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
+    believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
+    for shortening in ways.short:
+        achieved = apply(robot, shortening).arm.forward(believed)
+        achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
+        errors = pose_errors(robot.workspace, achieved, desired, error)
+        yield errors[0].mean(axis=1), errors[1].mean(axis=1)
+
+
+def assign(
+    nominal: Nominal, damage: PaperDamage, seed: int
+) -> tuple[dict[str, np.ndarray], Assignment]:
+    """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
+
+    Returns the columns of a table with a row for each of `Ways`: the mean initial errors
+    position_error_cm and orientation_error_deg, and `distance`, the larger of their relative
+    deviations from the published ones. Of several equally near, up to rounding, the first is used.
+    """
+    controller = nominal_controller(nominal)
+    robot = controller.robot
+    ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
+    position, orientation = map(
+        np.concatenate, zip(*initial_errors(controller, ways, poses), strict=True)
+    )
+    errors = {"position_error_cm": 100 * position, "orientation_error_deg": np.degrees(orientation)}
+    distance = distance_to(errors, damage.published)
+    nearest = int(distance.round(TIE).argmin())
+    return errors | {"distance": distance}, Assignment(
+        robot=robot.name,
+        assignments=len(ways),
+        damages=ways[nearest],
+        distance=round(distance[nearest], TIE),
+        within_5_percent=int((distance <= 0.05).sum()),
+    )
+
+
+def distance_to(errors: Mapping[str, np.ndarray], published: Published) -> np.ndarray:
+    """The larger of the relative deviations of both errors (n,) from the published ones."""
+    deviations = [np.abs(errors[name] / value - 1) for name, value in published]
+    return np.maximum(*deviations)

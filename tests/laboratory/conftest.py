@@ -1,0 +1,105 @@
+"""A small arm that is bent, what an instrument saw of it, and its calibration."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from recalib.laboratory.command_line import DONE, main
+from recalib.nominal.arms import load_arm
+from recalib.nominal.chain import Chain
+from tests.arms import urdf
+
+NOISE = 5e-5  # m
+ROWS = 30
+OFFSETS = np.array([0.02, -0.015, 0.01])  # rad
+ARM = urdf(
+    ("swing", "revolute", "0 0 1", "0 0 0.3"),
+    ("lift", "revolute", "0 1 0", "0.05 0 0.1"),
+    ("elbow", "revolute", "0 1 0", "0.4 0 0"),
+    ("flange", "fixed", "0 0 1", "0.35 0 0.02"),
+)
+SEEN = np.array([0.9, 0.5, 0.6])  # rad about the middle
+MIDDLE = np.array([0.0, -0.7, 1.1])
+
+
+def true_positions(arm, joints: np.ndarray) -> np.ndarray:
+    """Where the bent arm goes [m]."""
+    return arm.forward(joints + OFFSETS)[:, :3, 3]
+
+
+def to_instrument(positions: np.ndarray) -> np.ndarray:
+    """From the arm's base to where the camera stands."""
+    return positions @ np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]]) + [1.0, 0.5, -0.2]
+
+
+def write(path, columns: dict[str, np.ndarray]) -> None:
+    with path.open("w", newline="") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(columns)
+        writer.writerows(zip(*columns.values(), strict=True))
+
+
+def in_degrees(arm, joints: np.ndarray) -> dict[str, np.ndarray]:
+    return {f"{joint} [deg]": np.degrees(joints[:, i]) for i, joint in enumerate(arm.joints)}
+
+
+def in_millimetres(positions: np.ndarray) -> dict[str, np.ndarray]:
+    return {f"{axis} [mm]": 1e3 * positions[:, i] for i, axis in enumerate("xyz")}
+
+
+def table(arm, joints: np.ndarray, positions: np.ndarray) -> dict[str, np.ndarray]:
+    return in_degrees(arm, joints) | in_millimetres(positions)
+
+
+def postures(seed: int, count: int = ROWS, part: float = 1.0) -> np.ndarray:
+    """Joint angles (count, 3) [rad] in this part of what is seen."""
+    return MIDDLE + part * SEEN * np.random.default_rng(seed).uniform(-1, 1, (count, 3))
+
+
+def read(path) -> dict[str, np.ndarray]:
+    with path.open(newline="") as stream:
+        heading, *rows = csv.reader(stream)
+    return dict(zip(heading, np.array(rows, dtype=float).T, strict=True))
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("laboratory")
+    (folder / "arm.urdf").write_text(ARM)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def arm(folder):
+    return load_arm(folder / "arm.urdf")
+
+
+@pytest.fixture(scope="session")
+def calibrated(arm, folder):
+    """By the command line, from where a camera somewhere sees a target somewhere on the tool."""
+    random = np.random.default_rng(8)
+    joints = MIDDLE + SEEN * random.uniform(-1, 1, (ROWS, 3))
+    positions = true_positions(arm, joints) + NOISE * random.standard_normal((ROWS, 3))
+    write(folder / "measurements.csv", table(arm, joints, to_instrument(positions)))
+    files = folder / "arm.urdf", folder / "measurements.csv"
+    out = folder / "calibration"
+    assert main(["calibrate", *map(str, files), f"--out={out}"]) == DONE
+    return out
+
+
+@pytest.fixture(scope="session")
+def in_sockets(folder):
+    """A table of a seven-jointed arm of which one joint is off, in two sockets."""
+    arm = load_arm("panda.urdf", "panda_hand_tcp")
+    random = np.random.default_rng(15)
+    joints = np.array([0, 0.2, 0, -2, 0, 2.2, 0.8]) + random.uniform(-0.6, 0.6, (40, 7))
+    names = ["left", "right"] * 20
+    centres = {"left": [0.45, -0.15, 0.3], "right": [0.45, 0.15, 0.3]}
+    poses = arm.forward(joints)
+    poses[:, :3, 3] = [centres[name] for name in names]
+    joints, left = Chain.of(arm).solve(poses, joints)
+    assert left.max() < 1e-9
+    joints[:, 3] -= 0.02
+    write(folder / "sockets.csv", in_degrees(arm, joints) | {"socket": names})
+    return folder / "sockets.csv"
