@@ -72,7 +72,8 @@ def _fits(correction: Correction) -> bool:
     calibration, learned = correction.calibration, correction.learned
     estimate = calibration.estimate
     unknown = estimate.parameters @ estimate.covariance @ estimate.parameters
-    numbers = *calibration.forward_and_jacobian(learned[:1]), unknown, estimate.noise
+    estimated = unknown, estimate.parameters, estimate.covariance, estimate.noise, estimate.weights
+    numbers = learned, *calibration.forward_and_jacobian(learned[:1]), *estimated
     return learned.shape[1:] == (len(correction.arm.joints),) and all(
-        array.size and np.isfinite(array).all() for array in numbers
+        array.size and array.dtype == float and np.isfinite(array).all() for array in numbers
     )

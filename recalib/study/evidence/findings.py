@@ -7,6 +7,7 @@ from recalib.study.configuration import shipped
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import PUBLISHED, factor_table
+from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -39,7 +40,7 @@ ONCE = {  # what a single search compares, by column of the reference study
 ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
 
 NEEDS = f"""
-    summary.csv claims.json outcomes? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
+    summary.csv claims.json outcomes? horizon? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
     {shipped.FACTORS} {COUNTED} search/{{improved}}.csv runs/{{scenario}}/{{ladder}}.parquet
     ensemble/assignments.improved.parquet ensemble/scaled.improved.parquet
     ensemble/assignments.ritter.parquet seed iterations
@@ -136,6 +137,7 @@ def context(evidence: Evidence) -> dict:
         "claims": [_said(claim) for claim in evidence.claims()],
         "groups": [str(verdict) for verdict in ORDER],
         "factors": factor_table(evidence),
+        "in_setups": in_setups(evidence),
         "published": PUBLISHED,
         "two_maps": two_maps(reference),
         "speed_of_two_maps": speed_of_two_maps(reference),

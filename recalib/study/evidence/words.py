@@ -113,6 +113,8 @@ def over_setups(its: Mapping) -> str:
         f" heterogeneity {ranged(its['heterogeneity'], its['heterogeneity_interval'])},"
         f" luck {ranged(its['luck'], its['luck_interval'])}; another setup: {low} to {high}"
     )
+    if its["setups_left_out"]:
+        text += f"; known in {its['setups']} of {its['setups'] + its['setups_left_out']}"
     if "holds" in its:
         text += (
             f"; holds in {its['holds']} of {its['setups']}, by luck alone in"

@@ -41,7 +41,6 @@ class Row(NamedTuple):
     system: str
     verdict: Verdict
     setups: Setups
-    of: int
     leads: bool
 
     @property
@@ -76,9 +75,8 @@ def rows(evidence: Evidence) -> list[Row]:
         systems = judged[claim.id]["systems"] if claim.across else {}
         statement = judged[claim.id]["statement"]
         for place, (system, setups) in enumerate(claim.setups(evidence).items()):
-            of = evidence.setups(setups.across.table)["universe"].nunique()
             verdict = Verdict(systems[system]["verdict"])
-            found.append(Row(statement, system, verdict, setups, of, leads=place == 0))
+            found.append(Row(statement, system, verdict, setups, leads=place == 0))
     return found
 
 
@@ -190,13 +188,13 @@ def _write(axes: Axes, row: Row, middle: float) -> None:
     write(axes, -LEFT / PLOT, middle, what, color=color)
     weight = "bold" if row.leads else "normal"
     write(axes, 1.03, middle, row.verdict, color=color, weight=weight)
-    write(axes, 1.32, middle, "\n".join(_numbers(row.setups, row.of)), color=color)
+    write(axes, 1.32, middle, "\n".join(_numbers(row.setups)), color=color)
 
 
-def _numbers(setups: Setups, of: int) -> list[str]:
+def _numbers(setups: Setups) -> list[str]:
     mean, across, measured = setups.mean, setups.across, len(setups.model.numbers)
     number = ranged(mean.mean, mean[1:]) if mean.high > LITTLE else short(LITTLE)
-    known = f"; known in {measured} of {of}" if measured < of else ""
+    known = f"; known in {measured} of {measured + setups.left_out}" if setups.left_out else ""
     parts = {"setups": setups.model.heterogeneity.mean, "luck": setups.model.luck.mean}
     spread = [f"{_spread(its, across.logarithmic)} by {name}" for name, its in parts.items()]
     lines = [f"{number}{known}", f"spread {', '.join(spread)}"]

@@ -125,8 +125,15 @@ def test_what_is_measured_is_what_was_made_up(judged):
 
 
 MEASURED = {
-    *("status", "setups", "mean", "mean_interval", "heterogeneity", "heterogeneity_interval"),
-    *("luck", "luck_interval", "another_setup", "depends_on"),
+    *("status", "setups", "setups_left_out", "mean", "mean_interval"),
+    *(
+        "heterogeneity",
+        "heterogeneity_interval",
+        "luck",
+        "luck_interval",
+        "another_setup",
+        "depends_on",
+    ),
 }
 
 

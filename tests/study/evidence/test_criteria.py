@@ -32,7 +32,7 @@ ACROSS = {
         "Ritter's": ("schedule_ritter", RATIO),
     },
     "figure-1": {"improved system": ("remaining", TENTH)},
-    "speed-up": {"alternative setups": ("factor", Comparison(50, below=False))},
+    "speed-up": {"both systems": ("factor", Comparison(50, below=False))},
     "rough-search": {"improved system": ("remaining_rough", TENTH)},
     "local-units": {"radial units": ("radial", RATIO)},
 }

@@ -1,5 +1,7 @@
 """The factor of 70, asked in twelve ways, where what each would find is known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -14,6 +16,7 @@ from recalib.study.evidence.factor import (
     on_the_way,
     watched,
 )
+from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
@@ -137,3 +140,40 @@ def test_the_first_round_of_a_full_search_holds_rough_ones_that_share_no_trial()
         first = trials[(trials["search"] == search) & (trials["round"] == 1)]
         best = [first["score"].iloc[k : k + 16].idxmin() for k in range(0, 64, 16)]
         assert winners[winners["search"] == search].index.tolist() == best
+
+
+def test_in_setups_it_stands_by_cells_and_those_with_a_bound_are_left_out():
+    """Twice as large with the cells of both maps; one setup's is not known."""
+    setups, random = np.arange(24), np.random.default_rng(0)
+    whole, moved = setups % 2 == 0, setups % 4 < 2
+    design = pd.DataFrame(
+        {
+            "cells": np.where(whole, "whole", "each"),
+            "effort": "full",
+            "displacement": np.where(moved, "random", "configured"),
+        }
+    )
+    factors = np.repeat(np.where(whole, 80.0, 40.0), 2) * np.exp(random.normal(0, 0.1, 48))
+    table = pd.DataFrame({"universe": np.repeat(setups, 2), "replicate": np.tile([0, 1], 24)})
+    table = table.assign(factor=factors, bound=0)
+    table.loc[5, ["factor", "bound"]] = 200, 1
+    evidence = SimpleNamespace(
+        setups={"horizon": table}.get,
+        levels=lambda: design,
+        rng=lambda *words: np.random.default_rng(1),
+    )
+    found = in_setups(evidence)
+    larger, smaller = found["rows"]
+    assert (larger["cells"], smaller["cells"]) == ("both maps together", "one map")
+    assert larger["factor"].mean == pytest.approx(80, rel=0.05)
+    assert smaller["factor"].mean == pytest.approx(40, rel=0.05)
+    assert (larger["left_out"], larger["setups"]) == (1, 11)
+    assert (smaller["left_out"], smaller["setups"]) == (0, 12)
+    assert smaller["verdict"] == in_words(smaller["factor"])
+    known = np.exp(np.log(factors).reshape(24, 2).mean(axis=1)[setups != 2])
+    assert found["at_the_end"].mean > np.exp(np.log(known).mean())
+    assert found["control"].mean < found["chance"]
+
+
+def test_where_no_setup_is_measured_nothing_is_said_of_them():
+    assert in_setups(SimpleNamespace(setups={}.get)) == {}

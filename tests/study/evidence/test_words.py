@@ -45,6 +45,7 @@ def setups(effect=1.5, **others):
     return {
         "status": "measured",
         "setups": 64,
+        "setups_left_out": 0,
         "mean": 0.9,
         "mean_interval": [0.85, 0.95],
         "heterogeneity": 0.05,
@@ -107,6 +108,8 @@ def test_setups_are_said_by_mean_heterogeneity_and_luck():
     assert words.over_setups(setups()) == text
     counted = setups(holds=60, holds_by_luck_alone=61.24)
     assert words.over_setups(counted) == f"{text}; holds in 60 of 64, by luck alone in 61.2"
+    some = words.over_setups(setups(setups=30, setups_left_out=2))
+    assert some == f"{text}; known in 30 of 32"
     assert words.over_setups({"status": "not measured"}) == "not measured"
 
 

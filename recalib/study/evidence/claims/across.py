@@ -57,17 +57,23 @@ class Across(NamedTuple):
         table = outcomes.assign(value=self.values(outcomes))
         if "bound" in table:
             table["value"] = table["value"].where(table["bound"] == 0)
-        values = table.pivot(index="universe", columns="replicate", values="value").dropna()
+        everywhere = table.pivot(index="universe", columns="replicate", values="value")
+        values = everywhere.dropna()
         levels = design.loc[values.index]
-        return Setups(self, hierarchy(values.to_numpy(), levels["effort"].to_numpy()), levels)
+        model = hierarchy(values.to_numpy(), levels["effort"].to_numpy())
+        return Setups(self, model, levels, len(everywhere) - len(values))
 
 
 class Setups(NamedTuple):
-    """A claim in all setups, with the levels (setup, factor) of their choices."""
+    """A claim in all setups, with the levels (setup, factor) of their choices.
+
+    `left_out` counts those with a bound, which are in none of its numbers.
+    """
 
     across: Across
     model: Hierarchy
     levels: "pd.DataFrame"
+    left_out: int
 
     @property
     def mean(self) -> Estimate:
@@ -115,6 +121,7 @@ class Setups(NamedTuple):
         found = {
             "status": "measured",
             "setups": len(self.model.numbers),
+            "setups_left_out": self.left_out,
             "mean": rounded(self.mean.mean),
             "mean_interval": [rounded(bound) for bound in self.mean[1:]],
         }

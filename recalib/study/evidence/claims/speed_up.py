@@ -48,7 +48,7 @@ CLAIM = Claim(
     needs="runs/{scenario}/{ladder}.parquet seed iterations",
     measure=measure,
     across={
-        "alternative setups": Across(
+        "both systems": Across(
             "factor",
             "Ritter's iterations / improved",
             Comparison(LONG, below=False),
