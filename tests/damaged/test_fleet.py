@@ -44,6 +44,15 @@ def test_a_fleet_does_what_its_plants_do_one_by_one(controller, plants, commands
     assert fleet.refused.tolist() == [0, 2, 0, 2] == [*alone[0].refused, *alone[1].refused]
 
 
+def test_a_robot_for_each_run_does_what_it_does_alone(controller, damaged, commands):
+    moved = apply(controller.robot, [BaseShift(translation=(0.01, 0.0, 0.02))])
+    together = Plant(controller, [damaged, moved]).execute(commands[:2])
+    for run, arm in enumerate((damaged, moved)):
+        alone = Plant(controller, arm).execute(commands[[run]])
+        assert np.array_equal(together.achieved[[run]], alone.achieved)
+        assert np.array_equal(together.executed[[run]], alone.executed)
+
+
 def test_measuring_a_fleet_counts_no_moves(controller, plants, commands):
     fleet = Fleet(controller, plants())
     poses, executed = fleet.achieve(commands)

@@ -44,7 +44,9 @@ PARTS = {
     ),
     "laboratory": Part(("recalib/laboratory",), ("tests/laboratory",)),
     "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
-    "nominal": Part(("recalib/nominal",), ("tests/nominal", "tests/damaged")),
+    "nominal": Part(
+        ("recalib/nominal",), ("tests/nominal", "tests/damaged", "tests/test_meshes.py")
+    ),
     "damaged": Part(("recalib/damaged",), ("tests/damaged", *EXPERIMENTS[2:])),
     "configuration": Part(
         (

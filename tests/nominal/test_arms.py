@@ -146,6 +146,12 @@ def test_what_hangs_on_fixed_joints_alone_is_no_end_of_the_arm(load):
     assert load(beside).tool == load(GANTRY).tool
 
 
+def test_what_is_still_to_be_expanded_is_refused_whatever_its_name(load):
+    macro = '<xacro:macro xmlns:xacro="http://ros.org/wiki/xacro" name="m"/></robot>'
+    with pytest.raises(UnsuitableRobot, match="is a xacro file; try: what `xacro"):
+        load(GANTRY.replace("</robot>", macro))
+
+
 def test_a_file_of_ones_own_comes_before_one_of_a_package(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     packaged = find_urdf("panda.urdf")

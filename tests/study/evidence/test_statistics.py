@@ -1,6 +1,7 @@
 """Intervals say where repetitions lie: of studies whose luck is drawn here, again and again."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.stats import norm, sem
 from scipy.stats import t as student
@@ -16,6 +17,7 @@ from recalib.study.inference.intervals import (
     ratio,
     typical,
 )
+from recalib.study.inference.measured import ERRORS, errors_of
 from tests.made_up import OF_SEARCHES, OF_SEEDS
 
 SEEDS = 5
@@ -134,6 +136,21 @@ def test_the_typical_search_is_the_median_one_of_two_the_better():
     assert combined(errors)[:, 0] == pytest.approx(1 / position)
     assert typical(errors) == 2, "of the two in the middle the one with the smaller error"
     assert typical(errors[:3]) == 2
+    errors[0, 0] = 1e-3  # one seed of the worst
+    assert typical(errors) == 2, "the mean over the seeds counts"
+
+
+def test_the_errors_of_a_training_are_those_of_its_last_or_first_measurement():
+    searches, seeds, iterations = (grid.ravel() for grid in np.mgrid[:2, :3, :3])
+    history = pd.DataFrame({"search": searches, "seed": 3 * searches + seeds})
+    history["iteration"] = np.array([0, 4, 10])[iterations]
+    for factor, error in enumerate(ERRORS, start=1):
+        history[error] = factor * (10.0 * history["seed"] + history["iteration"])
+    shuffled = history.sample(frac=1, random_state=1)
+    first, last = errors_of(shuffled, "first"), errors_of(shuffled)
+    assert first.shape == last.shape == (2, 3, 2)
+    assert np.array_equal(first[..., 0], [[0, 10, 20], [30, 40, 50]])
+    assert np.array_equal(last, first + np.array([10, 20]))
 
 
 def test_the_interval_over_seeds_covers_their_mean_as_often_as_it_says():
