@@ -18,7 +18,7 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS
-from recalib.learners.learned import VERSION, join, read, save
+from recalib.learners.learned import ALIKE, VERSION, differences, identity, join, read, save
 from recalib.learners.loading import load
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
@@ -130,6 +130,15 @@ def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     with pytest.raises(OtherRobot, match=rf"a\.npz is of another robot: its {message}"):
         load(tmp_path / "a.npz", OTHERS[message](robot))
+
+
+@pytest.mark.parametrize("part", ["kinematics", "home", "workspace"])
+def test_robots_differ_where_one_of_their_numbers_does(robot, part):
+    here = identity(robot)
+    off = [*here[part][:-1], here[part][-1] + 2 * ALIKE]
+    (told,) = differences(here | {part: off}, here)
+    assert told.startswith(f"its {part} differs by up to ")
+    assert not differences(here, here)
 
 
 def test_another_name_is_no_other_robot(robot, tmp_path):

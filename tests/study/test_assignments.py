@@ -52,6 +52,7 @@ def test_the_nearest_assignment_is_used(assigned):
     _, table, assignment = assigned
     assert assignment.distance == pytest.approx(table["distance"].min(), abs=1e-9)
     assert assignment.assignments == len(table["distance"]) and len(assignment.damages) == 3
+    assert assignment.within_5_percent == np.sum(table["distance"] <= 0.05) > 0
     again = type(assignment).model_validate_json(assignment.model_dump_json())
     assert again == assignment
 

@@ -2,12 +2,14 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
+from recalib.damaged.damage import EncoderShift
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
+from recalib.nominal.poses import orientation_error, position_error
 from recalib.numerics.randomness import generator
 from recalib.study.experiments.poses import Stream
-from recalib.study.plan.trainings import scenario_of
-from recalib.study.scenarios.plants import resolve
+from recalib.study.plan.trainings import scenario_of, seeds
+from recalib.study.scenarios.plants import fleet, resolve
 
 
 def test_a_scenario_may_name_its_robot(study):
@@ -44,6 +46,35 @@ def test_poses_are_independent_by_default_or_spread_evenly():
     random = drawn([2, 3], 200).desired
     for one, other in zip(long, random, strict=True):
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
+
+
+def test_a_learner_is_trained_with_the_seeds_of_all_its_searches(study):
+    short, long = study.search.searches, study.search.searches_long
+    assert seeds(study, "improved") == short * study.training.seeds
+    assert seeds(study, "ritter") == long * study.training.seeds
+
+
+def test_initial_errors_are_means_over_random_poses(plan):
+    damages = (EncoderShift("wrist_2_joint", 0.05), EncoderShift("wrist_3_joint", 0.02))
+    resolved = resolve("bent", plan.nominal("ur10"), damages, poses=20, seed=1)
+    controller = resolved.controller()
+    workspace = controller.robot.workspace
+    commands = workspace.sample(generator(1, "bent", "initial errors"), 1, 20)
+    desired = workspace.to_poses(commands)
+    achieved = resolved.plant(controller, 1, [0]).achieve(commands)[0]
+    off = position_error(achieved, desired), orientation_error(achieved, desired)
+    assert resolved.initial_position_error_cm == pytest.approx(100 * np.mean(off[0]))
+    assert resolved.initial_orientation_error_deg == pytest.approx(np.degrees(np.mean(off[1])))
+
+
+def test_in_a_fleet_every_scenario_has_the_luck_that_it_has_alone(plan):
+    noisy = Noise(1e-3, 1e-3), Repeatability(1e-3)
+    scenarios = [resolve(name, plan.nominal("ur10"), noisy, 2, 1) for name in ("one", "two")]
+    controller, robots = fleet(scenarios, 1, [3, 4])
+    together = robots.execute(np.zeros((4, 3, 6))).achieved
+    for its, achieved in zip(scenarios, np.split(together, 2), strict=True):
+        alone = its.plant(controller, 1, [3, 4]).execute(np.zeros((2, 3, 6))).achieved
+        assert np.array_equal(achieved, alone)
 
 
 def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):
