@@ -15,10 +15,7 @@ OUTSIDE = 5.0
 # A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
 # middle axis comes back as up to half a turn about the others, which is at most twice as much.
 WRAPPED = 2.0
-MOVED, STUCK = (
-    0.1,
-    0.01,
-)  # commands that are so far apart do not lead to poses so near to each other
+MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so near to each other
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 
@@ -39,7 +36,9 @@ def check_moves(
     allowed = OUTSIDE + WRAPPED * np.abs(commands).max(axis=-1)
     size = np.abs(achieved).max(axis=-1)
     # A command may be NaN where a learner diverges; such a move is refused, and harmless.
-    for run, move in np.argwhere(~np.isfinite(size) | (size > allowed))[:1]:
+    bad = ~np.isfinite(size) | (size > allowed)
+    if bad.any():
+        run, move = np.argwhere(bad)[0]
         valid = (
             "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
             f" {allowed[run, move]:.3g} for such a command"
@@ -50,13 +49,22 @@ def check_moves(
             np.concatenate(parts, axis=1)
             for parts in zip(last, (commands, achieved, executed), strict=True)
         )
-    sent, came = (np.abs(np.diff(poses, axis=1)).max(axis=-1) for poses in (commands, achieved))
-    stuck = (sent > MOVED) & (came < STUCK) & executed[:, 1:] & executed[:, :-1]
-    for run, move in np.argwhere(stuck)[:1]:
-        which = f"move {move + (last is None)} of run {run}"
-        valid = "another pose than the move before it, whose command was another one"
-        raise BadMeasurement(which, achieved[run, move + 1], valid)
+    _check_differ(commands, achieved, executed, first=int(last is None))
     return commands[:, -1:], achieved[:, -1:], executed[:, -1:]
+
+
+def _check_differ(
+    commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, first: int
+) -> None:
+    """Raise BadMeasurement where another command led to the same pose; `first`: the second move."""
+    near = np.abs(achieved[:, 1:] - achieved[:, :-1]).max(axis=-1) < STUCK
+    if not near.any():
+        return
+    sent = np.abs(commands[:, 1:] - commands[:, :-1]).max(axis=-1)
+    stuck = near & (sent > MOVED) & executed[:, 1:] & executed[:, :-1]
+    for run, move in np.argwhere(stuck)[:1]:
+        valid = "another pose than the move before it, whose command was another one"
+        raise BadMeasurement(f"move {move + first} of run {run}", achieved[run, move + 1], valid)
 
 
 def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:

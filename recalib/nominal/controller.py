@@ -104,9 +104,10 @@ class Controller:
 
     def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
         # farther out a polynomial means nothing: the nearest pose of the workspace has to do
-        beyond = np.abs(coordinates).max(axis=1, keepdims=True) > TRUSTED
-        trusted = np.where(beyond, np.clip(coordinates, -1, 1), coordinates)
-        start = polynomial(self._guess, trusted, DEGREE)
+        beyond = np.abs(coordinates).max(axis=1) > TRUSTED
+        if beyond.any():
+            coordinates = np.where(beyond[:, None], np.clip(coordinates, -1, 1), coordinates)
+        start = polynomial(self._guess, coordinates, DEGREE)
         angles, residuals = self._chain.solve(poses, start)
         within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
         return Solution(angles, residuals, within)
