@@ -5,7 +5,7 @@ import pytest
 
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
+from recalib.identification.estimation import _log_likelihood, identify
 from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.nominal.poses import orientation_error, position_error
@@ -43,6 +43,15 @@ def test_the_estimate_is_that_of_the_slow_implementation(robot, controller, dama
     assert found.noise == pytest.approx(noise, rel=1e-3)
     assert found.weights == pytest.approx(weights, abs=1e-3)
     assert found.log_evidence == pytest.approx(evidence, abs=0.02)
+
+
+def test_beyond_the_limit_a_loss_grows_like_the_logarithm():
+    squares, limit, noise = np.array([4.0, 9, 12, 20, 100]), 9.0, np.array([0.1])
+    residuals = np.zeros((1, len(squares), 3))
+    residuals[0, :, 1] = noise * np.sqrt(squares)
+    losses = np.where(squares <= limit, squares, limit * (1 + np.log(squares / limit))) / 2
+    expected = -losses.sum() - 3 * len(squares) * np.log(noise).sum()
+    assert _log_likelihood(residuals, noise, limit) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("what", ["poses", "positions"])
