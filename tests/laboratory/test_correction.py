@@ -18,6 +18,7 @@ from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import Correction, load_correction
 from recalib.laboratory.measurements import Measurements
+from recalib.laboratory.propose import BEYOND, _drawn
 from recalib.nominal.arms import find_urdf, load_arm
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil
@@ -79,6 +80,13 @@ def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correct
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
 
 
+def test_postures_are_proposed_a_little_beyond_those_that_were_learned_from(correction):
+    proposed = _drawn(correction)
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    over = np.stack([proposed.max(axis=0) - high, low - proposed.min(axis=0)]) / (high - low)
+    assert over == pytest.approx(BEYOND, abs=0.02)
+
+
 def test_nothing_that_is_desired_is_refused_by_what_is_missing(correction):
     with pytest.raises(InvalidSetting, match="joint coordinates is missing"):
         correct(correction, Measurements(1))
@@ -91,14 +99,23 @@ def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
 
 
-def test_parameters_of_another_error_model_are_refused(small, tmp_path):
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("calibration/terms", lambda its: its[:-1]),
+        ("calibration/estimate/noise", lambda its: np.nan * its),
+        ("learned", lambda its: its > 0),
+    ],
+    ids=["another error model", "no number", "no angles"],
+)
+def test_parts_that_do_not_belong_together_are_refused(name, change, small, tmp_path):
     path = tmp_path / "correction.npz"
     path.write_bytes(small)
     with np.load(path) as file:
         arrays = dict(file)
     header = json.loads(str(arrays.pop("header")))
     del header["sha256"]
-    arrays["calibration/terms"] = arrays["calibration/terms"][:-1]
+    arrays[name] = change(arrays[name])
     write_archive(path, header, arrays)
     with pytest.raises(InvalidFile):
         load_correction(path)

@@ -190,6 +190,12 @@ def test_a_description_that_cannot_be_used_is_refused(text, sentence, tmp_path):
         read_description(path)
 
 
+def test_rows_of_one_time_may_come_before_others(gantry, write):
+    times = [0, 0, 1, 1, *range(2, ROWS - 2)]
+    table = write(joints() | positions() | {"time [s]": times})
+    assert read_measurements(table, gantry).times == pytest.approx(times)
+
+
 @pytest.mark.parametrize(
     ("column", "cells"),
     [
