@@ -51,4 +51,4 @@ def test_guidance_says_of_what_it_is_and_where_the_hybrid_is_not_the_best(made_u
     assert said["scenarios"] == list(few.benchmark.scenarios)
     assert (said["seeds"], said["threshold"], said["budget"]) == (4, 0.1, 400)
     assert (said["first"], said["percent"], said["negligible"]) == (4, "10", 1e-4)
-    assert not said["shipped"]
+    assert not said["shipped"] and said["worse"] is not None

@@ -131,6 +131,7 @@ def test_an_estimate_is_said_with_its_interval_and_the_end_of_what_was_tried():
     assert words.estimated(Estimate(33.24, 20.1, 38.9)) == "33.2 (20.1 to 38.9)"
     assert words.estimated(Estimate(90, 80, np.inf), 100) == "90 (80 to more than 100)"
     assert words.estimated(Estimate(2.0, nan, nan)) == "2"
+    assert words.estimated(Estimate(2.0, nan, 3.0)) == "2", "half an interval is none"
     assert words.estimated(Estimate(nan, nan, nan)) == "not known"
 
 

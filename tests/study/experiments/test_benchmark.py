@@ -45,6 +45,16 @@ def test_scenarios_side_by_side_are_what_each_of_them_is_alone(plan, tmp_path):
         pd.testing.assert_frame_equal(beside, alone, rtol=1e-6)
 
 
+def test_its_time_is_shared_by_all_moves_of_all_runs(plan, tmp_path, monkeypatch):
+    def learn(self, *_):
+        self.seconds += 6.0
+
+    monkeypatch.setattr(Timed, "learn", learn)
+    write(path := tmp_path / "links.json", plan.resolved("links"))
+    table = compete([path], "affine", None, 2, (2, 4), (), tests=3, seed=1)
+    assert set(table["seconds_per_move"]) == {4 * 6.0 / (2 * 4)}
+
+
 def test_only_the_time_of_the_learner_is_taken():
     class Slow:
         def command(self, desired):

@@ -1,6 +1,7 @@
 """What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,14 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.nominal_checks import WrongNominal
-from recalib.study.experiments.real_arm import LEARNERS, remaining_errors, with_tool_point
+from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.study.experiments.real_arm import (
+    LEARNERS,
+    learn_from_tables,
+    learn_on_twin,
+    remaining_errors,
+    with_tool_point,
+)
 from recalib.study.experiments.tracker import read_of, read_whole_description
 from recalib.study.plan.competitors import PEERS
 from recalib.study.scenarios.plants import nominal_robot
@@ -116,6 +124,46 @@ def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     far = replace(tests, measured=tests.measured + up)
     left = remaining_errors(learner, ur5.arm, recording[:30], far)
     assert np.abs(left - 1).max() < 0.01
+
+
+def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(table, plan, tmp_path):
+    fit, test = tmp_path / "fit.csv", tmp_path / "test.csv"
+    table[:40].to_csv(fit, index=False)
+    table[100:].to_csv(test, index=False)
+    description = ROOT / plan.study.real.description
+    learned = partial(learn_from_tables, fit, test, description, plan.nominal("ur5"))
+    found = learned("affine", (10, 40), 3, 1)
+    assert found[["poses", "subset"]].to_numpy().tolist() == [[10, 0], [10, 1], [10, 2], [40, 0]]
+    assert found["position_error_mm"].nunique() == 4
+    nothing = learned("uncorrected", (10, 40), 3, 1)
+    assert nothing["position_error_mm"].nunique() == 1 and len(nothing) == 2
+
+
+def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, monkeypatch):
+    fit, rules = tmp_path / "fit.csv", plan.study.every_learner["improved"]
+    table[:40].to_csv(fit, index=False)
+    searched = []
+
+    def uncorrected(_, sample, searches):
+        searched.append((sample, [*searches]))
+        return UncorrectedLearner()
+
+    monkeypatch.setattr("recalib.study.experiments.real_arm.build_tuned", uncorrected)
+    found = learn_on_twin(
+        fit,
+        ROOT / plan.study.real.description,
+        tmp_path / "improved.csv",
+        plan.nominal("ur5"),
+        "improved",
+        rules.model_copy(update={"iterations": 4}),
+        (2, 4, 100),
+        subsets=3,
+        tests=5,
+        seed=1,
+    )
+    assert searched == [(tmp_path / "improved.csv", [1, 2, 3])]
+    assert found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
 
 
 def test_every_peer_learns_from_recorded_poses_too():

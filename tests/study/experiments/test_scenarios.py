@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.stats import qmc
@@ -7,9 +9,11 @@ from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.numerics.randomness import generator
+from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
-from recalib.study.plan.trainings import scenario_of, seeds
+from recalib.study.plan.trainings import Measuring, scenario_of, seeds
 from recalib.study.scenarios.plants import fleet, resolve
+from workflow.scripts.call import write
 
 
 def test_a_scenario_may_name_its_robot(study):
@@ -52,6 +56,25 @@ def test_a_learner_is_trained_with_the_seeds_of_all_its_searches(study):
     short, long = study.search.searches, study.search.searches_long
     assert seeds(study, "improved") == short * study.training.seeds
     assert seeds(study, "ritter") == long * study.training.seeds
+
+
+def test_moves_that_the_controller_refused_by_the_end_are_told(
+    study, plan, tmp_path, monkeypatch, capsys
+):
+    columns = {"run": np.arange(2), "iteration": np.full(2, 4)}
+    history = SimpleNamespace(refused=np.array([[0, 0, 2], [0, 1, 1]]), columns=columns.copy)
+    monkeypatch.setattr(campaign, "train_for_results", lambda *_: history)
+    for name in ("build_tuned", "save"):
+        monkeypatch.setattr(campaign, name, lambda *_: None)
+    write(scenario := tmp_path / "links.json", plan.resolved("links"))
+    rules, measuring = (
+        study.every_learner["improved"],
+        Measuring(tests=2, every=4, evenly=4, measurements=2),
+    )
+    files = scenario, tmp_path / "improved.csv", tmp_path / "improved.npz"
+    found = campaign.train_seeds(*files, rules, 2, 0, 2, measuring, False, 1)
+    assert "improved on links: the controller refused 3 moves" in capsys.readouterr().err
+    assert found["seed"].tolist() == [0, 1] and found["search"].tolist() == [1, 1]
 
 
 def test_initial_errors_are_means_over_random_poses(plan):
