@@ -19,6 +19,7 @@ from recalib.study.plan.competitors import make_peer
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.phases import LEARNING, VISITS, move
 from recalib.study.recording.viewer import PROGRAM, quiet
+from recalib.study.recording import writing
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
 from workflow.scripts import call
@@ -89,7 +90,7 @@ def sample(study, tmp_path):
 
 
 def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outliers_and_all(
-    job, resolved, sample, tmp_path
+    job, resolved, sample, tmp_path, monkeypatch
 ):
     disturbed = *DAMAGES, Outliers(0.3, 0.05), Repeatability(0.0003)
     scenario, other = tmp_path / "disturbed.json", tmp_path / "undisturbed.json"
@@ -121,6 +122,10 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
     assert not path.exists()
     record(path, job, scenario, [sample], [history])
     assert path.exists()
+    written = []
+    monkeypatch.setattr(writing, "write_recording", lambda *its: written.append(its[-1]))
+    record(path, job, scenario, [sample], [history])
+    assert written == [10], "the first seed of the third search"
 
 
 def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
