@@ -16,10 +16,10 @@ from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plan.competitors import make_peer
+from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.phases import LEARNING, VISITS, move
 from recalib.study.recording.viewer import PROGRAM, quiet
-from recalib.study.recording import writing
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
 from workflow.scripts import call
