@@ -10,7 +10,7 @@ def measure(evidence, limits):
     return Finding(
         verdict=Verdict.SUPPORTED if difference <= limits["difference"] else Verdict.CONTRADICTED,
         numbers={"largest difference": difference},
-        note=f"{len(table)} arrays compared.",
+        note=f"{len(table)} learned arrays are compared.",
     )
 
 
