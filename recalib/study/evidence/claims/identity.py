@@ -28,7 +28,7 @@ CLAIM = Claim(
     section="3",
     quotation="For the intact robot, this mapping is the identity.",
     statement="The intact robot needs no correction, and learns none.",
-    short="largest error {number} cm",
+    short="largest error {number} cm or degrees",
     limits={"error": ERROR},
     criterion="The improved system's errors on the intact robot stay below {error} cm and {error}"
     " degrees in every measurement.",
