@@ -1,4 +1,4 @@
-"""The exceptions of this library: each carries what it knows and says what would be valid."""
+"""The exceptions of this library: each has its facts as attributes and says what was expected."""
 
 from collections.abc import Iterable
 from os import PathLike, fspath

@@ -1,1 +1,1 @@
-"""The damaged robot: what may be wrong with an arm, and what comes of a command to it."""
+"""The damaged robot: damages, disturbances, and the plant that executes commands."""

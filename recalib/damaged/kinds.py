@@ -1,4 +1,4 @@
-"""Everything that can be wrong with an arm, for whoever reads or writes descriptions."""
+"""All kinds of damages and disturbances, for code that reads or writes descriptions."""
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability

@@ -1,6 +1,6 @@
-"""How people describe what is wrong with an arm: {link: forearm_link, shorten: 4 cm}.
+"""Damages as a configuration describes them: {link: forearm_link, shorten: 4 cm}.
 
-A class says its words beside its fields. What reads and writes descriptions follows from them.
+The fields of a class name their words. Reading and writing of descriptions follow from these.
 """
 
 import dataclasses

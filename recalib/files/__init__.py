@@ -1,1 +1,1 @@
-"""Files that are read whole or refused, and appear whole or not at all; quantities in them."""
+"""Files that are read and written whole or not at all; quantities with units."""

@@ -1,1 +1,1 @@
-"""Identification of the arm from where it went: what today's model-based learners stand on."""
+"""Identification of an arm from measurements: the basis of today's model-based learners."""

@@ -1,4 +1,4 @@
-"""A calibrated arm: what it does, and the joint angles that it needs to do what is desired."""
+"""A calibrated arm: its forward kinematics, and the joint angles that reach a desired pose."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,8 +1,8 @@
-"""Where the instrument stands and where the targets sit, in closed form.
+"""The frames of the instrument and of the targets, in closed form.
 
 With T_i = (R_i, t_i) the pose of the tool that the nominal arm gives, the unknown X (the arm's base
-in the frame of the instrument) and Z_k (target k on the tool, at z_k) fulfil, but for the arm's own
-errors,
+in the frame of the instrument) and Z_k (target k on the tool, at z_k) satisfy, apart from the
+errors of the arm,
 
 - poses Y_i = X T_i Z_k: the rotations by the leading singular vectors of a sum of Kronecker
   products (Shah 2013, Solving the robot-world/hand-eye calibration problem using the Kronecker

@@ -1,9 +1,10 @@
-"""An identification that survives where many rows are grossly wrong, up to a third and more.
+"""Robust identification where many rows are outliers, up to a third and more.
 
-One that starts from all rows may settle between good ones and bad ones and take the distance for
-noise. So, where the noise is suspicious, it is started from many small sets of rows, too, some of
-which hold good ones alone (Rousseeuw 1984, Least median of squares regression). What finds far less
-noise in most of the rows is right, if these are more than a model could fit by chance.
+An identification that starts from all rows may end between good rows and outliers and take the
+distance for noise. So, if the noise is suspiciously large, it also starts from many small sets of
+rows, some of them without outliers (Rousseeuw 1984, Least median of squares regression). A start
+that finds far less noise in most rows is accepted, if these are more rows than a model could fit by
+chance.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Which postures to measure next: those that would teach the most (D-optimal design)."""
+"""The most informative postures to measure next (D-optimal design)."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""An identification that cannot be trusted is refused, by its reason and with numbers."""
+"""Checks of an identification: one that cannot be trusted is refused, with a reason in numbers."""
 
 import numpy as np
 

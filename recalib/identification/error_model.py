@@ -1,4 +1,4 @@
-"""A nominal arm with everything about it that may be wrong as a parameter.
+"""An arm with errors: a nominal arm whose possible errors are parameters.
 
 The parameters are small and zero for the nominal arm. In their order:
 
@@ -6,13 +6,13 @@ The parameters are small and zero for the nominal arm. In their order:
   link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
   is the only target where frames are known.
-- centres (socket, 3): by how much [m] the sockets are beside their initial estimate.
+- centres (socket, 3): displacements [m] of the sockets from their initial estimate.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
-A joint offset is also a turn of its link's twist about the joint's axis, and neighbouring twists
-share directions where joint axes are parallel or meet. No measurement tells such parameters apart:
-the prior keeps them small.
+A joint offset is also a rotation of its link's twist about the joint's axis, and neighbouring
+twists share directions where joint axes are parallel or meet. No measurement distinguishes such
+parameters: the prior keeps them small.
 """
 
 from collections.abc import Callable

@@ -1,18 +1,18 @@
-"""Identification of an arm from where it went: the most probable parameters of an error model.
+"""Identification of an arm from measurements: the most probable parameters of an error model.
 
 With r_i the residual of measurement i over its noise, and p_j a parameter over its prior deviation,
 Gauss-Newton minimises
 
     sum_i rho(|r_i|^2) + sum_j p_j^2 / (2 v_j)
 
-where rho(s) = s / 2 up to a limit and then grows like log(s) (Cauchy's tail), so that a measurement
-which is grossly wrong counts for nothing. Estimated along with the parameters are
+where rho(s) = s / 2 up to a limit and then grows like log(s) (Cauchy's tail): an outlier has almost
+no weight. Estimated along with the parameters are
 
 - the noise, from squared residuals over the degrees of freedom that the parameters leave (MacKay's
   evidence);
 - the variances v_j, from what the data say of each parameter and of their common scale (relevance
   determination): damage is sparse, most of what may be wrong with an arm is right, and a parameter
-  that explains nothing is held at nominal. Frames that nobody knows are no damage: theirs are 1.
+  that explains nothing is held at nominal. Unknown frames are no damage: their variances are 1.
 """
 
 from dataclasses import dataclass

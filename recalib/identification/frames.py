@@ -1,4 +1,4 @@
-"""Where an instrument stands and where targets sit: known, or parameters like the rest."""
+"""The frames of instrument and targets: known, or parameters like the rest."""
 
 from dataclasses import dataclass, field
 

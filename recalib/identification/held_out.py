@@ -1,8 +1,8 @@
-"""Cross-validation: the errors of an identification on rows that it was not made from.
+"""Cross-validation: the errors of an identification on rows that were held out from it.
 
-Each row is held out in two ways: in a random part of all postures, and with those that are near it
-in joint space, where what was learned has to reach farther. A posture is held out as a whole, with
-all its targets and repetitions: any row of it would give the others away.
+Each row is held out in two ways: in a random fold of postures, and in a block of joint space, which
+tests extrapolation. A posture is held out as a whole, with all its targets and repetitions: any of
+its rows would reveal the others.
 """
 
 from collections.abc import Callable

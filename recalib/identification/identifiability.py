@@ -1,8 +1,8 @@
-"""What measurements leave open of the geometry: parameters that they do not tell from others.
+"""Parameters of the geometry that are not identifiable from the measurements.
 
-One parameter after the other is added to those that are told apart: frames, then joint offsets,
-then links. Where what the data say of it, with all before it left to vary, is less than what was
-believed beforehand, it is open; the parameters that make up for it are its partners.
+Parameters are added one by one to the identifiable ones: frames, then joint offsets, then links.
+One is not identifiable if the data's information on it, with all before it free, is less than that
+of its prior. The parameters that can compensate for it are its partners.
 """
 
 from collections.abc import Iterator

@@ -1,7 +1,7 @@
-"""An initial estimate of where the instrument stands and where the targets sit, from anywhere.
+"""Initial estimate of the frames of instrument and targets, without a starting value.
 
-Closed forms are solved for all rows and for many small sets of them, which a few gross outliers do
-not all spoil. The best, by their median error, are refined by robust least squares.
+Closed forms are solved for all rows and for many small sets of them, of which a few gross outliers
+spoil only some. The best, by their median error, are refined by robust least squares.
 """
 
 from collections.abc import Iterator

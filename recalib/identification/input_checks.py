@@ -1,4 +1,4 @@
-"""Observations as they enter the identification: what tells nothing of an arm is refused."""
+"""Checks of observations before an identification: uninformative ones are refused."""
 
 import numpy as np
 

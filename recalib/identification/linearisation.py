@@ -1,6 +1,6 @@
-"""Residuals of observations as a linear function of the parameters, near some of them.
+"""Residuals of observations, linearised in the parameters.
 
-A residual is what takes the predicted pose to the measured one: translation [m] and turn [rad]
+A residual is what takes the predicted pose to the measured one: translation [m] and rotation [rad]
 along the instrument's axes, or the translation alone where no orientation was measured; a ball in a
 socket was measured to be at the socket's centre, which is a parameter itself.
 """

@@ -1,4 +1,4 @@
-"""What was measured of an arm, at the joint coordinates in which its controller believed.
+"""Measurements of an arm at the joint coordinates that its controller reported.
 
 Three kinds of rows, one kind to a set of observations: the pose of a target on the tool, or its
 position, in the frame of the instrument; or a ball on the tool that sits in a socket, of which

@@ -1,4 +1,4 @@
-"""The parameters of an error model by name, in the units of people."""
+"""The parameters of an error model by name, in readable units."""
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass

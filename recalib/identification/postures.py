@@ -1,4 +1,4 @@
-"""Which rows are of one posture, and which joints stood still, as far as the noise tells."""
+"""Which rows share a posture, and which joints stood still, within the noise."""
 
 from dataclasses import dataclass
 

@@ -1,9 +1,9 @@
-"""What the order of the rows tells: poses that lag behind the joints, a drift, a jump in between.
+"""Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump.
 
-Rows that were written down one after the other show such faults in their residuals. Each fault is
-tried as further parameters beside those of the arm: by how much of a step every pose is late, or
-how the instrument moves against the base as time goes by, or from some row on. What no arm could
-explain instead, and what is too much for chance, is named.
+Rows in the order of measurement show such faults in their residuals. Each fault is modelled by
+parameters in addition to those of the arm: the delay of all poses as a part of a step, or a motion
+of the instrument relative to the base, over time or from some row on. A fault that no arm could
+explain instead, and that is too large for chance, is reported.
 """
 
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
-"""What calibrations are worth, by cross-validation, and which one to use.
+"""Cross-validated errors of calibrations, and which calibration to use.
 
-A calibration's own residuals tell nothing: a Gaussian process interpolates.
+The residuals of the fit are no measure: a Gaussian process interpolates.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,1 +1,1 @@
-"""An arm that stands in a laboratory: tables and a URDF in, a calibration and its files out."""
+"""Calibration of a real arm: tables and a URDF in, a calibration and its files out."""

@@ -1,7 +1,7 @@
-"""Commands for a controller that nobody touches: what to send so that the arm does what it should.
+"""Commands for an unchanged controller that take the real arm to desired poses.
 
-The paper's own idea: the controller is told a *fake* pose, from which its nominal kinematics make
-the joint coordinates that take the real arm to the desired one.
+The paper's own idea: the controller gets a *fake* pose, from which its nominal kinematics make the
+joint coordinates that take the real arm to the desired one.
 """
 
 from collections.abc import Sequence

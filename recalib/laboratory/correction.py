@@ -1,4 +1,4 @@
-"""What was identified of an arm, in one file that needs no other: enough to correct commands.
+"""An identified arm in one self-contained file: enough to correct commands.
 
 The file is an archive (`recalib.files.archives`). Its header holds the format's version, the
 nominal arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's

@@ -1,4 +1,4 @@
-"""What a table does not say itself, from a file beside it (TOML); see docs/own_arm.md."""
+"""The description of a table (TOML): columns, frames and distances; see docs/own_arm.md."""
 
 import tomllib
 from collections.abc import Mapping

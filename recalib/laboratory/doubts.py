@@ -1,4 +1,4 @@
-"""What makes a calibration doubtful as a whole: to be said first."""
+"""Warnings about a calibration as a whole, which are printed first."""
 
 from collections.abc import Iterator
 

@@ -1,7 +1,7 @@
-"""What a description says beside a table: frames and distances, compared with what was measured.
+"""Frames and distances of a description, checked against the measurements.
 
-It is believed as far as an arm can be as it says. A turn the wrong way, inches, or the frame of
-something else would make another arm.
+They are accepted if an arm could be as they say. A rotation of the wrong sign, inches, or the frame
+of something else would make another arm.
 """
 
 from collections.abc import Sequence

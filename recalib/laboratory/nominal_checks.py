@@ -1,8 +1,8 @@
-"""Nominal positions beside the nominal kinematics, before anything is fitted.
+"""Checks of nominal positions against the nominal kinematics, before the fit.
 
-A controller that says where it believes the tool to be gives away what most often goes wrong with
-data: another zero, sign or order of joints, another unit, a base that is turned, a tool that was
-forgotten. Each mistake is tried, alone and then in pairs; the one that explains is named.
+The tool positions that a controller reports reveal the most frequent mistakes in data: another
+zero, sign or order of joints, another unit, a rotated base, a forgotten tool. Each mistake is
+tried, alone and then in pairs; the one that explains the difference is named.
 """
 
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""What a command writes: new, whole, and at once. Nothing that is there is ever touched."""
+"""The output of a command: complete, at once, and never in place of an existing file."""
 
 import fcntl
 import os

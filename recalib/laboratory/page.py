@@ -1,4 +1,4 @@
-"""A page to look at: one file, which asks for nothing from elsewhere."""
+"""The HTML page of a calibration: one file that loads nothing else."""
 
 from pathlib import Path
 

@@ -1,9 +1,9 @@
-"""Where the instrument stands, where targets sit and sockets are, and how well that is known.
+"""The frames of instrument, targets and sockets, and their uncertainty.
 
-It is known in two ways: beside the calibrated arm, and beside the real one. A turn of the first
-joint's zero looks like a turn of the instrument about that joint, whatever is measured: the
-calibrated arm has one of all that fit, and beside it the instrument is known as well as it
-measures. Where the real base is, is known as well as a zero is before anything is measured.
+The uncertainty is given relative to the calibrated arm and relative to the real one. No measurement
+distinguishes an offset of the first joint from a rotation of the instrument about its axis. The
+calibrated arm has one of all solutions that fit: relative to it, the instrument's pose is as
+certain as its measurements. Relative to the real base, it is as uncertain as the offset's prior.
 """
 
 from collections.abc import Sequence

@@ -1,8 +1,8 @@
-"""Which postures to measure next: those that teach most, and when it is enough.
+"""The most informative postures to measure next, and when more are not worthwhile.
 
-Candidates come from the user, or are drawn where the arm has already been and a little beyond:
-there the instrument saw the target and nothing was hit, which no joint limit promises. All keep off
-the ends of joint ranges.
+Candidates come from the user, or are drawn from the measured range of joints and a little beyond:
+there the instrument saw the target and nothing was hit, which joint limits do not promise. Postures
+near the ends of joint ranges are left out.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What a person reads first: what the calibration is worth, what is known, what to doubt."""
+"""The printed summary of a calibration: its errors, what is known of the arm, doubts."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any

@@ -1,8 +1,8 @@
 """Kinematics of a Universal Robots arm in the layout of ur_description (default_kinematics.yaml).
 
 There a joint's frame has its z axis along the joint and stands where Denavit and Hartenberg would
-put it. A URDF may have other frames: between them and these lies one fixed turn and shift of each
-joint's frame, which the nominal arm tells. So parallel axes move no frame far away.
+put it. A URDF may have other frames. Each differs from these by a fixed transformation, which
+follows from the nominal arm. So parallel axes move no frame far away.
 """
 
 import hashlib

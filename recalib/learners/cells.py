@@ -1,7 +1,7 @@
-"""What all cells of a map hold, as it is learned: theta or Jacobians, by (4) to (9).
+"""The contents of all cells of a map as they are learned: theta or Jacobians, by (4) to (9).
 
-An iteration teaches every cell, but reads one. So updates are kept back and made together, by one
-matrix product: memory is passed through once in `KEPT` iterations. What is read has them in it.
+An iteration updates every cell, but reads one. So updates are collected and applied together, by
+one matrix product: it passes through memory once in `KEPT` iterations. What is read includes them.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""What the learners that look back keep: every move that was carried out, and when to look back."""
+"""The memory of learners that refit: every executed move, and when to refit."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""A black box: Gaussian processes for the correction of the command, knowing nothing of arms."""
+"""A black box: Gaussian processes for the correction of the command, without an arm's model."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self

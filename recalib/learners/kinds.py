@@ -1,4 +1,4 @@
-"""The kinds of learner that files know. A new kind is named here, and nowhere else."""
+"""The kinds of learner that can be saved to files. A new kind is named here, and nowhere else."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""What today's learners share: one move an iteration, and whatever was measured is learned from."""
+"""What today's learners share: one move an iteration, and learning from every measured move."""
 
 from abc import ABC, abstractmethod
 

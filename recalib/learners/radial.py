@@ -1,7 +1,7 @@
 """A second kind of local unit: normalised Gaussian radial units, to which the paper's rules apply.
 
 "Other neural network algorithms based on local units can also benefit from these improvements"
-(section 8). A unit holds a command and no Jacobian: nothing is smaller.
+(section 8). A unit holds a command and no Jacobian: it is the smallest kind.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""What tells a learner of the paper from another: switches, sizes, conventions.
+"""What distinguishes the paper's learners from one another: switches, sizes, conventions.
 
 The improvement of the paper is four changes of Ritter's algorithm. Each is a switch of its own
-here, so that any of them can be taken away from the one or added to the other.
+here, so that any change can be removed from the improved algorithm or added to Ritter's.
 """
 
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""The nominal controller, left to itself: what every learner has to beat."""
+"""The nominal controller without corrections: the baseline of every learner."""
 
 import numpy as np
 

@@ -1,1 +1,1 @@
-"""The trial loop, and what robots and learners have to offer for it."""
+"""The trial loop, and the interfaces of robots and learners."""

@@ -1,4 +1,4 @@
-"""A robot of one's own in the place of the simulated ones."""
+"""A user's own robot in place of the simulated ones."""
 
 from collections.abc import Callable
 

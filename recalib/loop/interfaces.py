@@ -1,4 +1,4 @@
-"""What the parts ask of one another: whatever keeps to these can take the place of the shipped one.
+"""Interfaces between the parts: an object that implements one can replace the shipped one.
 
 Commands and achieved poses are coordinates of the workspace (`recalib.nominal.poses`). The first
 axis is always the run: an experiment trains many runs side by side.

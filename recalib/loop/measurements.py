@@ -1,7 +1,7 @@
-"""Measurements as they enter: what nobody can learn from is refused by its name.
+"""Checks of measurements before learning: unusable ones are refused by name.
 
-One number that is none would spread, in silence, through all that is learned from it; and so would
-millimetres that are taken for metres. All learners refuse the same, by `check_moves`.
+A NaN would spread silently through everything learned from it, and so would millimetres taken for
+metres. All learners use the same `check_moves`.
 """
 
 import numpy as np

@@ -1,1 +1,1 @@
-"""The nominal robot: its kinematics, its workspace and the controller that believes in them."""
+"""The nominal robot: its kinematics, its workspace and the controller that uses them."""

@@ -1,8 +1,8 @@
 """Serial arms in compiled loops, posture by posture.
 
 Where a joint slides, its joint angle is a length [m]. Pinocchio says where joints and tool are
-placed, and stays the reference. What is beside a posture changes not one bit of it. Numba compiles
-the loops once and keeps them in a file.
+placed, and stays the reference. Other postures of a batch do not change a bit of a result. Numba
+compiles the loops once and caches them in a file.
 """
 
 from collections.abc import Sequence

@@ -2,13 +2,14 @@
 
 It stands for the inverse kinematics that the manufacturer built in, which the paper leaves
 untouched (section 3): the same command always gives the same joint angles. Newton's method starts
-from a polynomial that knows the workspace roughly, and each command is solved by itself, so that
-neither those before it nor those beside it in a batch have an influence.
+from a polynomial that approximates the joint angles over the workspace. Each command is solved by
+itself: no other command, before it or in the same batch, has an influence.
 
-The same holds of a redundant arm, with more than six joints. Of the postures for a pose it takes
-one near that of home, which changes smoothly with the pose: the polynomial fits postures that were
-found from home outwards by the shortest steps, and from there Newton's method takes the shortest
-ones, too. So poses determine joint angles, and what learns from poses alone is blind to none.
+The same holds for a redundant arm, with more than six joints. Of the postures for a pose the
+controller takes one near home, which changes smoothly with the pose: the polynomial fits postures
+that were found from home outwards by the shortest steps, and from there Newton's method takes the
+shortest ones, too. So poses determine joint angles, and a learner that sees poses alone misses
+nothing.
 """
 
 from collections.abc import Callable

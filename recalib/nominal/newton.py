@@ -1,4 +1,4 @@
-"""Newton's method for the inverse kinematics of anything that says where it is and how it moves."""
+"""Newton's method for inverse kinematics, given a function for poses and Jacobians."""
 
 from collections.abc import Callable
 

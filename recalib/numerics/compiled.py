@@ -1,10 +1,10 @@
-"""Loops compiled by Numba: of robots and learners, what a training does hundreds of times a second.
+"""Loops compiled by Numba: what a training calls hundreds of times a second.
 
-A function that calls another compiled one belongs into the same file: of what is kept, Numba
-notices changes of that file alone.
+A compiled function and those that it calls belong in one file: Numba's cache notices changes of
+that file alone.
 
-Numbers are written one by one: whatever assigns to a slice, Numba compiles two seconds longer, for
-the words of an error that no call here can raise.
+Numbers are assigned one by one: an assignment to a slice takes two seconds longer to compile, for
+an error message that no call here can raise.
 """
 
 from collections.abc import Callable

@@ -87,13 +87,13 @@ def means(node: NodeOrLeaf) -> Iterator[str]:
 
 
 def quantiles(node: NodeOrLeaf) -> Iterator[str]:
-    """95 % said, 90 % taken."""
+    """Another quantile than the stated one."""
     if node.type == "number" and node.value in QUANTILES:
         yield QUANTILES[node.value]
 
 
 def swaps(node: NodeOrLeaf) -> Iterator[str]:
-    """Two neighbours exchanged: arguments, what is returned, what is unpacked."""
+    """Two neighbours swapped: arguments, returned or unpacked values."""
     if node.type not in LISTS or node.parent.type == "classdef":
         return
     parts = node.children
@@ -134,7 +134,7 @@ def annotations() -> dict[str, set[str]]:
 
 
 def drops(node: NodeOrLeaf) -> Iterator[str]:
-    """A term of a sum or a factor of a product left out."""
+    """A missing term of a sum or factor of a product."""
     if node.type not in ("arith_expr", "term"):
         return
     operators = {_value(each) for each in node.children[1::2]}
@@ -149,7 +149,7 @@ def drops(node: NodeOrLeaf) -> Iterator[str]:
 
 
 def seeds(node: NodeOrLeaf) -> Iterator[str]:
-    """Another seed, or two purposes with the same random numbers."""
+    """Another seed, or the same random numbers for two purposes."""
     if node.type == "name" and node.value == "seed" and _is_argument(_whole(node)):
         yield "seed + 1"
     if node.type == "arglist" and _value(node.get_previous_leaf().get_previous_leaf()) in (
@@ -161,14 +161,14 @@ def seeds(node: NodeOrLeaf) -> Iterator[str]:
 
 
 def streams(node: NodeOrLeaf) -> Iterator[str]:
-    """Poses drawn for something else."""
+    """Poses from the random stream of another purpose."""
     dot = node.get_previous_leaf() if node.type == "name" else None
     if _value(dot) == "." and _value(dot.get_previous_leaf()) == "Stream":
         yield from (name for name in STREAMS if name != node.value)
 
 
 def leaks(node: NodeOrLeaf) -> Iterator[str]:
-    """Learned from what is tested on, or the other way round."""
+    """Training on test data, or testing on training data."""
     if node.type == "name" and (other := OTHER.get(node.value)):
         member = _value(node.get_previous_leaf()) == "." or _value(node.get_next_leaf()) == "."
         around = search_ancestor(node, "funcdef")

@@ -67,11 +67,11 @@ TOO_LONG = (  # tests that take minutes: no mutant meets them
     "test_the_first_campaign_is_still_read_and_drawn_the_same",
 )
 LEFT_OUT = {
-    "recalib/study/plots": "Pictures are looked at; the numbers in them are evidence's.",
-    "recalib/study/configuration": "The rest reads and words; mistakes in tables of tests try it.",
-    "recalib/study": "The rest names files and makes what is described.",
+    "recalib/study/plots": "Figures are inspected by eye; their numbers come from `evidence`.",
+    "recalib/study/configuration": "The rest reads files; lists of mistakes test its messages.",
+    "recalib/study": "The rest names files and makes objects from descriptions.",
     "recalib": "The rest reads and writes files, and finds names.",
-    "workflow": "It calls; whole runs try it.",
+    "workflow": "It calls functions; whole runs test it.",
 }
 
 

@@ -1,1 +1,1 @@
-"""What types cannot say of a study: trainings, claims and robots are asked."""
+"""Checks of a study that types cannot express: of its trainings, claims and robots."""

@@ -1,4 +1,4 @@
-"""What types cannot say of a study: names that must exist, and what goes together.
+"""Consistency of a study: names that must exist, and keys that go together.
 
 What depends on a robot's geometry is in `recalib.study.checks.geometry`.
 """

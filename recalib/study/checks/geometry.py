@@ -1,6 +1,6 @@
 """Whether the robots of a study can have its damages and serve its workspaces.
 
-Apart from the other checks, since it loads the robots, and asks of them what is to be run.
+Separate from the other checks, since it loads the robots. Only scenarios that run are checked.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

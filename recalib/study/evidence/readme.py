@@ -11,9 +11,9 @@ from recalib.study.inference.intervals import Estimate
 
 NEEDS = "summary.csv claims.json improved scenario"
 ORDINARY = {
-    Verdict.SUPPORTED: f"so {PUBLISHED} is ordinary",
-    Verdict.CONTRADICTED: f"so {PUBLISHED} is not",
-    Verdict.UNDECIDED: f"so {PUBLISHED} is possible, and little is certain",
+    Verdict.SUPPORTED: f"which agrees with {PUBLISHED}",
+    Verdict.CONTRADICTED: "which does not agree",
+    Verdict.UNDECIDED: f"which agrees with {PUBLISHED} and with much else",
 }
 
 
@@ -29,7 +29,7 @@ def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
 
 
 def _readings(claim: Mapping) -> dict[str, dict[str, str]]:
-    """Under which reading of the paper the published factor is ordinary."""
+    """For each reading of the paper, the factor and whether the published one agrees with it."""
     found = {}
     for name, cells in CELLS.items():
         label = f"factor, as many cells as {cells}"

@@ -111,14 +111,15 @@ def over_setups(its: Mapping) -> str:
     text = (
         f"mean {ranged(its['mean'], its['mean_interval'])},"
         f" heterogeneity {ranged(its['heterogeneity'], its['heterogeneity_interval'])},"
-        f" luck {ranged(its['luck'], its['luck_interval'])}; another setup: {low} to {high}"
+        f" luck {ranged(its['luck'], its['luck_interval'])}; prediction for another setup:"
+        f" {low if low == high else f'{low} to {high}'}"
     )
     if its["setups_left_out"]:
-        text += f"; known in {its['setups']} of {its['setups'] + its['setups_left_out']}"
+        text += f"; known in {its['setups']} of {its['setups'] + its['setups_left_out']} setups"
     if "holds" in its:
         text += (
-            f"; holds in {its['holds']} of {its['setups']}, by luck alone in"
-            f" {its['holds_by_luck_alone']:.1f}"
+            f"; holds in {its['holds']} of {its['setups']} setups"
+            f" ({its['holds_by_luck_alone']:.1f} expected from luck alone)"
         )
     return text
 
@@ -134,10 +135,10 @@ def depends(factors: Words, its: Mapping) -> str:
         return ""
     its = its["depends_on"]
     if its["effect"] <= its["chance"]:
-        return "No choice matters more than chance."
+        return "No choice has an effect beyond chance."
     words, effect = factors[its["factor"]], ranged(its["effect"], its["interval"])
     least, largest = (level_in_words(words, its[key]) for key in ("from", "to"))
-    return f"It is largest where {words['asks']} {largest}: {effect} against {least}."
+    return f"Largest effect: {effect} where {words['asks']} {largest}, compared with {least}."
 
 
 def amounts(entry: Mapping) -> str:

@@ -1,1 +1,1 @@
-"""Learners let loose on damaged robots: trainings, the search, the benchmark, the real arm."""
+"""Learners on damaged robots: trainings, the search, the benchmark, the real arm."""

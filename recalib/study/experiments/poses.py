@@ -1,7 +1,7 @@
-"""Poses to learn from and to be measured on. What settings are chosen by, no result is measured on.
+"""Poses for training and testing: no result is measured on poses that settings were chosen by.
 
-Each stream of random poses belongs to a search or to results, by its type: who takes the ones
-refuses the others. Streams get their names here alone.
+The type of a stream of random poses says whether it belongs to a search or to results: code for one
+refuses the other. Streams get their names here alone.
 """
 
 from collections.abc import Iterable, Sequence

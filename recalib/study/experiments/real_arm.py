@@ -1,4 +1,4 @@
-"""Learning from what a tracker saw of a real arm, and on the twin that is identified from it."""
+"""Learning from laser tracker data of a real arm, and on a twin identified from these data."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace

@@ -1,6 +1,6 @@
-"""What a laser tracker saw of a real arm: tables of positions, fetched from their public address.
+"""Laser tracker data of a real arm: tables of positions, fetched from their public address.
 
-What is special to them stands in a description beside them (`recalib.laboratory.description`).
+A description has their columns and frames (`recalib.laboratory.description`).
 """
 
 import hashlib

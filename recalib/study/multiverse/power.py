@@ -1,4 +1,4 @@
-"""What the second campaign can find: its model and its verdicts, in worlds whose truth is known."""
+"""The power of the second campaign: its model and verdicts, on simulated data of known truth."""
 
 from itertools import product
 from typing import TYPE_CHECKING

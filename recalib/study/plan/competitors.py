@@ -1,7 +1,8 @@
-"""The learners that are compared, a home for each: what it needs, how it is made, how it looks.
+"""The learners that are compared: what each needs to know, its constructor, label and colour.
 
-The paper's are made of their settings in the configuration (`recalib.study.experiments.settings`);
-they, and learners of nobody's foreseeing, make two moves an iteration, today's one.
+The paper's are made from their settings in the configuration
+(`recalib.study.experiments.settings`). They, and learners that are not listed here, make two moves
+an iteration; today's make one.
 """
 
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""The two arms of a learner: the real one, and as a skeleton the one its controller believes in."""
+"""The two arms of a learner: the real one, and a skeleton of the one its controller assumes."""
 
 from collections.abc import Sequence
 

@@ -1,6 +1,6 @@
-"""What the colours of a recording mean: each one thing, told apart with deuteranopia, too.
+"""The meaning of the colours of a recording, which differ with deuteranopia, too.
 
-To it blue, yellow, and what is bright or dark differ; red and green do not.
+With deuteranopia blue and yellow differ, and bright and dark; red and green do not.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""The viewer's program: it listens to this machine alone and tells nobody of its use."""
+"""The viewer's program: it listens to this machine alone and sends no usage data."""
 
 import os
 import socket

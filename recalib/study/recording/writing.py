@@ -1,4 +1,4 @@
-"""A recording: a run of an experiment once more, watched, and compared with the experiment."""
+"""A recording: a run of an experiment is repeated, recorded, and compared with the experiment."""
 
 import warnings
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""The robot as its controller believes in it, as a value that jobs get."""
+"""The robot as its controller models it, as an argument of jobs."""
 
 import hashlib
 from collections.abc import Iterable

@@ -10,7 +10,7 @@ def measure(evidence, limits):
     return Finding(
         verdict=Verdict.SUPPORTED if difference <= limits["difference"] else Verdict.CONTRADICTED,
         numbers={"largest difference": difference},
-        note=f"{len(table)} arrays compared.",
+        note=f"{len(table)} learned arrays are compared.",
     )
 
 
@@ -20,7 +20,7 @@ CLAIM = Claim(
     quotation="the system can work without substituting the original controller in commercial"
     " robots",
     statement="The robot's controller stays as it is.",
-    short="difference {number}",
+    short="difference {number} to learning from recorded moves",
     limits={"difference": Limit(0.0)},
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"
     " learns bit for bit the same.",

@@ -14,8 +14,8 @@ def measure(evidence, limits):
     worst = evidence.history(evidence.fact("improved"), SCENARIO)[list(ERRORS)].max()
     ritter = evidence.errors(evidence.fact("short"), SCENARIO).mean(axis=(0, 1))
     note = (
-        f"Ritter's values do not leave it there: {ritter[0]:.2g} cm and {ritter[1]:.2g} degrees"
-        f" after {evidence.fact('iterations')} iterations."
+        f"Ritter's map, which shares values, does not keep the identity: {ritter[0]:.2g} cm and"
+        f" {ritter[1]:.2g} degrees after {evidence.fact('iterations')} iterations."
     )
     numbers = {"largest position error [cm]": worst.iloc[0]}
     numbers["largest orientation error [degrees]"] = worst.iloc[1]
@@ -28,7 +28,7 @@ CLAIM = Claim(
     section="3",
     quotation="For the intact robot, this mapping is the identity.",
     statement="The intact robot needs no correction, and learns none.",
-    short="{number} cm off at most",
+    short="largest error {number} cm or degrees",
     limits={"error": ERROR},
     criterion="The improved system's errors on the intact robot stay below {error} cm and {error}"
     " degrees in every measurement.",
