@@ -22,7 +22,7 @@ REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not 
 
 FILM = 1160, 600  # pixels of the window, of which the arm has five eighths
 SHOWN = 4 * VISIT  # frames at the end of each phase of visits
-STEP = 6  # frames of a visit from one picture to the next
+STEP = 8  # frames of a visit from one picture to the next
 FRAME, LAST = 100, 2000  # milliseconds
 
 
