@@ -12,8 +12,9 @@ from recalib.files.storage import read_file
 from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
 from recalib.nominal.robots import Robot
-from recalib.study.recording.colours import BELIEVED, SHORT, WRONG
-from recalib.study.recording.markers import base_shift, circle, markers
+from recalib.study.recording.colours import BELIEVED, WRONG
+from recalib.study.recording.labels import send_labels
+from recalib.study.recording.markers import Marker, base_shift, circle, markers
 from recalib.study.recording.scene import Scene, unit_of
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `unit_of`
@@ -23,7 +24,6 @@ FOOT = 0.7  # radius of the circle about a base that was moved, in these units
 def send_arms(scene: Scene, robot: Robot, damages: Sequence[Damage]) -> None:
     """Both arms in motion, and what is wrong with the real one.
 
-    They move on `time` throughout, on `moves` while the arm learns.
     Raises InvalidFile where a mesh of the robot is not found.
     """
     rec, learner, motion = scene.rec, scene.learner, scene.motion
@@ -32,42 +32,40 @@ def send_arms(scene: Scene, robot: Robot, damages: Sequence[Damage]) -> None:
     visuals, missing = log_meshes(rec, source, robot.urdf, learner)
     if missing:
         raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
-    for clock, angles in (
-        (motion.visits(), motion.angles),
-        (motion.measurements(), scene.watched.angles[:, -1]),
-    ):
-        standing = damaged.standing(angles)
-        for link, placements in link_placements(damaged.arm, visuals, standing, base).items():
-            send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, placements)
-        bones = robot.arm.skeleton(angles)
-        joints = rr.Points3D.columns(positions=bones.reshape(-1, 3))
-        scene.send("believed/joints", clock, joints, bones.shape[1])
-        scene.send("believed/bones", clock, rr.LineStrips3D.columns(strips=bones))
-    unit = unit_of(scene.workspace)
-    bones = rr.LineStrips3D.from_fields(colors=BELIEVED, radii=BONE * unit)
-    scene.log("believed/bones", bones)
+    unit, clock = unit_of(scene.workspace), motion.clock()
+    standing = damaged.standing(motion.angles)
+    found = markers(robot, damages, unit)
+    links = dict.fromkeys([*visuals, *(marker.link for marker in found)])
+    placements = link_placements(damaged.arm, links, standing, base)
+    for link, poses in placements.items():
+        send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
+    bones = robot.arm.skeleton(motion.angles)
+    joints = rr.Points3D.columns(positions=bones.reshape(-1, 3))
+    scene.send("believed/joints", clock, joints, bones.shape[1])
+    scene.send("believed/bones", clock, rr.LineStrips3D.columns(strips=bones))
+    scene.log("believed/bones", rr.LineStrips3D.from_fields(colors=BELIEVED, radii=BONE * unit))
     scene.log("believed/joints", rr.Points3D.from_fields(colors=BELIEVED, radii=JOINT * unit))
-    _log_markers(scene, robot, damages, visuals)
+    words, starts = [marker.words for marker in found], []
+    for number, marker in enumerate(found):
+        _log_marker(scene, f"wrong/{number}", marker, visuals)
+        starts.append(placements[marker.link][:, :3] @ [*marker.at, 1])
     if not base.isIdentity():
         _log_base(scene, base)
+        words.append(_base_words(base))
+        starts.append(np.broadcast_to(base.translation, (len(standing), 3)))
+    if starts:
+        send_labels(scene, words, np.stack(starts))
 
 
-def _log_markers(
-    scene: Scene, robot: Robot, damages: Sequence[Damage], visuals: dict[str, list[str]]
-) -> None:
-    """Words at every link and joint with which something is wrong, and the axes of the joints."""
-    unit = unit_of(scene.workspace)
-    for number, marker in enumerate(markers(robot, damages, unit)):
-        entity, frame = f"wrong/{number}", rr.CoordinateFrame(f"{scene.learner}/{marker.link}")
-        if marker.words:
-            words = rr.Points3D([marker.at], radii=0, colors=WRONG, labels=[marker.words])
-            scene.log(entity, words, frame)
-        if marker.axis is not None:
-            axis = rr.LineStrips3D([marker.axis], radii=BONE * unit / 2, colors=WRONG)
-            scene.log(f"{entity}/axis", axis, frame)
-            continue
-        for mesh in visuals.get(marker.link, ()):
-            scene.rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=SHORT), static=True)
+def _log_marker(scene: Scene, entity: str, marker: Marker, visuals: dict[str, list[str]]) -> None:
+    """The axis of a joint, or the colour of a link, with which something is wrong."""
+    if marker.axis is not None:
+        radius = BONE * unit_of(scene.workspace) / 2
+        axis = rr.LineStrips3D([marker.axis], radii=radius, colors=WRONG)
+        scene.log(f"{entity}/axis", axis, rr.CoordinateFrame(f"{scene.learner}/{marker.link}"))
+        return
+    for mesh in visuals.get(marker.link, ()):
+        scene.rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=WRONG), static=True)
 
 
 def _log_base(scene: Scene, base: pin.SE3) -> None:
@@ -80,8 +78,11 @@ def _log_base(scene: Scene, base: pin.SE3) -> None:
         strips = [circle(placement, FOOT * unit)]
         line = rr.LineStrips3D(strips, radii=BONE * unit / 2, colors=colour)
         scene.log(f"{name}/base", line)
+
+
+def _base_words(base: pin.SE3) -> str:
+    """How far off a base is, in words."""
     far, turned = np.linalg.norm(base.translation), np.linalg.norm(pin.log3(base.rotation))
-    words = [f"moved {100 * far:.1f} cm"] if far else []
-    words += [f"turned {np.degrees(turned):.1f}°"] if turned else []
-    label = rr.Points3D([base.translation], radii=0, colors=WRONG, labels=[" and ".join(words)])
-    scene.log("wrong/base/words", label)
+    words = [f"{100 * far:.1f} cm"] if far else []
+    words += [f"{np.degrees(turned):.1f}°"] if turned else []
+    return f"base: {' and '.join(words)} off"

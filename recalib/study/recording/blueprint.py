@@ -3,25 +3,26 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
+import rerun as rr
 import rerun.blueprint as rrb
 
-from recalib.nominal.poses import Workspace
 from recalib.study.plan.competitors import label_of
+from recalib.study.recording.colours import BACKGROUND
 from recalib.study.recording.measurements import PUBLISHED
-from recalib.study.recording.phases import ARM
+from recalib.study.recording.phases import ARM, CLOCK, FRAMES_A_SECOND
+from recalib.study.recording.sight import Sight
 from recalib.study.recording.watched import Watched
 
 TITLES = {
-    "position_error_cm": "mean position error [cm]",
-    "orientation_error_deg": "mean orientation error [degrees]",
+    "position_error_cm": "mean position error [cm] over iterations",
+    "orientation_error_deg": "mean orientation error [degrees] over iterations",
 }
 LEAST = 0.1  # cm and degrees, to which a plot reaches at least
-BACKGROUND = 24, 28, 36
 
 
 def arrange(
     watched: Mapping[str, Watched],
-    workspace: Workspace,
+    sight: Sight,
     published: Mapping[str, float],
     side_by_side: bool,
 ) -> rrb.Blueprint:
@@ -32,8 +33,7 @@ def arrange(
         published: initial errors, where there are any.
         side_by_side: which of the tabs is open.
     """
-    learners, main = list(watched), next(iter(watched.values()))
-    eye = seen_from(workspace, (main.achieved[0] - main.desired)[:, :3, 3])
+    learners = list(watched)
     arm = rrb.Horizontal(
         # the text on the left, because the viewer's notices pop up on the right
         rrb.Vertical(
@@ -41,12 +41,12 @@ def arrange(
             *_plots(learners[:1], watched, published),
             row_shares=[12, 8, 8],
         ),
-        _scene(ARM, learners[0], workspace, eye),
+        _scene(ARM, learners[0], sight),
         column_shares=[3, 5],
         name="the arm before and after",
     )
     beside = rrb.Vertical(
-        rrb.Horizontal(*(_scene(label_of(name), name, workspace, eye) for name in learners)),
+        rrb.Horizontal(*(_scene(label_of(name), name, sight) for name in learners)),
         rrb.Horizontal(
             rrb.TextDocumentView(origin="beside", name="what one sees"),
             *_plots(learners, watched, published),
@@ -57,39 +57,27 @@ def arrange(
     several = len(learners) > 1
     return rrb.Blueprint(
         rrb.Tabs(*([arm, beside] if several else [arm]), active_tab=int(several and side_by_side)),
-        rrb.TimePanel(state="collapsed", timeline="time", play_state="playing", loop_mode="all"),
+        rrb.TimePanel(
+            state="collapsed",
+            timeline=CLOCK,
+            fps=FRAMES_A_SECOND,
+            play_state="playing",
+            loop_mode="all",
+        ),
         rrb.BlueprintPanel(state="hidden"),
         rrb.SelectionPanel(state="hidden"),
     )
 
 
-def seen_from(workspace: Workspace, misses: np.ndarray) -> np.ndarray:
-    """Unit vector (3,) towards the eye: before the arm, on the side where misses look longest.
-
-    Args:
-        misses: (n, 3) m.
-    """
-    ahead = np.array([*workspace.centre[:2, 3], 0]) / np.hypot(*workspace.centre[:2, 3])
-    up = np.array([0, 0, 1])
-    aside = np.cross(ahead, up)
-    eyes = [0.95 * ahead + side * 1.2 * aside + 0.5 * up for side in (1, -1)]
-    eyes = [eye / np.linalg.norm(eye) for eye in eyes]
-    return max(eyes, key=lambda eye: np.linalg.norm(np.cross(misses, eye), axis=-1).sum())
-
-
-def _scene(name: str, learner: str, workspace: Workspace, eye: np.ndarray) -> rrb.Spatial3DView:
-    """A view of a learner's arm, from this direction (3,)."""
-    centre = workspace.centre[:3, 3]
-    far, up = np.linalg.norm(centre), np.array([0, 0, 1])
-    # on the arm's side of the workspace, to have all of the arm in view
-    target = 0.68 * centre + 0.12 * far * up
+def _scene(name: str, learner: str, sight: Sight) -> rrb.Spatial3DView:
+    """A view of a learner's arm."""
     return rrb.Spatial3DView(
         origin="/",
         contents=["/workspace/**", "/desired/**", f"/{learner}/**"],
         name=name,
         background=BACKGROUND,
         eye_controls=rrb.EyeControls3D(
-            position=target + 1.6 * far * eye, look_target=target, eye_up=up
+            position=sight.eye, look_target=sight.target, eye_up=(0, 0, 1)
         ),
     )
 
@@ -97,6 +85,9 @@ def _scene(name: str, learner: str, workspace: Workspace, eye: np.ndarray) -> rr
 def _plots(
     learners: Sequence[str], watched: Mapping[str, Watched], published: Mapping[str, float]
 ) -> Iterable[rrb.TimeSeriesView]:
+    learned = max(its.history.iterations[-1] for its in watched.values())
+    bounds = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, learned))
+    iterations = rrb.TimeAxis(view_range=rr.TimeRange(*bounds))
     for quantity, title in TITLES.items():
         errors = [watched[learner].history.columns()[quantity].max() for learner in learners]
         top = _end(max(*errors, published.get(quantity, 0), LEAST))
@@ -104,6 +95,7 @@ def _plots(
             origin=f"errors/{quantity}",
             contents=[f"$origin/{series}" for series in (PUBLISHED, *learners)],
             name=title,
+            axis_x=iterations,
             axis_y=rrb.ScalarAxis(range=(-0.02 * top, top)),
             plot_legend=rrb.Corner2D.RightTop,
         )

@@ -53,16 +53,30 @@ def _rendered(name: str, said: Mapping[str, Any]) -> str:
 
 def _told(watched: Watched) -> dict[str, Any]:
     """What is said of a learner."""
+    errors, history = _errors(watched), watched.history
+    return {
+        "iterations": history.iterations[-1],
+        "moves": history.moves[-1],
+        "map": watched.cells,
+        "before": errors[0],
+        "after": errors[-1],
+    }
+
+
+def _errors(watched: Watched) -> list[str]:
+    """Mean errors over all test poses at each measurement, in words."""
     position, orientation = (watched.history.columns()[error] for error in ERRORS)
-    before, after = (f"{position[row]:.2f} cm and {orientation[row]:.2f}°" for row in (0, -1))
-    moves = watched.history.moves[-1]
-    return {"moves": moves, "map": watched.cells, "before": before, "after": after}
+    pairs = zip(position, orientation, strict=True)
+    return [f"{centimetres:.2f} cm and {degrees:.2f}°" for centimetres, degrees in pairs]
 
 
-def when(resolved: Resolved) -> tuple[str, str]:
-    """What the captions call the first and the third phase."""
+def progress(resolved: Resolved, watched: Watched) -> list[str]:
+    """The caption at each measurement: the first and the last one stand while poses are visited."""
     what = "recalibration" if damages_among(resolved.damages) else "learning"
-    return f"before {what}", f"after {what}"
+    when = [f"after {done} iterations" for done in watched.history.iterations]
+    when[0], when[-1] = f"before {what}", f"after {what}"
+    pairs = zip(when, _errors(watched), strict=True)
+    return [f"{words}: mean errors {errors}" for words, errors in pairs]
 
 
 def in_words(entry: Entry) -> str:

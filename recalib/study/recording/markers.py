@@ -1,7 +1,7 @@
 """What is wrong with an arm, marked where it is: which link is short, which joint is off."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
@@ -10,9 +10,7 @@ from recalib.damaged.damage import BaseShift, Damage, LinkShortening, apply
 from recalib.nominal.robots import Robot, link_end
 from recalib.study.configuration.damages import describe
 
-# in units of `scene.unit_of`
-HALF_AXIS = 0.5  # of the axis that is drawn through a joint
-NEAR = 0.6  # places whose words would lie upon one another
+HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
 
 
 @dataclass(frozen=True)
@@ -21,8 +19,8 @@ class Marker:
 
     Attributes:
         link: that has it.
-        words: of it; empty where they stand at another one.
-        at: (3,) m, where they stand.
+        words: for its label.
+        at: (3,) m, where the leader to its label starts.
         axis: (2, 3) m, of the joint that is off; None where it is the link itself.
     """
 
@@ -33,29 +31,29 @@ class Marker:
 
 
 def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker]:
-    """The markers of damages on the arm that has them, those of links first.
+    """The markers of damages on the arm that has them: one for each link and joint.
 
     Args:
         unit: m, by which they are sized.
     """
     moved = {joint: link for link, joint in robot.links.items()}
-    of_links: dict[str, list[str]] = {}
-    of_joints: dict[str, list[str]] = {}
+    of_links: dict[str, list[Damage]] = {}
+    of_joints: dict[str, list[Damage]] = {}
     for damage in damages:
         if isinstance(damage, LinkShortening):
-            of_links.setdefault(damage.link, []).append(words(damage))
+            of_links.setdefault(damage.link, []).append(damage)
         elif not isinstance(damage, BaseShift):
-            link = moved[1 + robot.joints.index(damage.joint)]
-            of_joints.setdefault(link, []).append(words(damage))
-    found = [_of_link(robot, link, "\n".join(lines)) for link, lines in of_links.items()]
-    found += [_of_joint(robot, link, "\n".join(lines), unit) for link, lines in of_joints.items()]
-    return _gathered(robot, found, NEAR * unit)
-
-
-def words(damage: Damage) -> str:
-    """What is wrong, without where: the marker stands there."""
-    (key, _), (_, amount), *_ = describe(damage).items()
-    return f"{amount} short" if isinstance(damage, LinkShortening) else f"{key} {amount}"
+            of_joints.setdefault(damage.joint, []).append(damage)
+    found = []
+    for link, its in of_links.items():
+        end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+        found.append(Marker(link, _words(link, its), end / 2, None))
+    for joint, its in of_joints.items():
+        number = 1 + robot.joints.index(joint)
+        reach = HALF_AXIS * unit * _axis(robot, number)
+        axis = np.stack([-reach, reach])
+        found.append(Marker(moved[number], _words(joint, its), reach, axis))
+    return found
 
 
 def base_shift(robot: Robot, damages: Iterable[Damage]) -> pin.SE3:
@@ -72,41 +70,19 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     return flat @ placement.rotation.T + placement.translation
 
 
-def _gathered(robot: Robot, found: list[Marker], radius: float) -> list[Marker]:
-    """The markers; of those within a radius [m] of one another, the last has all words."""
-    data = robot.arm.model.createData()
-    pin.forwardKinematics(robot.arm.model, data, robot.home)
-    places = [data.oMi[robot.links[marker.link]].act(marker.at) for marker in found]
-    groups: list[list[int]] = []
-    for number, place in enumerate(places):
-        for group in groups:
-            if np.linalg.norm(place - places[group[-1]]) < radius:
-                group.append(number)
-                break
-        else:
-            groups.append([number])
-    gathered = [replace(marker, words="") for marker in found]
-    for group in groups:
-        lines = found[group[-1]].words
-        if len(group) > 1:
-            lines = "\n".join(line for number in group for line in _named(found[number]))
-        gathered[group[-1]] = replace(found[group[-1]], words=lines)
-    return gathered
+def _words(name: str, damages: Sequence[Damage]) -> str:
+    """What is wrong with a link or joint of this name."""
+    short = name.removesuffix("_link").removesuffix("_joint").replace("_", " ")
+    return f"{short}: {', '.join(map(_amount, damages))}"
 
 
-def _named(marker: Marker) -> list[str]:
-    """Its words, each with its link."""
-    link = marker.link.removesuffix("_link").replace("_", " ")
-    return [f"{link}: {line}" for line in marker.words.splitlines()]
+def _amount(damage: Damage) -> str:
+    (key, _), (_, amount), *_ = describe(damage).items()
+    return f"{amount} short" if isinstance(damage, LinkShortening) else f"{key} {amount}"
 
 
-def _of_link(robot: Robot, link: str, text: str) -> Marker:
-    end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
-    return Marker(link, text, end / 2, None)
-
-
-def _of_joint(robot: Robot, link: str, text: str, unit: float) -> Marker:
-    model, joint = robot.arm.model, robot.links[link]
+def _axis(robot: Robot, joint: int) -> np.ndarray:
+    """Unit vector (3,) of a joint's axis in its frame."""
+    model = robot.arm.model
     jacobian = pin.computeJointJacobian(model, model.createData(), robot.home, joint)
-    reach = HALF_AXIS * unit * jacobian[3:, joint - 1]
-    return Marker(link, text, reach, np.stack([-reach, reach]))
+    return jacobian[3:, joint - 1]

@@ -6,7 +6,7 @@ import numpy as np
 import rerun as rr
 
 from recalib.study.inference.measured import ERRORS, UNITS
-from recalib.study.recording.colours import BELIEVED, DIM, GREY, LIT, MEASURED, of_misses
+from recalib.study.recording.colours import BELIEVED, GREY, MEASURED, MISSED
 from recalib.study.recording.scene import AXIS, Scene, axes_of, unit_of
 from recalib.study.recording.watched import Cells, Watched
 
@@ -28,35 +28,41 @@ def send_published(scene: Scene, published: Mapping[str, float]) -> None:
     for quantity, unit in zip(ERRORS, UNITS, strict=True):
         if quantity in published:
             name = f"the paper, before: {published[quantity]} {unit}"
-            level = np.full(len(scene.motion.moves), published[quantity])
+            level = np.full(len(scene.motion.iterations), published[quantity])
             style = rr.SeriesLines(names=name, colors=GREY, widths=1)
             _plot(scene, f"errors/{quantity}/{PUBLISHED}", level, style)
 
 
 def _plot(scene: Scene, entity: str, values: np.ndarray, style: rr.SeriesLines) -> None:
-    clock, rows = scene.motion.throughout()
+    clock, rows = scene.motion.measurements()
     scene.rec.send_columns(entity, clock, rr.Scalars.columns(scalars=values[rows]))
     scene.rec.log(entity, style, static=True)
 
 
 def send_landings(scene: Scene) -> None:
-    """Achieved frames, and the misses as lines in a colour that tells their length."""
+    """Achieved frames and misses, as lines: the thinner, the nearer they are to what is desired."""
     watched, unit = scene.watched, unit_of(scene.workspace)
-    _, rows = scene.motion.throughout()
+    _, rows = scene.motion.measurements()
     achieved, poses = watched.achieved[rows], len(watched.desired)
-    starts = np.broadcast_to(watched.desired[:, :3, 3], achieved[..., :3, 3].shape)
-    misses = np.stack([starts, achieved[..., :3, 3]], axis=-2).reshape(-1, 2, 3)
-    axes = axes_of(achieved.reshape(-1, 4, 4), AXIS * unit)
-    colours = of_misses(watched.misses[rows].ravel())
-    lines = rr.LineStrips3D.columns(strips=axes, colors=np.repeat(colours, 3, axis=0))
-    scene.show("achieved", lines, 3 * poses, rr.LineStrips3D.from_fields(radii=0.014 * unit))
-    lines = rr.LineStrips3D.columns(strips=misses, colors=colours)
-    scene.show("miss", lines, poses, rr.LineStrips3D.from_fields(radii=0.03 * unit))
+    desired = np.broadcast_to(watched.desired, achieved.shape)
+    reached, meant = (
+        axes_of(frames.reshape(-1, 4, 4), AXIS * unit) for frames in (achieved, desired)
+    )
+    misses = np.stack([meant[::3, 0], reached[::3, 0]], axis=1)  # from origin to origin
+    tips = np.stack([meant[:, 1], reached[:, 1]], axis=1)
+    for part, strips, apart, widest in (
+        ("achieved", reached, tips, 0.01 * unit),
+        ("miss", misses, misses, 0.03 * unit),
+    ):
+        far = np.linalg.norm(apart[:, 1] - apart[:, 0], axis=-1)
+        lines = rr.LineStrips3D.columns(strips=strips, radii=np.minimum(far / 4, widest))
+        each = poses * len(strips) // len(misses)
+        scene.show(part, lines, each, rr.LineStrips3D.from_fields(colors=MISSED))
 
 
 def send_scatter(scene: Scene) -> None:
     """Lines from where the arm lands to what was measured there: noise, outliers, repeatability."""
-    watched, (_, rows) = scene.watched, scene.motion.throughout()
+    watched, (_, rows) = scene.watched, scene.motion.measurements()
     poses, repeated, _ = watched.scatter.shape
     landed = np.repeat(watched.achieved[rows, :, None, :3, 3], repeated, axis=2)
     ends = landed + enlarged(watched) * watched.scatter
@@ -74,15 +80,14 @@ def enlarged(watched: Watched) -> int:
 
 
 def send_map(scene: Scene, cells: Cells) -> None:
-    """The supernet's cells, brighter and larger the more they learned last.
+    """The supernet's cells, larger the more they learned last.
 
     Their corrections are true to scale.
     """
-    unit, (_, rows) = unit_of(scene.workspace), scene.motion.throughout()
-    weights = cells.weights[rows].ravel()
-    light = (DIM + weights[:, None] * (LIT - DIM)).astype(np.uint8)
-    points = rr.Points3D.columns(radii=(0.022 + 0.038 * weights) * unit, colors=light)
-    scene.show("map/cells", points, len(cells.centres), rr.Points3D(cells.centres))
+    unit, (_, rows) = unit_of(scene.workspace), scene.motion.measurements()
+    points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
+    style = rr.Points3D(cells.centres, colors=BELIEVED)
+    scene.show("map/cells", points, len(cells.centres), style)
     arrows = rr.Arrows3D.columns(vectors=cells.corrections[rows].reshape(-1, 3))
     style = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=BELIEVED)
     scene.show("map/corrections", arrows, len(cells.centres), style)

@@ -6,13 +6,13 @@ import numpy as np
 import rerun as rr
 
 ARM = "the arm"  # the view of the first learner's
-FRAMES_A_SECOND = 25
+# Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
+CLOCK = "iterations"
+FRAMES_A_SECOND = 30
 POSES = 12  # that the arm visits
-VISITS = 19.2  # seconds in which it visits them: half of them it moves, half of them it rests there
-LEARNING = 10.0  # seconds in which the longest training is shown
-END = 2 * VISITS + LEARNING
-BEFORE = VISITS - 0.4  # seconds: the arm rests at the last pose, not yet recalibrated
-AFTER = BEFORE + LEARNING + VISITS  # the same, recalibrated
+VISIT = 50  # frames of the visit of a pose: half of them it moves, half of them it rests there
+VISITS = POSES * VISIT  # in hundreds: the viewer's ticks count from the first frame
+BEFORE = 0  # the frame in which the arm rests at the last pose, not yet recalibrated
 
 Clock = list[rr.TimeColumn]
 
@@ -21,63 +21,55 @@ Clock = list[rr.TimeColumn]
 class Motion:
     """An arm visits the shown poses, waits at the last of them while it learns, and visits again.
 
+    Frames are numbered so that those of the second phase are the iterations done until then: those
+    of the first phase are negative.
+
     Attributes:
-        times: (frame,) seconds from the start, in the first and the third phase.
+        frames: (frame,) those of all phases.
         angles: (frame, joint) rad that the controller believes in.
-        departures, arrivals: (2, pose) seconds at which a move to a pose starts and ends, in the
-            first and the third phase.
-        learning: (measurement,) seconds of the second phase at which the measurements are shown.
-        moves: (measurement,) of the robot until each of them.
+        departures: (2, pose) frames in which a move to a pose starts, in the first and the third
+            phase.
+        iterations: (measurement,) done until the measurements.
     """
 
-    times: np.ndarray
+    frames: np.ndarray
     angles: np.ndarray
     departures: np.ndarray
-    arrivals: np.ndarray
-    learning: np.ndarray
-    moves: np.ndarray
+    iterations: np.ndarray
 
-    def visits(self) -> Clock:
-        """When the frames of the first and the third phase are shown."""
-        return [rr.TimeColumn("time", duration=self.times)]
+    def clock(self) -> Clock:
+        """When the frames are shown."""
+        return [rr.TimeColumn(CLOCK, sequence=self.frames)]
 
-    def measurements(self) -> Clock:
-        """When the measurements are shown."""
-        moves = rr.TimeColumn("moves", sequence=self.moves)
-        return [moves, rr.TimeColumn("time", duration=self.learning)]
+    def measurements(self) -> tuple[Clock, np.ndarray]:
+        """When the measurements are shown, and which of them then.
 
-    def throughout(self) -> tuple[Clock, np.ndarray]:
-        """When the measurements are shown in all phases, and which of them then.
-
-        The first and the last one stand twice: on `time` they fill the phases of visits, too.
+        The first and the last one stand twice: they fill the phases of visits, too.
         """
-        rows = np.concatenate([[0], np.arange(len(self.learning)), [-1]])
-        seconds = np.concatenate([[0], self.learning, [END]])
-        moves = rr.TimeColumn("moves", sequence=self.moves[rows])
-        return [moves, rr.TimeColumn("time", duration=seconds)], rows
+        rows = np.concatenate([[0], np.arange(len(self.iterations)), [-1]])
+        shown = np.concatenate([self.frames[:1], self.iterations, self.frames[-1:]])
+        return [rr.TimeColumn(CLOCK, sequence=shown)], rows
 
 
-def move(angles: np.ndarray, moves: np.ndarray, home: np.ndarray, most: int) -> Motion:
+def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray, most: int) -> Motion:
     """The motion that shows a training, from the home angles (joint,) [rad].
 
     Args:
         angles: (measurement, pose, joint) rad that the joints are sent to for the shown poses.
-        moves: (measurement,) of the robot until then.
-        most: moves of the longest training that is shown beside it: all share one clock.
+        iterations: (measurement,) done until then.
+        most: iterations of the longest training that is shown beside it: all share one clock.
     """
     before, after = angles[0], angles[-1]
-    visit = VISITS / len(before)
-    starts = np.array([0, VISITS + LEARNING])
-    departures = starts[:, None] + np.arange(len(before)) * visit
-    clock = np.arange(round(visit * FRAMES_A_SECOND)) / FRAMES_A_SECOND
-    done = np.minimum(clock / (visit / 2), 1)
+    starts = np.array([[-VISITS], [most + 1]])
+    visits = starts + np.arange(VISITS)
+    done = np.minimum(np.arange(VISIT) / (VISIT / 2), 1)
     return Motion(
-        times=(departures[:, :, None] + clock).ravel(),
-        angles=np.concatenate([_visits(home, before, done), _visits(after[-1], after, done)]),
-        departures=departures,
-        arrivals=departures + visit / 2,
-        learning=VISITS + LEARNING * moves / max(most, 1),
-        moves=moves,
+        frames=np.concatenate([visits[0], iterations, visits[1]]),
+        angles=np.concatenate(
+            [_visits(home, before, done), angles[:, -1], _visits(after[-1], after, done)]
+        ),
+        departures=starts + VISIT * np.arange(POSES),
+        iterations=iterations,
     )
 
 

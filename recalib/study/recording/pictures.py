@@ -8,11 +8,12 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
+from rerun.chunk import RrdReader
 from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from recalib.study.recording.phases import AFTER, ARM, BEFORE, LEARNING, VISITS
+from recalib.study.recording.phases import ARM, BEFORE, CLOCK, VISIT, VISITS
 from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
 WINDOW = 1400, 800  # pixels
@@ -20,7 +21,8 @@ TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the r
 REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
 
 FILM = 1160, 600  # pixels of the window, of which the arm has five eighths
-SHOWN = 6.4  # seconds at the end of each visit of the poses: the last ones
+SHOWN = 4 * VISIT  # frames at the end of each phase of visits
+STEP = 8  # frames of a visit from one picture to the next
 FRAME, LAST = 100, 2000  # milliseconds
 
 
@@ -30,20 +32,20 @@ class ViewerUnavailable(RecalibError):
 
 def before_and_after(recording: Path, before: Path, after: Path) -> None:
     """Pictures of the arm before and after its recalibration; see `take_pictures`."""
-    take_pictures(recording, {before: BEFORE, after: AFTER})
+    take_pictures(recording, {before: BEFORE, after: last_frame(recording)})
 
 
 def take_pictures(
     recording: Path,
-    pictures: Mapping[Path, float],
+    pictures: Mapping[Path, int],
     view: str | None = None,
     window: tuple[int, int] = WINDOW,
 ) -> None:
-    """Write what the viewer shows of a recording, one PNG for each second of its timeline `time`.
+    """Write what the viewer shows of a recording, one PNG for each frame.
 
     Args:
         recording: the file.
-        pictures: the second that each shows.
+        pictures: the frame that each shows.
         view: name of the one that is shown, such as `phases.ARM`; all that the window shows
             unless given. In a smaller window, words are larger beside the rest.
         window: its size in pixels.
@@ -54,10 +56,10 @@ def take_pictures(
     with _client(window) as client:
         _load(client, recording)
         for repaint in range(REPAINTS):
-            _show(client, repaint / 100)
+            _show(client, -repaint)
         views = {shown.name: shown.view_id for shown in client.get_state().views}
-        for png, seconds in pictures.items():
-            _show(client, seconds)
+        for png, frame in pictures.items():
+            _show(client, frame)
             with whole(png) as temporary:
                 client.save_screenshot(str(temporary.resolve()), views[view] if view else None)
                 _shrink(temporary, 0 if view else TOP_BAR)
@@ -66,16 +68,17 @@ def take_pictures(
 def take_film(recording: Path, film: Path) -> None:
     """Write an animated WebP of what the viewer shows of the arm.
 
-    It shows both visits of the poses, and learning five times as fast as the recording does.
+    It shows the ends of both phases of visits, and learning in as many steps as one of them.
     Needs and raises what `take_pictures` does.
     """
-    visits = np.arange(VISITS - SHOWN, VISITS, 0.2)
-    learning = VISITS + np.arange(0, LEARNING, 0.5)
-    seconds = np.concatenate([visits, learning, visits + VISITS + LEARNING])
+    last = last_frame(recording)
+    visits = np.arange(-SHOWN, 0, STEP)
+    learning = np.linspace(0, last - VISITS, len(visits), dtype=int)
+    frames = np.concatenate([visits, learning, last + 1 + visits])
     with tempfile.TemporaryDirectory() as folder:
-        times = {Path(folder, f"{number}.png"): second for number, second in enumerate(seconds)}
-        take_pictures(recording, times, view=ARM, window=FILM)
-        first, *others = [Image.open(png).convert("RGB") for png in times]
+        shown = {Path(folder, f"{number}.png"): int(frame) for number, frame in enumerate(frames)}
+        take_pictures(recording, shown, view=ARM, window=FILM)
+        first, *others = [Image.open(png).convert("RGB") for png in shown]
     with whole(film) as temporary:
         first.save(
             temporary,
@@ -86,6 +89,13 @@ def take_film(recording: Path, film: Path) -> None:
             loop=0,
             quality=75,
         )
+
+
+def last_frame(recording: Path) -> int:
+    """The number of the last frame: the arm rests at the last pose, recalibrated."""
+    chunks = RrdReader(recording).store().stream().to_chunks()
+    batches = [chunk.to_record_batch() for chunk in chunks]
+    return max(max(its[CLOCK].to_pylist()) for its in batches if CLOCK in its.schema.names)
 
 
 @contextmanager
@@ -122,8 +132,8 @@ def _load(client: ViewerClient, recording: Path) -> None:
         time.sleep(0.1)
 
 
-def _show(client: ViewerClient, seconds: float) -> None:
-    client.set_time("time", duration=seconds, play_state="paused")
+def _show(client: ViewerClient, frame: int) -> None:
+    client.set_time(CLOCK, sequence=frame, play_state="paused")
     time.sleep(0.05)
 
 

@@ -6,7 +6,7 @@
     /<learner>/links               where its links are
     /<learner>/believed            the arm that its controller believes in, as a skeleton
     /<learner>/wrong               where the arm is not what its controller believes
-    /<learner>/target              the pose that the arm is sent to, and how far off it ends up
+    /<learner>/target              the pose that the arm is sent to, and a caption
     /<learner>/achieved            where the real arm lands
     /<learner>/miss                lines to there from the desired positions
     /<learner>/measured            what is measured there, where that is disturbed
@@ -15,11 +15,10 @@
     /errors/<quantity>/<learner>   mean errors over all test poses
     /errors/<quantity>/paper       the published initial error, where it is meant
 
-Timeline `moves` counts the robot's moves while it learns. Timeline `time` runs through the three
-phases of `phases.Motion`; what is measured during learning stands on both.
+Timeline `iterations` runs through the three phases of `phases.Motion`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,9 +26,11 @@ import rerun as rr
 
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.study.recording.colours import GREY, WHITE
-from recalib.study.recording.phases import Clock, Motion
+from recalib.study.recording.phases import CLOCK, Clock, Motion
+from recalib.study.recording.sight import Sight
 from recalib.study.recording.watched import Watched
 
+TOP = 0.98  # of a picture whose half is 1 high: where the caption stands
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
 
 
@@ -43,6 +44,7 @@ class Scene:
         workspace: of the robot.
         watched: the training.
         motion: of the arm that shows it.
+        sight: in which words stand.
     """
 
     rec: rr.RecordingStream
@@ -50,6 +52,7 @@ class Scene:
     workspace: Workspace
     watched: Watched
     motion: Motion
+    sight: Sight
 
     def log(self, part: str, *what: rr.AsComponents) -> None:
         """Log what stands still."""
@@ -64,7 +67,7 @@ class Scene:
         self, part: str, columns: rr.ComponentColumnList, each: int, style: rr.AsComponents
     ) -> None:
         """Send columns at all measurements, with so many rows at each, and what stands still."""
-        self.send(part, self.motion.throughout()[0], columns, each)
+        self.send(part, self.motion.measurements()[0], columns, each)
         self.log(part, style)
 
 
@@ -89,39 +92,22 @@ def log_surroundings(
         fill_mode=rr.components.FillMode.MajorWireframe,
     )
     rec.log("workspace", box, static=True)
-    axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.0075 * unit)
+    axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.013 * unit)
     rec.log("desired", axes, static=True)
 
 
-def send_target(scene: Scene, before: str, after: str) -> None:
-    """The pose that the arm is sent to, and above the workspace words for how far off it is.
-
-    Args:
-        before, after: words for the first and the third phase.
-    """
-    workspace, watched, motion = scene.workspace, scene.watched, scene.motion
-    above = workspace.centre[:3, 3] + [0, 0, 1.4 * workspace.half_ranges[2]]
-    scene.log("target/caption", rr.Points3D([above], radii=0, colors=WHITE))
-    dot = rr.Points3D.from_fields(radii=0.052 * unit_of(workspace), colors=WHITE)
+def send_target(scene: Scene, captions: Sequence[str]) -> None:
+    """The pose that the arm is sent to, and above all a caption for each measurement."""
+    motion = scene.motion
+    clock, rows = motion.measurements()
+    top = scene.sight.place(0, TOP)
+    scene.log("target/caption", rr.Points3D([top], radii=0, colors=WHITE))
+    scene.send("target/caption", clock, rr.Points3D.columns(labels=[captions[row] for row in rows]))
+    dot = rr.Points3D.from_fields(radii=0.052 * unit_of(scene.workspace), colors=WHITE)
     scene.log("target/pose", dot)
-    poses = len(watched.desired)
-    seconds, visited, captions = [], [], []
-    for phase, (row, words) in enumerate(((0, before), (-1, after))):
-        for pose in range(poses):
-            seconds += [motion.departures[phase, pose], motion.arrivals[phase, pose]]
-            visited += [pose, pose]
-            captions += [words, f"{words}: {_off(watched, row, pose)}"]
-    last = poses - 1  # where it waits while it learns
-    progress = [
-        f"after {done} moves: {_off(watched, row, last)}" for row, done in enumerate(motion.moves)
-    ]
-    for clock, where, words in (
-        ([rr.TimeColumn("time", duration=seconds)], visited, captions),
-        (motion.measurements(), [last] * len(progress), progress),
-    ):
-        scene.send("target/caption", clock, rr.Points3D.columns(labels=words))
-        there = rr.Points3D.columns(positions=watched.desired[where, :3, 3])
-        scene.send("target/pose", clock, there)
+    visited = np.tile(scene.watched.desired[:, :3, 3], (2, 1))
+    departures = [rr.TimeColumn(CLOCK, sequence=motion.departures.ravel())]
+    scene.send("target/pose", departures, rr.Points3D.columns(positions=visited))
 
 
 def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
@@ -129,9 +115,3 @@ def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
     origins = np.repeat(poses[:, None, :3, 3], 3, axis=1)
     tips = origins + length * np.swapaxes(poses[:, :3, :3], 1, 2)
     return np.stack([origins, tips], axis=2).reshape(-1, 2, 3)
-
-
-def _off(watched: Watched, measurement: int, pose: int) -> str:
-    centimetres = 100 * watched.misses[measurement, pose]
-    degrees = np.degrees(watched.tilts[measurement, pose])
-    return f"{centimetres:.1f} cm and {degrees:.1f}° off"

@@ -10,7 +10,7 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.loop.interfaces import Learner
 from recalib.loop.training import History
 from recalib.nominal.controller import Controller
-from recalib.nominal.poses import POSITION, orientation_error, position_error
+from recalib.nominal.poses import POSITION
 from recalib.study.experiments.poses import ResultPoses, train_for_results
 from recalib.study.recording.phases import POSES
 
@@ -43,7 +43,6 @@ class Watched:
         desired: (pose, 4, 4) those of the test poses that are shown.
         achieved: (measurement, pose, 4, 4) where the real arm lands instead.
         angles: (measurement, pose, joint) rad, what the controller commands the joints for them.
-        misses, tilts: (measurement, pose) position errors in m and orientation errors in rad.
         scatter: (pose, repetition, 3) m by which measurements miss where the trained arm lands
             undisturbed.
         cells: those of the map; None for a learner that has none.
@@ -53,8 +52,6 @@ class Watched:
     desired: np.ndarray
     achieved: np.ndarray
     angles: np.ndarray
-    misses: np.ndarray
-    tilts: np.ndarray
     scatter: np.ndarray
     cells: Cells | None
 
@@ -112,8 +109,6 @@ def watch(
         desired=goals,
         achieved=achieved,
         angles=angles.reshape(len(commands), len(shown), -1),
-        misses=position_error(achieved, goals),
-        tilts=orientation_error(achieved, np.broadcast_to(goals, achieved.shape)),
         scatter=(measured - achieved[-1][:, None])[..., :3, 3],
         cells=cells,
     )

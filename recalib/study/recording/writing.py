@@ -34,6 +34,7 @@ from recalib.study.recording.measurements import (
 )
 from recalib.study.recording.phases import move
 from recalib.study.recording.scene import Scene, log_surroundings, send_target
+from recalib.study.recording.sight import Sight, sight_of
 from recalib.study.recording.watched import Watched, watch
 from recalib.study.scenarios.plants import Resolved
 
@@ -110,15 +111,17 @@ def write_recording(
         watched[name] = watch(controller, plant, learner, poses, measure_at)
         if name in measured:
             _compare(path, name, watched[name].history.columns(), measured[name])
-    workspace = controller.robot.workspace
+    main = next(iter(watched.values()))
+    misses = (main.achieved[0] - main.desired)[:, :3, 3]
+    sight = sight_of(controller.robot.workspace, misses)
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
         # without the properties that Rerun would add by itself: one is the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
         side_by_side = not all(job.learners.values())
-        blueprint = arrange(watched, workspace, job.published, side_by_side)
+        blueprint = arrange(watched, sight, job.published, side_by_side)
         rec.save(temporary, default_blueprint=blueprint)
-        _fill(rec, path.stem, job, resolved, watched)
+        _fill(rec, path.stem, job, resolved, watched, sight)
         rec.disconnect()
         check_end(temporary)
     return watched
@@ -146,23 +149,24 @@ def _fill(
     job: Recording,
     resolved: Resolved,
     watched: Mapping[str, Watched],
+    sight: Sight,
 ) -> None:
     robot, damages = resolved.controller().robot, damages_among(resolved.damages)
     main, most = (
         next(iter(watched.values())),
-        max(its.history.moves[-1] for its in watched.values()),
+        max(its.history.iterations[-1] for its in watched.values()),
     )
     texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
     rec.send_recording_name(title)
     rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))
     log_surroundings(rec, robot.workspace, main.desired, texts)
     for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
-        motion = move(its.angles, its.history.moves, robot.home, most)
-        scene = Scene(rec, name, robot.workspace, its, motion)
+        motion = move(its.angles, its.history.iterations, robot.home, most)
+        scene = Scene(rec, name, robot.workspace, its, motion, sight)
         if its is main:
             send_published(scene, job.published)
         send_arms(scene, robot, damages)
-        send_target(scene, *captions.when(resolved))
+        send_target(scene, captions.progress(resolved, its))
         send_errors(scene, colour)
         send_landings(scene)
         if disturbances_among(resolved.damages):

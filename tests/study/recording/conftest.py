@@ -14,6 +14,7 @@ from recalib.learners.schedules import Schedule
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plan.recordings import Recording
 from recalib.study.plan.trainings import Measuring
+from recalib.study.recording.phases import CLOCK
 from recalib.study.recording.writing import write_recording
 from recalib.study.scenarios.plants import resolve
 from tests.conftest import changed
@@ -96,22 +97,18 @@ def recording(tmp_path_factory, job, resolved, results):
 
 @pytest.fixture(scope="session")
 def columns(recording):
-    """A function that returns a column of an entity: its times or None, and its values.
-
-    It is over one timeline, or static.
-    """
+    """A function that returns a column of an entity: its times, None if static, and its values."""
     batches = [
         (chunk.entity_path, chunk.to_record_batch())
         for chunk in RrdReader(recording[0]).store().stream().to_chunks()
     ]
 
-    def column(entity, component, timeline=None):
+    def column(entity, component):
         for path, batch in batches:
-            names = {*batch.schema.names}
-            found = timeline in names if timeline else not {"time", "moves"} & names
-            if path == entity and component in names and found:
-                times = batch.column(timeline).to_pylist() if timeline else None
+            names = batch.schema.names
+            if path == entity and component in names:
+                times = batch.column(CLOCK).to_pylist() if CLOCK in names else None
                 return times, batch.column(component).to_pylist()
-        raise KeyError((entity, component, timeline))
+        raise KeyError((entity, component))
 
     return column

@@ -11,7 +11,7 @@ from recalib.study.plan.recordings import Recording
 from recalib.study.recording import captions
 from recalib.study.recording.phases import POSES
 from recalib.study.recording.watched import REPEATED
-from tests.study.recording.conftest import DAMAGES, ITERATIONS
+from tests.study.recording.conftest import ITERATIONS
 
 
 def test_it_keeps_its_job_its_damage_and_what_made_it(job, columns):
@@ -31,12 +31,15 @@ def test_its_texts_name_the_robot_what_is_wrong_with_it_and_the_learners(columns
         "translate 1 cm, 0 m, -2 cm",
         "noise position 0.2 mm, orientation 0.0003 rad",
         f"visits {POSES} poses (white axes) and misses them",
-        f"learns for {2 * ITERATIONS} moves, and",
+        f"learns for {ITERATIONS} iterations ({2 * ITERATIONS} moves), and",
         f"how far {REPEATED} measurements of each pose are off, 100 times enlarged",
     ):
         assert words in texts[0][0]
     _, texts = columns("/beside", "TextDocument:text")
-    assert "under 2 learners" in texts[0][0] and "**Ritter**, a map: 80 moves" in texts[0][0]
+    assert (
+        "under 2 learners" in texts[0][0]
+        and "**Ritter**, a map: 40 iterations (80 moves)" in texts[0][0]
+    )
 
 
 @pytest.mark.parametrize("damages", [(), (Noise(0.0002, 0.0003),)], ids=["intact", "noise alone"])
@@ -45,9 +48,22 @@ def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(resolved, reco
     panel = captions.about(its, {"improved": learned})
     assert "Nothing is wrong" in panel and "damage" not in panel and "miss" not in panel
     assert "although there is nothing to correct" in panel and ("noise" in panel) == bool(damages)
-    assert captions.when(its) == ("before learning", "after learning")
-    assert captions.when(resolved(DAMAGES)) == ("before recalibration", "after recalibration")
+    first, *_, last = captions.progress(its, learned)
+    assert first.startswith("before learning: ") and last.startswith("after learning: ")
     history = learned.history
     nothing = replace(history, position=0 * history.position, orientation=0 * history.orientation)
     panel = captions.about(its, {"improved": replace(learned, history=nothing)})
     assert "that there is nothing to correct" in panel and "stay below 0.001 cm and 0.001°" in panel
+
+
+def test_every_caption_has_the_mean_errors_of_the_panel(columns):
+    iterations, ((first,), *learning, (last,)) = columns(
+        "/improved/target/caption", "Points3D:labels"
+    )
+    _, ((text,),) = columns("/about", "TextDocument:text")
+    before, after = (caption.partition(": mean errors ") for caption in (first, last))
+    assert before[0] == "before recalibration" and after[0] == "after recalibration"
+    assert f"are {before[2]} before, {after[2]} after" in text
+    assert learning[0] == [first] and learning[-1] == [last]
+    for done, (caption,) in list(zip(iterations[1:-1], learning, strict=True))[1:-1]:
+        assert caption.startswith(f"after {done} iterations: mean errors ")

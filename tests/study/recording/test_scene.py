@@ -1,35 +1,39 @@
 """What a recording shows is what was measured, where it was."""
 
+from itertools import combinations, product
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import EncoderShift, apply
 from recalib.damaged.plant import Plant
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
+from recalib.nominal.poses import position_error
 from recalib.study.experiments.poses import Stream
 from recalib.study.inference.measured import ERRORS
 from recalib.study.recording import colours, markers, measurements, scene
-from recalib.study.recording.blueprint import seen_from
-from recalib.study.recording.phases import AFTER, BEFORE, END, FRAMES_A_SECOND, POSES, move
+from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, VISITS, move
+from recalib.study.recording.sight import sight_of
 from recalib.study.recording.watched import REPEATED, visiting_order, watch
 from tests.arms import panda
-from tests.study.recording.conftest import DAMAGES, ITERATIONS, MEASURE_AT, SEED, poses
+from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, poses
 
 
 def motion_of(training, robot):
-    return move(training.angles, training.history.moves, robot.home, 2 * ITERATIONS)
+    return move(training.angles, training.history.iterations, robot.home, ITERATIONS)
 
 
 def test_errors_are_those_of_the_experiment_beside_the_published_ones(job, columns, results):
     for name, frame in results.items():
         for quantity in ERRORS:
-            moves, values = columns(f"/errors/{quantity}/{name}", "Scalars:scalars", "moves")
-            measured = dict(zip(frame["moves"], frame[quantity], strict=True))
-            assert dict(zip(moves, np.ravel(values), strict=True)) == measured
+            iterations, values = columns(f"/errors/{quantity}/{name}", "Scalars:scalars")
+            assert iterations == [-VISITS, *frame["iteration"], ITERATIONS + VISITS]
+            measured = frame[quantity].iloc[[0, *range(len(frame)), -1]]
+            assert np.ravel(values).tolist() == measured.tolist()
     for quantity, value in job.published.items():
-        _, line = columns(f"/errors/{quantity}/paper", "Scalars:scalars", "moves")
+        _, line = columns(f"/errors/{quantity}/paper", "Scalars:scalars")
         assert np.allclose(np.ravel(line), value)
 
 
@@ -40,10 +44,9 @@ def test_landings_are_where_the_damaged_arm_lands(resolved, controller, recordin
     (landed,), _ = resolved(DAMAGES).plant(controller, SEED, [0]).achieve(shown[None])
     training = recording[1]["improved"]
     assert np.allclose(training.achieved[0], landed) and np.allclose(training.desired, goals)
-    moves, axes = columns("/improved/achieved", "LineStrips3D:strips", "moves")
-    _, misses = columns("/improved/miss", "LineStrips3D:strips", "moves")
+    _, axes = columns("/improved/achieved", "LineStrips3D:strips")
+    _, misses = columns("/improved/miss", "LineStrips3D:strips")
     _, (frames,) = columns("/desired", "LineStrips3D:strips")
-    assert sorted(set(moves)) == [2 * iteration for iteration in MEASURE_AT]
     length = scene.AXIS * scene.unit_of(controller.robot.workspace)
     for drawn, placements in (
         (frames, goals),
@@ -56,29 +59,32 @@ def test_landings_are_where_the_damaged_arm_lands(resolved, controller, recordin
     for row in (0, -1):
         ends = np.stack([goals[:, :3, 3], training.achieved[row, :, :3, 3]], axis=1)
         assert np.allclose(misses[row], ends, atol=1e-6)
-    assert training.misses[-1].mean() < 0.2 * training.misses[0].mean()
+    for part, most in (("miss", 0.03), ("achieved", 0.01)):
+        _, radii = columns(f"/improved/{part}", "LineStrips3D:radii")
+        assert np.max(radii) == pytest.approx(most * scene.unit_of(controller.robot.workspace))
+        assert np.mean(radii[-1]) < 0.5 * np.mean(radii[0]), "what is hit is not in sight"
+    missed = position_error(training.achieved, training.desired).mean(axis=1)
+    assert missed[-1] < 0.2 * missed[0]
 
 
-@pytest.mark.parametrize("timeline", ["time", "moves"])
 @pytest.mark.parametrize("name", ["improved", "ritter"])
 def test_each_arm_ends_where_it_lands_and_its_skeleton_where_it_was_sent(
-    robot, recording, columns, timeline, name
+    robot, recording, columns, name
 ):
     training = recording[1][name]
     tool = robot.arm.model.frames[robot.arm.model.getFrameId("tool0")].placement
     achieved = training.achieved[-1, -1]  # in the last row: at rest at the last pose, trained
-    _, positions = columns(f"/{name}/links/wrist_3_link", "Transform3D:translation", timeline)
-    _, quaternions = columns(f"/{name}/links/wrist_3_link", "Transform3D:quaternion", timeline)
+    _, positions = columns(f"/{name}/links/wrist_3_link", "Transform3D:translation")
+    _, quaternions = columns(f"/{name}/links/wrist_3_link", "Transform3D:quaternion")
     turn = Rotation.from_quat(quaternions[-1][0]).as_matrix()
     assert np.allclose(positions[-1][0] + turn @ tool.translation, achieved[:3, 3], atol=1e-6)
     assert np.allclose(turn @ tool.rotation, achieved[:3, :3], atol=1e-6)
-    _, bones = columns(f"/{name}/believed/bones", "LineStrips3D:strips", timeline)
-    _, joints = columns(f"/{name}/believed/joints", "Points3D:positions", timeline)
+    _, bones = columns(f"/{name}/believed/bones", "LineStrips3D:strips")
+    _, joints = columns(f"/{name}/believed/joints", "Points3D:positions")
     sent = robot.arm.forward(training.angles[-1, -1:])[0, :3, 3]
     assert np.allclose(bones[-1][0][-1], sent, atol=1e-6)
     assert np.allclose(joints[-1], bones[-1][0]) and len(joints[-1]) == 8
-    frames = len(motion_of(training, robot).times if timeline == "time" else MEASURE_AT)
-    assert len(positions) == len(bones) == frames
+    assert len(positions) == len(bones) == len(motion_of(training, robot).frames)
 
 
 def test_every_link_has_its_mesh_and_only_a_short_one_another_colour(robot, columns):
@@ -89,7 +95,7 @@ def test_every_link_has_its_mesh_and_only_a_short_one_another_colour(robot, colu
         entity = f"/improved/ur10/visual_geometries/{link}/visual_0"
         assert len(columns(entity, "Asset3D:blob")[1][0][0]) > 10_000
         if link == "forearm_link":
-            red, green, blue = colours.SHORT
+            red, green, blue = colours.WRONG
             assert columns(entity, tint)[1][0][0] >> 8 == red << 16 | green << 8 | blue
         else:
             with pytest.raises(KeyError):
@@ -97,50 +103,67 @@ def test_every_link_has_its_mesh_and_only_a_short_one_another_colour(robot, colu
 
 
 def test_a_shifted_base_is_drawn_shifted_beside_where_it_is_believed(columns):
-    _, base = columns("/improved/links/base_link", "Transform3D:translation", "time")
+    _, base = columns("/improved/links/base_link", "Transform3D:translation")
     assert np.allclose(base, (0.01, 0.0, -0.02))
     circles = [
         np.reshape(columns(f"/improved/{which}/base", "LineStrips3D:strips")[1][0], (-1, 3))
         for which in ("wrong", "believed")
     ]
     assert np.allclose(circles[0] - circles[1], (0.01, 0.0, -0.02))
-    assert columns("/improved/wrong/base/words", "Points3D:labels")[1] == [["moved 2.2 cm"]]
 
 
-def test_what_is_wrong_is_marked_at_its_link_and_joint(robot, columns):
+def test_what_is_wrong_is_marked_and_labelled_at_its_link_and_joint(robot, recording, columns):
     unit = scene.unit_of(robot.workspace)
-    found = markers.markers(robot, DAMAGES[:-1], unit)
-    assert [(marker.link, marker.words) for marker in found] == [
-        ("forearm_link", "4 cm short"),
-        ("forearm_link", "encoder -4 deg"),
-        ("upper_arm_link", "sag 0.0002 rad/Nm"),
+    found = markers.markers(robot, (*DAMAGES[:-1], EncoderShift("elbow_joint", 0.01)), unit)
+    words = [
+        ("forearm_link", "forearm: 4 cm short"),
+        ("forearm_link", "elbow: encoder -4 deg, encoder 0.01 rad"),
+        ("upper_arm_link", "shoulder lift: sag 0.0002 rad/Nm"),
     ]
+    assert [(marker.link, marker.words) for marker in found] == words
     short, elbow, shoulder = found
     assert short.axis is None and np.linalg.norm(short.at) == pytest.approx(0.5723 / 2, abs=1e-3)
     # the shoulder lifts and the elbow bends about the y axis of their links
     for marker in (elbow, shoulder):
         assert np.allclose(np.diff(marker.axis, axis=0), [0, 2 * markers.HALF_AXIS * unit, 0])
-    for number, marker in enumerate(found):
-        entity = f"/improved/wrong/{number}"
-        assert columns(entity, "Points3D:labels")[1] == [[marker.words]]
-        assert columns(entity, "CoordinateFrame:frame")[1] == [[f"improved/{marker.link}"]]
+    for number, marker in enumerate(found[1:], 1):
+        (frame,) = columns(f"/improved/wrong/{number}/axis", "CoordinateFrame:frame")[1]
+        assert frame == [f"improved/{marker.link}"]
+    labels = [columns(f"/improved/wrong/{label}/label", "Points3D:labels")[1] for label in range(4)]
+    assert labels == [
+        [["forearm: 4 cm short"]],
+        [["elbow: encoder -4 deg"]],
+        [["shoulder lift: sag 0.0002 rad/Nm"]],
+        [["base: 2.2 cm off"]],
+    ]
 
 
-def test_words_that_would_lie_upon_one_another_stand_together(robot):
-    damages = (
-        LinkShortening("forearm_link", 0.01),
-        LinkShortening("wrist_1_link", 0.01),
-        LinkShortening("wrist_2_link", 0.04),
-        EncoderShift("shoulder_pan_joint", np.radians(4)),
-        EncoderShift("wrist_3_joint", np.radians(3)),
-    )
-    found = markers.markers(robot, damages, scene.unit_of(robot.workspace))
-    assert {marker.link: marker.words for marker in found if marker.words} == {
-        "forearm_link": "1 cm short",
-        "shoulder_link": "encoder 4 deg",
-        "wrist_3_link": "wrist 1: 1 cm short\nwrist 2: 4 cm short\nwrist 3: encoder 3 deg",
-    }
-    assert len(found) == len(damages), "each has its colour and its axis"
+def test_leaders_follow_the_arm_to_labels_off_it_off_the_workspace_and_off_one_another(
+    robot, recording, columns
+):
+    training, workspace = recording[1]["improved"], robot.workspace
+    sight = sight_of(workspace, (training.achieved[0] - training.desired)[:, :3, 3])
+    corners = np.array(list(product((-1, 1), repeat=3))) * workspace.half_ranges[:3]
+    where = [workspace.centre[:3, 3] + corners]
+    for link in robot.links:
+        _, positions = columns(f"/improved/links/{link}", "Transform3D:translation")
+        where.append(np.reshape(positions, (-1, 3)))
+    aside, above = in_picture(sight, np.concatenate(where)).T
+    labels = [
+        columns(f"/improved/wrong/{label}/label", "Points3D:positions")[1][0][0]
+        for label in range(4)
+    ]
+    places = in_picture(sight, np.array(labels))
+    for one, other in combinations(places, 2):
+        assert np.abs(one - other).max() > 0.1, "a line of words"
+    for place, label in zip(places, range(4), strict=True):
+        side = np.sign(place[0])
+        assert (np.abs(place) < 0.95).all()
+        near = np.abs(aside - place[0]) < 0.35  # half as wide as words are
+        assert not near.any() or (side * (above[near] - place[1])).min() > 0.05, label
+        _, leaders = columns(f"/improved/wrong/{label}/leader", "LineStrips3D:strips")
+        ends = np.reshape(leaders, (-1, 2, 3))[:, 1]
+        assert (ends == ends[0]).all() and np.linalg.norm(in_picture(sight, ends[0]) - place) < 0.45
 
 
 def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(recording, columns):
@@ -148,7 +171,7 @@ def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(
     assert training.scatter.shape == (POSES, REPEATED, 3)
     assert training.scatter.std() == pytest.approx(0.0002, rel=0.2)  # of 360 numbers
     assert measurements.enlarged(training) == 100
-    _, lines = columns("/improved/measured", "LineStrips3D:strips", "moves")
+    _, lines = columns("/improved/measured", "LineStrips3D:strips")
     starts, ends = np.reshape(lines[-1], (POSES, REPEATED, 2, 3)).swapaxes(0, 2)
     landed = training.achieved[-1, :, :3, 3]
     assert np.allclose(starts, landed, atol=1e-6)
@@ -159,7 +182,7 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
     controller, recording, columns
 ):
     training = recording[1]["improved"]
-    _, arrows = columns("/improved/map/corrections", "Arrows3D:vectors", "moves")
+    _, arrows = columns("/improved/map/corrections", "Arrows3D:vectors")
     assert np.ptp(arrows[0]) == 0
     assert np.allclose(arrows[-1], training.cells.corrections[-1], atol=1e-6)
     misses = (training.achieved[0] - training.desired)[:, :3, 3].mean(axis=0)
@@ -175,17 +198,17 @@ def test_the_map_starts_without_corrections_and_lights_up_at_its_winner(
 def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot, recording):
     training = recording[1]["improved"]
     motion = motion_of(training, robot)
-    frames = len(motion.times) // 2
     for angles, stops in (
-        (motion.angles[:frames], training.angles[0]),
-        (motion.angles[frames:], training.angles[-1]),
+        (motion.angles[:VISITS], training.angles[0]),
+        (motion.angles[-VISITS:], training.angles[-1]),
     ):
         a_second = FRAMES_A_SECOND * np.abs(np.diff(angles, axis=0))
         assert a_second.max() < 2 * np.pi, "never more than one turn a second"
         assert np.allclose(angles.reshape(len(stops), -1, 6)[:, -1], stops)
-    assert (np.diff(motion.times) > 0).all()
-    events = motion.arrivals[0, -1], BEFORE, *motion.learning, motion.arrivals[1, -1], AFTER, END
-    assert (np.diff(events) > 0).all()
+    assert (np.diff(motion.frames) > 0).all()
+    assert (np.diff(motion.departures.ravel()) >= VISIT).all()
+    waiting = motion.frames.tolist().index(BEFORE)
+    assert np.allclose(motion.angles[waiting], training.angles[0, -1])
 
 
 def test_an_arm_of_seven_joints_is_watched_and_moved():
@@ -202,9 +225,25 @@ def test_an_arm_of_seven_joints_is_watched_and_moved():
     assert bones.shape == (1, 9, 3)  # base, seven joints, tool
 
 
+def in_picture(sight, points) -> np.ndarray:
+    """Where in the picture points (..., 3) [m] are: (..., 2) aside and above."""
+    right, up = sight.axes / np.square(sight.axes[0]).sum()
+    ahead = (sight.target - sight.eye) / np.square(sight.target - sight.eye).sum()
+    depth = (points - sight.eye) @ ahead
+    return (points - sight.target) @ np.stack([right, up], axis=1) / depth[..., None]
+
+
 def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
     misses = np.array([(5, -5, 4.3), (5, 5, 4.3)])
-    eyes = [seen_from(robot.workspace, miss[None]) for miss in misses]
+    sights = [sight_of(robot.workspace, miss[None]) for miss in misses]
+    eyes = [sight.eye - sight.target for sight in sights]
     assert eyes[0][1] > 0 > eyes[1][1]
     for miss, eye in zip(misses, eyes, strict=True):
-        assert np.linalg.norm(np.cross(miss, eye)) > 0.9 * np.linalg.norm(miss)
+        assert np.linalg.norm(np.cross(miss, eye)) > 0.9 * np.linalg.norm(miss) * np.linalg.norm(
+            eye
+        )
+    for sight in sights:
+        assert in_picture(sight, np.zeros(3))[0] > 0, "the base is aside"
+        place = [0.3, -0.8]
+        assert np.allclose(in_picture(sight, sight.place(*place)), place)
+        assert np.allclose(sight.seen(sight.place(*place)), place)

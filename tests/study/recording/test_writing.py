@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 
+import numpy as np
 import pandas as pd
 import pytest
 from rerun.chunk import RrdReader
@@ -11,6 +12,7 @@ from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
 from recalib.nominal import meshes
+from recalib.nominal.poses import position_error
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.inference.intervals import typical
@@ -18,7 +20,8 @@ from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plan.competitors import make_peer
 from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.phases import LEARNING, VISITS, move
+from recalib.study.recording.phases import VISITS, move
+from recalib.study.recording.sight import sight_of
 from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
@@ -145,7 +148,8 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
     entities = {chunk.entity_path for chunk in RrdReader(path).store().stream().to_chunks()}
     assert "/errors/position_error_cm/ritter" in entities
     assert "/errors/position_error_cm/paper" not in entities
-    assert len(arrange(watched, robot.workspace, {}, False).root_container.contents) == 1
+    sight = sight_of(robot.workspace, np.ones((1, 3)))
+    assert len(arrange(watched, sight, {}, False).root_container.contents) == 1
 
 
 def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, resolved, tmp_path):
@@ -160,9 +164,12 @@ def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, re
     watched = write_recording(path, job, its, fresh, {}, 0)
     few, many = watched["geometric"], watched["improved"]
     assert list(few.history.moves) == [0, 1, 2, 3, 4, 5] and few.cells is None
-    assert (few.misses[0] == many.misses[0]).all() and (few.desired == many.desired).all()
-    assert few.misses[-1].max() < 1e-4 < many.misses[-1].mean()
-    motion = move(few.angles, few.history.moves, robot.home, many.history.moves[-1])
-    assert motion.learning[-1] == pytest.approx(VISITS + LEARNING * 5 / (2 * ITERATIONS))
-    tabs = arrange(watched, robot.workspace, {}, True).root_container
+    assert (few.achieved[0] == many.achieved[0]).all() and (few.desired == many.desired).all()
+    missed = [position_error(its.achieved[-1], its.desired) for its in (few, many)]
+    assert missed[0].max() < 1e-4 < missed[1].mean()
+    motion = move(few.angles, few.history.iterations, robot.home, many.history.iterations[-1])
+    assert motion.frames[VISITS:-VISITS].tolist() == [0, 1, 2, 3, 4, 5]
+    assert motion.frames[-1] == ITERATIONS + VISITS, "one clock"
+    sight = sight_of(robot.workspace, np.ones((1, 3)))
+    tabs = arrange(watched, sight, {}, True).root_container
     assert len(tabs.contents) == 2 and tabs.active_tab == 1

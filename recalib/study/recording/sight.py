@@ -1,0 +1,53 @@
+"""What the eye sees when a recording opens, and where words stand in its sight."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.nominal.poses import Workspace
+
+HALF = np.tan(np.radians(55 / 2))  # of the viewer's picture is so high, a metre away
+
+
+@dataclass(frozen=True)
+class Sight:
+    """The first sight of an arm and its workspace.
+
+    Attributes:
+        eye: (3,) m, where it is.
+        target: (3,) m, in the middle of the picture.
+        axes: (2, 3) m, half the height of the picture: towards the base, and upwards.
+    """
+
+    eye: np.ndarray
+    target: np.ndarray
+    axes: np.ndarray
+
+    def place(self, aside: float, above: float) -> np.ndarray:
+        """A point (3,) [m] of the plane that faces the eye, by its place in the picture."""
+        return self.target + [aside, above] @ self.axes
+
+    def seen(self, points: np.ndarray) -> np.ndarray:
+        """About where in the picture points (..., 3) [m] are: (..., 2) aside and above."""
+        return (points - self.target) @ self.axes.T / np.square(self.axes[0]).sum()
+
+
+def sight_of(workspace: Workspace, misses: np.ndarray) -> Sight:
+    """From before the arm, on the side where misses look longest.
+
+    Args:
+        misses: (n, 3) m.
+    """
+    centre = workspace.centre[:3, 3]
+    ahead = np.array([*centre[:2], 0]) / np.hypot(*centre[:2])
+    up = np.array([0, 0, 1])
+    eyes = [0.95 * ahead + side * 1.2 * np.cross(ahead, up) + 0.5 * up for side in (1, -1)]
+    eyes = [eye / np.linalg.norm(eye) for eye in eyes]
+    eye = max(eyes, key=lambda eye: np.linalg.norm(np.cross(misses, eye), axis=-1).sum())
+    aside = np.cross(up, eye)
+    axes = np.array([-np.sign(aside @ ahead) * aside, np.cross(eye, aside)])
+    away = 1.6 * np.linalg.norm(centre)
+    # on the arm's side of the workspace, to have all of the arm in view
+    target = 0.68 * centre + 0.075 * away * up
+    half = away * HALF / np.linalg.norm(aside)
+    return Sight(eye=target + away * eye, target=target, axes=half * axes)
