@@ -78,7 +78,7 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(
 
 
 def test_initial_errors_are_means_over_random_poses(plan):
-    damages = (EncoderShift("wrist_2_joint", 0.05), EncoderShift("wrist_3_joint", 0.02))
+    damages = (EncoderShift("elbow_joint", 0.05), EncoderShift("wrist_3_joint", 0.05))
     resolved = resolve("bent", plan.nominal("ur10"), damages, poses=20, seed=1)
     controller = resolved.controller()
     workspace = controller.robot.workspace
