@@ -1,10 +1,12 @@
 """What the drawings of a page are made of."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from recalib.laboratory.drawings import _errors
 from recalib.laboratory.panels import BOTTOM, LEFT, RIGHT, TOP, Axis, Panel, drawing
 
 FIELD = 400, 200
@@ -62,3 +64,9 @@ def test_dots_that_nobody_can_tell_apart_are_one_and_names_are_text():
     assert (
         text.count("<g ") == 3 and f'viewBox="0 0 {2 * its.size[0]:g} {2 * its.size[1]:g}"' in text
     )
+
+
+def test_the_errors_that_are_drawn_are_lengths_of_positions_or_of_turns():
+    result = SimpleNamespace(residuals={"before": np.array([[1.0, 2, 2, 2, 3, 6]])})
+    assert _errors(result, 0, 1e3) == {"before": pytest.approx([3e3])}
+    assert _errors(result, 1, 1.0) == {"before": pytest.approx([7.0])}

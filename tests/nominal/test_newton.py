@@ -3,7 +3,7 @@ import pytest
 
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import TOLERANCE, Chain, _eliminate
-from recalib.nominal.newton import solve_groups
+from recalib.nominal.newton import LONGEST_STEP, solve_groups
 
 # Tools, and postures away from where these arms are singular.
 ARMS = {
@@ -41,6 +41,21 @@ def test_what_an_arm_reaches_is_found_from_nearby(name, solve):
     else:  # hardly farther than where the pose came from
         far, farther = (np.linalg.norm(reached - start, axis=1) for reached in (found, angles))
         assert np.all(far < 1.05 * farther)
+
+
+def test_no_step_is_longer_than_the_longest():
+    """Else Newton's method could leave the branch that it starts on."""
+    tool, posture = ARMS["panda.urdf"]
+    arm, start, seen = load_arm("panda.urdf", tool), np.array([posture]), []
+
+    def look(_, angles):
+        seen.append(angles[0, 0])
+        return [array[None] for array in arm.forward_and_jacobian(angles[0])]
+
+    goal = arm.forward(start + np.array([1.5, 0.3, 0, 0, 0, 0, 0]))
+    solve_groups(look, goal[None], start[None], TOLERANCE, 5)
+    steps = np.abs(np.diff(seen, axis=0)).max(axis=1)
+    assert steps[0] == pytest.approx(LONGEST_STEP) and steps.max() <= LONGEST_STEP + 1e-12
 
 
 def test_a_step_of_a_redundant_arm_is_the_shortest():

@@ -11,7 +11,14 @@ import pytest
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.shipped import REFERENCE
-from recalib.study.evidence.claims import CLAIMS, figure_1, judging, maps, missing
+from recalib.study.evidence.claims import (
+    CLAIMS,
+    expected_learning,
+    figure_1,
+    judging,
+    maps,
+    missing,
+)
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence, Undeclared
@@ -423,3 +430,13 @@ def test_a_system_that_nobody_measures_is_named(claim):
     with pytest.raises(UnknownName, match=f"{claim.id} .*{first}s.*did you mean {first}"):
         mistyped.judge(evidence)
     assert replace(mistyped, across=claim.across).judge(evidence)["verdict"]
+
+
+def test_on_a_face_of_the_workspace_small_widths_alone_see_just_one():
+    widths = [0.1, expected_learning.SMALL, 1.0, 0.1]
+    visits = pd.DataFrame({"width": widths, "distance": [0.0, 0.0, 0.0, 0.9], "error": 0.1})
+    table = visits.assign(ratio=[0.5, 0.7, 0.2, 1.01])
+    evidence = SimpleNamespace(table=lambda _: table)
+    found = expected_learning.measure(evidence, expected_learning.CLAIM.limits)
+    assert "on a face of the workspace, 0.60 of the formula" in found.note
+    assert found.verdict is Verdict.SUPPORTED

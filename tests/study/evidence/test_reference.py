@@ -5,6 +5,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import t
 
 from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.reference import (
@@ -84,6 +85,15 @@ def test_widths_that_do_not_matter_are_not():
     rows = width_order(trials(0.0), np.random.default_rng(1))
     assert min(row["p"] for row in rows) > 0.01
     assert len({row["statement"] for row in rows}) == 2
+
+
+def test_what_one_search_would_find_has_students_prediction_interval():
+    values = np.random.default_rng(1).normal(size=5)
+    (row,) = spread_of_luck(pd.DataFrame({"one": np.exp(values)}), {"name": "one"})
+    half = t.ppf(0.975, 4) * values.std(ddof=1) * np.sqrt(1 + 1 / 5)
+    assert np.log([row["low"], row["high"]]) == pytest.approx(
+        values.mean() + half * np.array([-1, 1])
+    )
 
 
 def test_one_search_alone_would_find_what_replicates_find(reference):
