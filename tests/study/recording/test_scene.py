@@ -1,6 +1,7 @@
 """What a recording shows is what was measured, where it was."""
 
 from itertools import combinations, product
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from recalib.nominal.poses import position_error
 from recalib.study.experiments.poses import Stream
 from recalib.study.inference.measured import ERRORS
 from recalib.study.recording import colours, markers, measurements, scene
+from recalib.study.recording.blueprint import TITLES, _plots
 from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, VISITS, move
 from recalib.study.recording.sight import sight_of
 from recalib.study.recording.watched import REPEATED, visiting_order, watch
@@ -247,3 +249,15 @@ def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
         place = [0.3, -0.8]
         assert np.allclose(in_picture(sight, sight.place(*place)), place)
         assert np.allclose(sight.seen(sight.place(*place)), place)
+
+
+def test_plots_reach_to_the_last_iteration_of_the_longest_training():
+    def trained(iterations):
+        columns = dict.fromkeys(TITLES, np.array([1.0, 0.5]))
+        history = SimpleNamespace(iterations=np.array([0, iterations]), columns=columns.copy)
+        return SimpleNamespace(history=history)
+
+    views = _plots(["long", "short"], {"long": trained(200), "short": trained(50)}, {})
+    for view in views:
+        (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
+        assert [shown["start"], shown["end"]] == [0, 200]

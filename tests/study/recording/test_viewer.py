@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from recalib.study.recording.phases import ARM, BEFORE
+from recalib.study.recording import pictures
+from recalib.study.recording.phases import ARM, BEFORE, VISITS
 from recalib.study.recording.pictures import ViewerUnavailable, last_frame, take_pictures
 from recalib.study.recording.viewer import PROGRAM, quiet
 from tests.conftest import ROOT
@@ -62,3 +63,21 @@ def test_without_a_driver_one_is_told_of_it(recording, tmp_path):
     with pytest.raises(ViewerUnavailable, match="needs a Vulkan driver"):
         take_pictures(recording[0], {tmp_path / "before.png": BEFORE})
     assert not list(tmp_path.iterdir())
+
+
+def test_a_film_has_both_ends_and_what_is_learned_between_them(tmp_path, monkeypatch):
+    taken = []
+
+    def take(recording, shown, view, window):
+        taken.extend(shown.values())
+        for png in shown:
+            Image.new("RGB", (8, 8)).save(png)
+
+    last = 3 * VISITS
+    monkeypatch.setattr(pictures, "last_frame", lambda _: last)
+    monkeypatch.setattr(pictures, "take_pictures", take)
+    pictures.take_film(tmp_path / "arm.rrd", tmp_path / "arm.webp")
+    before, learning, after = np.split(np.array(taken), 3)
+    assert before[0] == -pictures.SHOWN and before[-1] == -pictures.STEP
+    assert learning[0] == 0 and learning[-1] == last - VISITS
+    assert np.array_equal(after, before + last + 1)
