@@ -9,6 +9,7 @@ from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, Wh
 from recalib.numerics.covariance import Covariance
 from recalib.numerics.regression import Process, is_time_to_search
 
+EPS = np.finfo(float).eps
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
 SMOOTH = np.stack([np.sin(2 * INPUTS[:, 0]) + INPUTS[:, 1], 3 + 5 * INPUTS[:, 1] ** 2], axis=1)
@@ -84,3 +85,10 @@ def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
         assert np.allclose(own, theirs, atol=1e-12)
     assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
     assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)
+
+
+def test_an_output_that_deviates_by_rounding_alone_is_constant():
+    """Scaled to a deviation of one, it would look like a function that may be learned."""
+    inputs = np.linspace(-1, 1, 12)[:, None]
+    outputs = np.stack([np.sin(inputs[:, 0]), 1 + 6 * EPS * np.sign(inputs[:, 0])], axis=1)
+    assert np.array_equal(Process(inputs, outputs)._scale[1:], [1.0])
