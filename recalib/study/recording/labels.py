@@ -6,7 +6,7 @@ import numpy as np
 import rerun as rr
 
 from recalib.study.recording.colours import WRONG
-from recalib.study.recording.phases import VISITS
+from recalib.study.recording.phases import BEFORE
 from recalib.study.recording.scene import Scene, unit_of
 
 # of a picture whose half is 1 high
@@ -26,7 +26,8 @@ def send_labels(scene: Scene, words: Sequence[str], starts: np.ndarray) -> None:
         starts: (label, frame, 3) m, where their leaders start.
     """
     sight, unit = scene.sight, unit_of(scene.workspace)
-    aside, above = sight.seen(starts[:, VISITS - 1]).T  # where the arm waits
+    waits = np.sum(scene.motion.frames < BEFORE)
+    aside, above = sight.seen(starts[:, waits]).T
     for side in (-1, 1):
         column = np.flatnonzero(np.where(aside > above, 1, -1) == side)
         # as high above one another as what they label: few leaders cross

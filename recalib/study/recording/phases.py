@@ -9,9 +9,10 @@ ARM = "the arm"  # the view of the first learner's
 # Plots have no clock of their own: that of the viewer counts iterations, so that their ticks do.
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30
-POSES = 12  # that the arm visits
-VISIT = 50  # frames of the visit of a pose: half of them it moves, half of them it rests there
-VISITS = POSES * VISIT  # in hundreds: the viewer's ticks count from the first frame
+POSES = 12  # that the arm visits, if there are so many
+# Frames of the visit of a pose: half of them it moves, half of them it rests there. All of them
+# are hundreds, since the viewer's ticks count from the first frame.
+VISIT = 50
 BEFORE = 0  # the frame in which the arm rests at the last pose, not yet recalibrated
 
 Clock = list[rr.TimeColumn]
@@ -60,15 +61,16 @@ def move(angles: np.ndarray, iterations: np.ndarray, home: np.ndarray, most: int
         most: iterations of the longest training that is shown beside it: all share one clock.
     """
     before, after = angles[0], angles[-1]
-    starts = np.array([[-VISITS], [most + 1]])
-    visits = starts + np.arange(VISITS)
+    departures = VISIT * np.arange(len(before))
+    starts = np.array([[-VISIT * len(before)], [most + 1]])
+    visits = starts + np.arange(VISIT * len(before))
     done = np.minimum(np.arange(VISIT) / (VISIT / 2), 1)
     return Motion(
         frames=np.concatenate([visits[0], iterations, visits[1]]),
         angles=np.concatenate(
             [_visits(home, before, done), angles[:, -1], _visits(after[-1], after, done)]
         ),
-        departures=starts + VISIT * np.arange(POSES),
+        departures=starts + departures,
         iterations=iterations,
     )
 

@@ -13,7 +13,7 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from recalib.study.recording.phases import ARM, BEFORE, CLOCK, VISIT, VISITS
+from recalib.study.recording.phases import ARM, BEFORE, CLOCK, VISIT
 from recalib.study.recording.viewer import HERE, PATIENCE, answer, free_port, viewer
 
 WINDOW = 1400, 800  # pixels
@@ -32,7 +32,7 @@ class ViewerUnavailable(RecalibError):
 
 def before_and_after(recording: Path, before: Path, after: Path) -> None:
     """Pictures of the arm before and after its recalibration; see `take_pictures`."""
-    take_pictures(recording, {before: BEFORE, after: last_frame(recording)})
+    take_pictures(recording, {before: BEFORE, after: ends(recording)[1]})
 
 
 def take_pictures(
@@ -71,16 +71,16 @@ def take_film(recording: Path, film: Path) -> None:
     It shows the ends of both phases of visits, and learning in as many steps as one of them.
     Needs and raises what `take_pictures` does.
     """
-    last = last_frame(recording)
-    visits = np.arange(-SHOWN, 0, STEP)
-    learning = np.linspace(0, last - VISITS, len(visits), dtype=int)
+    first, last = ends(recording)
+    visits = np.arange(max(first, -SHOWN), 0, STEP)
+    learning = np.linspace(0, last + first, len(visits), dtype=int)
     frames = np.concatenate([visits, learning, last + 1 + visits])
     with tempfile.TemporaryDirectory() as folder:
         shown = {Path(folder, f"{number}.png"): int(frame) for number, frame in enumerate(frames)}
         take_pictures(recording, shown, view=ARM, window=FILM)
-        first, *others = [Image.open(png).convert("RGB") for png in shown]
+        start, *others = [Image.open(png).convert("RGB") for png in shown]
     with whole(film) as temporary:
-        first.save(
+        start.save(
             temporary,
             format="WebP",
             save_all=True,
@@ -91,11 +91,12 @@ def take_film(recording: Path, film: Path) -> None:
         )
 
 
-def last_frame(recording: Path) -> int:
-    """The number of the last frame: the arm rests at the last pose, recalibrated."""
+def ends(recording: Path) -> tuple[int, int]:
+    """The first frame and the last one, in which the arm rests at the last pose, recalibrated."""
     chunks = RrdReader(recording).store().stream().to_chunks()
     batches = [chunk.to_record_batch() for chunk in chunks]
-    return max(max(its[CLOCK].to_pylist()) for its in batches if CLOCK in its.schema.names)
+    frames = [its[CLOCK].to_pylist() for its in batches if CLOCK in its.schema.names]
+    return min(map(min, frames)), max(map(max, frames))
 
 
 @contextmanager

@@ -16,11 +16,13 @@ from recalib.study.experiments.poses import Stream
 from recalib.study.inference.measured import ERRORS
 from recalib.study.recording import colours, markers, measurements, scene
 from recalib.study.recording.blueprint import TITLES, _plots
-from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, VISITS, move
+from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
 from recalib.study.recording.watched import REPEATED, visiting_order, watch
 from tests.arms import panda
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, poses
+
+VISITS = POSES * VISIT  # frames
 
 
 def motion_of(training, robot):
@@ -261,3 +263,10 @@ def test_plots_reach_to_the_last_iteration_of_the_longest_training():
     for view in views:
         (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
         assert [shown["start"], shown["end"]] == [0, 200]
+
+
+def test_fewer_poses_are_visited_in_fewer_frames():
+    motion = move(np.zeros((3, 2, 6)), np.array([0, 4, 8]), np.zeros(6), 8)
+    assert len(motion.frames) == len(motion.angles) == 2 * 2 * VISIT + 3
+    assert motion.frames[0] == -2 * VISIT and motion.frames[-1] == 8 + 2 * VISIT
+    assert motion.departures.tolist() == [[-2 * VISIT, -VISIT], [9, 9 + VISIT]]

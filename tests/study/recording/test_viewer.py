@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from recalib.study.recording import pictures
-from recalib.study.recording.phases import ARM, BEFORE, VISITS
-from recalib.study.recording.pictures import ViewerUnavailable, last_frame, take_pictures
+from recalib.study.recording.phases import ARM, BEFORE
+from recalib.study.recording.pictures import ViewerUnavailable, ends, take_pictures
 from recalib.study.recording.viewer import PROGRAM, quiet
 from tests.conftest import ROOT
 from tests.test_architecture import imported
@@ -44,7 +44,7 @@ def test_nothing_else_starts_it():
 )
 def test_the_viewer_shows_the_arm_miss_and_hit(recording, tmp_path):
     before, after = tmp_path / "before.png", tmp_path / "after.png"
-    take_pictures(recording[0], {before: BEFORE, after: last_frame(recording[0])})
+    take_pictures(recording[0], {before: BEFORE, after: ends(recording[0])[1]})
     orange = []
     for png in (before, after):
         with Image.open(png) as picture:
@@ -73,11 +73,11 @@ def test_a_film_has_both_ends_and_what_is_learned_between_them(tmp_path, monkeyp
         for png in shown:
             Image.new("RGB", (8, 8)).save(png)
 
-    last = 3 * VISITS
-    monkeypatch.setattr(pictures, "last_frame", lambda _: last)
+    first, last = -1000, 1800
+    monkeypatch.setattr(pictures, "ends", lambda _: (first, last))
     monkeypatch.setattr(pictures, "take_pictures", take)
     pictures.take_film(tmp_path / "arm.rrd", tmp_path / "arm.webp")
     before, learning, after = np.split(np.array(taken), 3)
     assert before[0] == -pictures.SHOWN and before[-1] == -pictures.STEP
-    assert learning[0] == 0 and learning[-1] == last - VISITS
+    assert learning[0] == 0 and learning[-1] == last + first
     assert np.array_equal(after, before + last + 1)

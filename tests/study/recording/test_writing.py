@@ -20,7 +20,7 @@ from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plan.competitors import make_peer
 from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.phases import VISITS, move
+from recalib.study.recording.phases import POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
 from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
@@ -168,8 +168,8 @@ def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, re
     missed = [position_error(its.achieved[-1], its.desired) for its in (few, many)]
     assert missed[0].max() < 1e-4 < missed[1].mean()
     motion = move(few.angles, few.history.iterations, robot.home, many.history.iterations[-1])
-    assert motion.frames[VISITS:-VISITS].tolist() == [0, 1, 2, 3, 4, 5]
-    assert motion.frames[-1] == ITERATIONS + VISITS, "one clock"
+    assert motion.frames[POSES * VISIT : -POSES * VISIT].tolist() == [0, 1, 2, 3, 4, 5]
+    assert motion.frames[-1] == ITERATIONS + POSES * VISIT, "one clock"
     sight = sight_of(robot.workspace, np.ones((1, 3)))
     tabs = arrange(watched, sight, {}, True).root_container
     assert len(tabs.contents) == 2 and tabs.active_tab == 1
