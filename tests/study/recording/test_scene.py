@@ -270,3 +270,9 @@ def test_fewer_poses_are_visited_in_fewer_frames():
     assert len(motion.frames) == len(motion.angles) == 2 * 2 * VISIT + 3
     assert motion.frames[0] == -2 * VISIT and motion.frames[-1] == 8 + 2 * VISIT
     assert motion.departures.tolist() == [[-2 * VISIT, -VISIT], [9, 9 + VISIT]]
+
+
+def test_scatter_is_enlarged_by_what_it_is_on_average():
+    scatter = np.full((100, 1, 3), [measurements.VISIBLE / 100, 0, 0])
+    scatter[0] *= 100
+    assert measurements.enlarged(SimpleNamespace(scatter=scatter)) == 10

@@ -2,6 +2,7 @@
 
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -81,3 +82,11 @@ def test_a_film_has_both_ends_and_what_is_learned_between_them(tmp_path, monkeyp
     assert before[0] == -pictures.SHOWN and before[-1] == -pictures.STEP
     assert learning[0] == 0 and learning[-1] == last + first
     assert np.array_equal(after, before + last + 1)
+
+
+def test_a_recording_that_is_still_loading_is_waited_for(tmp_path):
+    loading = SimpleNamespace(loading=True, recordings=[])
+    states = iter([loading, loading, SimpleNamespace(loading=False, recordings=["arm"])])
+    client = SimpleNamespace(open=lambda _: None, get_state=lambda: next(states))
+    pictures._load(client, tmp_path / "arm.rrd")
+    assert next(states, None) is None
