@@ -276,3 +276,12 @@ def test_scatter_is_enlarged_by_what_it_is_on_average():
     scatter = np.full((100, 1, 3), [measurements.VISIBLE / 100, 0, 0])
     scatter[0] *= 100
     assert measurements.enlarged(SimpleNamespace(scatter=scatter)) == 10
+
+
+def test_leaders_start_at_the_arm(robot, recording, columns):
+    bones = robot.arm.skeleton(motion_of(recording[1]["improved"], robot).angles)
+    for label in range(3):  # the fourth is that of the base
+        _, leaders = columns(f"/improved/wrong/{label}/leader", "LineStrips3D:strips")
+        starts = np.reshape(leaders, (-1, 2, 3))[:, :1]
+        away = np.linalg.norm(bones - starts, axis=-1).min(axis=1)
+        assert away.max() < 0.4, "half a link, and what it is off by"
