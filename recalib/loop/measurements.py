@@ -15,7 +15,7 @@ OUTSIDE = 5.0
 # A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
 # middle axis comes back as up to half a turn about the others, which is at most twice as much.
 WRAPPED = 2.0
-MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so near to each other
+MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so close together
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 
@@ -57,11 +57,11 @@ def _check_differ(
     commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, first: int
 ) -> None:
     """Raise BadMeasurement where another command led to the same pose; `first`: the second move."""
-    near = np.abs(achieved[:, 1:] - achieved[:, :-1]).max(axis=-1) < STUCK
-    if not near.any():
+    alike = np.abs(achieved[:, 1:] - achieved[:, :-1]).max(axis=-1) < STUCK
+    if not alike.any():
         return
     sent = np.abs(commands[:, 1:] - commands[:, :-1]).max(axis=-1)
-    stuck = near & (sent > MOVED) & executed[:, 1:] & executed[:, :-1]
+    stuck = alike & (sent > MOVED) & executed[:, 1:] & executed[:, :-1]
     for run, move in np.argwhere(stuck)[:1]:
         valid = "another pose than the move before it, whose command was another one"
         raise BadMeasurement(f"move {move + first} of run {run}", achieved[run, move + 1], valid)

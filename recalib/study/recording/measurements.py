@@ -40,7 +40,7 @@ def _plot(scene: Scene, entity: str, values: np.ndarray, style: rr.SeriesLines) 
 
 
 def send_landings(scene: Scene) -> None:
-    """Achieved frames and misses, as lines: the thinner, the nearer they are to what is desired."""
+    """Achieved frames and misses, as lines: the closer to the desired pose, the thinner."""
     watched, unit = scene.watched, unit_of(scene.workspace)
     _, rows = scene.motion.measurements()
     achieved, poses = watched.achieved[rows], len(watched.desired)

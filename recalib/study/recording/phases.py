@@ -10,8 +10,8 @@ ARM = "the arm"  # the view of the first learner's
 CLOCK = "iterations"
 FRAMES_A_SECOND = 30
 POSES = 12  # that the arm visits, if there are so many
-# Frames of the visit of a pose: half of them it moves, half of them it rests there. All of them
-# are hundreds, since the viewer's ticks count from the first frame.
+# Frames of the visit of a pose: half of them it moves, half of them it rests there. Twelve visits
+# are hundreds of frames: the viewer's ticks count from the first one, and so meet iteration 0.
 VISIT = 50
 BEFORE = 0  # the frame in which the arm rests at the last pose, not yet recalibrated
 
