@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster lint test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster lint test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -102,6 +102,10 @@ article: all ## the article, results/article.pdf
 
 archive: report article ## code, results, recordings and article in one file, results/archive.zip
 	.venv/bin/python -m workflow.archive results/archive.zip
+
+reproduce: archive ## whether the archive, unpacked elsewhere, gives the results that it holds (5 minutes)
+	$(ELSEWHERE) && archive="$$PWD/results/archive.zip" && cd "$$folder" && $(PYTHON) -m zipfile --extract "$$archive" . && \
+	  cd recalib-* && make PYTHON=$(PYTHON) CORES=$(CORES) && cd results && sha256sum --check --quiet ../published/SHA256SUMS
 
 docs: setup ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict

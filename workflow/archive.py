@@ -6,6 +6,7 @@ results give the same bytes.
 """
 
 import base64
+import hashlib
 import json
 import mimetypes
 import subprocess
@@ -31,6 +32,7 @@ CHOSEN = (
     "summary.csv",
     "claims.json",
     "claims.jsonld",
+    "SHA256SUMS",
     "check.txt",
     "article.pdf",
     "report.html",
@@ -41,6 +43,7 @@ CHOSEN = (
     "scenarios/*",
     "recordings/*.rrd",
 )
+REPEATABLE = {".csv", ".json", ".parquet", ".svg"}  # whose bytes follow from the code
 PROFILES = {
     "https://w3id.org/ro/wfrun/process/0.5": "Process Run Crate",
     "https://w3id.org/ro/wfrun/workflow/0.5": "Workflow Run Crate",
@@ -60,6 +63,15 @@ def committed() -> list[Path]:
 def chosen() -> list[Path]:
     """The results that are kept."""
     return sorted(path for pattern in CHOSEN for path in RESULTS.glob(pattern) if path.is_file())
+
+
+def checksums() -> str:
+    """What `sha256sum --check` reads, of the results that another run gives to the byte."""
+    return "".join(
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(RESULTS)}\n"
+        for path in chosen()
+        if path.suffix in REPEATABLE
+    )
 
 
 def notes() -> Iterator[tuple[Path, Mapping]]:
@@ -198,8 +210,12 @@ def pack(archive: Path) -> None:
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
     claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
     linked = claims_as_linked_data(claims, citation["references"][0])
-    with whole(RESULTS / "claims.jsonld") as path:
-        path.write_text(json.dumps(linked, indent=1) + "\n", encoding="utf-8")
+    for name, text in (
+        ("claims.jsonld", json.dumps(linked, indent=1) + "\n"),
+        ("SHA256SUMS", checksums()),
+    ):
+        with whole(RESULTS / name) as path:
+            path.write_text(text, encoding="utf-8")
     its, top = crate(citation), f"recalib-{recalib.__version__}"
     with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         text = json.dumps(its.metadata.generate(), indent=1) + "\n"

@@ -74,6 +74,17 @@ def test_all_that_is_named_is_there_and_the_job_of_a_result_is_said(unpacked):
     assert job["startTime"] == "2001-09-09T01:46:40+00:00"
 
 
+def test_checksums_tell_which_results_another_run_has_to_give(unpacked):
+    published = unpacked / "published"
+    check = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
+    assert subprocess.run(check, cwd=published).returncode == 0
+    listed = (published / "SHA256SUMS").read_text(encoding="utf-8")
+    assert "  claims.json\n" in listed and "  summary.csv\n" in listed
+    (published / "claims.json").write_text("[]", encoding="utf-8")
+    spoilt = subprocess.run(check, cwd=published, capture_output=True, text=True)
+    assert spoilt.returncode != 0 and "claims.json: FAILED" in spoilt.stdout
+
+
 def test_each_claim_is_a_review_of_a_sentence_of_the_paper(unpacked):
     linked = json.loads((unpacked / "published" / "claims.jsonld").read_text(encoding="utf-8"))
     judged = json.loads((unpacked / "published" / "claims.json").read_text(encoding="utf-8"))
