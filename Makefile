@@ -109,6 +109,7 @@ reproduce: archive ## whether the archive, unpacked elsewhere, gives the results
 
 docs: setup ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
+	@echo "the site: results/site/index.html"
 
 pictures: setup ## the arm before and after, and a film; SCENARIO: of another one; needs mesa-vulkan-drivers or another Vulkan driver
 	$(SNAKEMAKE) --forcerun before_and_after film -- \
