@@ -44,7 +44,10 @@ def test_every_python_that_is_promised_runs_the_tests():
 
 
 def test_files_that_name_the_version_name_the_same():
-    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    named = {
+        name: yaml.safe_load((ROOT / name).read_text(encoding="utf-8"))["version"]
+        for name in ("CITATION.cff", "codemeta.json", ".zenodo.json")
+    }
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
-    newest = re.search(r"^## \[(.+?)\]", changelog, re.MULTILINE)[1]
-    assert {citation["version"], newest} == {recalib.__version__}
+    named["CHANGELOG.md"] = re.search(r"^## \[(.+?)\]", changelog, re.MULTILINE)[1]
+    assert named == dict.fromkeys(named, recalib.__version__)
