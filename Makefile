@@ -1,4 +1,4 @@
-# make: set up and replicate everything. make test: linters and most tests. make help: what else there is.
+# make: set up and replicate everything. make test: linters and most tests. make help: all targets.
 PYTHON ?= python3
 CORES ?= 2
 COUNT ?= 20
@@ -23,7 +23,7 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
 
 quick: STUDY = quick
-quick: study ## the replication in small, in a minute: results/studies/quick
+quick: study ## a small replication, in a minute: results/studies/quick
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(if $(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
@@ -40,10 +40,10 @@ setup: .venv/installed ## the environment, from the lock file
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .
 	touch $@
 
-cluster: setup ## what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
+cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
 	$(PIP) --no-build-isolation --editable .[cluster]
 
-test: lint ## the linters and all tests but whole workflows, examples, sites and environments
+test: lint ## the linters and all tests except whole workflows, examples, sites and environments
 	.venv/bin/python -m pytest -m "not slow"
 
 test-all: lint ## the linters and all tests
@@ -55,12 +55,12 @@ lint: setup ## the linters and the types of the library
 	.venv/bin/mypy
 	.venv/bin/snakefmt --check Snakefile workflow/rules
 
-dist: setup ## what is released, the sources and the wheel, in dist/
+dist: setup ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
 	$(UV) tool run twine check --strict dist/*
 
-elsewhere: dist ## the sources that are released, unpacked elsewhere: make test and make quick; PYTHON=python3.13 for another Python
+elsewhere: dist ## unpack the released sources elsewhere, and run make test and make quick there; PYTHON=python3.13 for another Python
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
 	  make --directory "$$folder" PYTHON=$(PYTHON) test quick
 
@@ -69,16 +69,16 @@ lowest: setup ## the library's tests with the lowest versions that pyproject.tom
 	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,dev] && \
 	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal)
 
-slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
+slurm: setup ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: setup ## what befalls a run: killed, two at once, damaged files, disk full; prints a table
+faults: setup ## kill runs, start two at once, damage files, fill the disk; print what happens
 	.venv/bin/python -m tests.faults --cores $(CORES)
 
-verify: setup ## whether all results are as they were written; what is not is removed
+verify: setup ## remove results that have changed since they were written
 	.venv/bin/python -m workflow.digests results
 
-mutants: setup ## plant small errors that nobody chose, and say what no test notices: docs/mutants.md
+mutants: setup ## plant small random errors in the code, and list those that no test notices: docs/mutants.md
 	$(PIP) --no-build-isolation --editable .[mutants]
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
@@ -88,13 +88,13 @@ laboratory: setup ## what the identification of any arm has to show, in half an 
 peers: setup ## our calibration beside figaroh's and robotkinecal's, each in an environment of its own: docs/peers.md
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
 
-check: setup ## the final errors against their bands, by themselves
+check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
 
-bench: setup ## moves a second, and the ratio to a bare loop
+bench: setup ## measure moves per second, and their ratio to a bare loop
 	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
 
-report: all ## everything in one file to look at, results/report.html
+report: all ## write all results into one page, results/report.html
 	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)
 
 article: all ## the article, results/article.pdf
@@ -103,7 +103,7 @@ article: all ## the article, results/article.pdf
 archive: report article ## code, results, recordings and article in one file, results/archive.zip
 	.venv/bin/python -m workflow.archive results/archive.zip
 
-reproduce: archive ## whether the archive, unpacked elsewhere, gives the results that it holds (5 minutes)
+reproduce: archive ## unpack the archive elsewhere, and check that it reproduces its results (5 minutes)
 	$(ELSEWHERE) && archive="$$PWD/results/archive.zip" && cd "$$folder" && $(PYTHON) -m zipfile --extract "$$archive" . && \
 	  cd recalib-* && make PYTHON=$(PYTHON) CORES=$(CORES) && cd results && sha256sum --check --quiet ../published/SHA256SUMS
 
@@ -111,21 +111,21 @@ docs: setup ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
 	@echo "the site: results/site/index.html"
 
-pictures: setup ## the arm before and after, and a film; SCENARIO: of another one; needs mesa-vulkan-drivers or another Vulkan driver
+pictures: setup ## pictures before and after, and a film; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
 	$(SNAKEMAKE) --forcerun before_and_after film -- \
 	  $(if $(SCENARIO),$(addprefix $(RESULTS)/figures/$(SCENARIO),_before.png .webp),pictures)
 
 view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
-# with CI, the viewer neither notes who runs it nor tells its makers
+# with CI, the viewer collects and sends no statistics
 	CI=true .venv/bin/rerun --bind 127.0.0.1 --new $(RECORDING) \
 	  || { echo "No display for a window here? make web shows the same in a browser."; exit 1; }
 
-web: setup ## recordings and report in a browser, from a server as well; SCENARIO and STUDY as above
+web: setup ## show recordings and report in a browser, also from a server; SCENARIO and STUDY as for make view
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 	.venv/bin/python -m workflow.watch $(RESULTS) --port $(PORT)
 
-notebook: setup ## damage an arm with sliders, in a browser; installs marimo, not pinned
+notebook: setup ## damage an arm with sliders, in a browser; installs marimo, which is not pinned
 	$(PIP) --no-build-isolation --editable .[notebook]
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
@@ -138,7 +138,7 @@ design: setup ## draw the universes anew, and ship them
 	mkdir -p workflow/universes/second
 	cp results/universes/design.csv workflow/universes/second/
 
-power: setup ## try the model of the campaign in worlds whose truth is known, and ship what it finds (10 minutes)
+power: setup ## simulate campaigns whose true effects are known, and ship what the model finds (10 minutes)
 	$(SNAKEMAKE) -- results/universes/power.csv
 	cp results/universes/power.csv workflow/universes/second/
 
@@ -154,7 +154,7 @@ horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 
 	$(SNAKEMAKE) $(if $(PIECE),-- results/universes/horizon_$(PIECE).csv,horizons)
 	cp results/universes/horizon_$(or $(PIECE),*).csv workflow/universes/second/
 
-ship: setup ## make config.yaml, as it now is, the shipped study
+ship: setup ## make the present config.yaml the shipped study
 	.venv/bin/python -m recalib.study.ship
 
 lock: setup ## pin the dependencies of pyproject.toml anew

@@ -1,4 +1,4 @@
-"""Calibrate a seven-jointed arm without an instrument: a ball at its hand, set into two sockets."""
+"""Calibrate a seven-joint arm without an instrument: a ball on its hand, set into two sockets."""
 
 import math
 
@@ -10,17 +10,17 @@ from recalib import OFFSETS, Chain, Distance, Observations, calibrate, initial_f
 rng = np.random.default_rng(1996)
 arm, home = load_arm("panda.urdf", "panda_hand_tcp"), np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
 offsets = np.radians([0.5, -0.8, 0.6, 0.9, -0.7, 0.8, 0.4])  # in place of your arm's errors
-sockets = np.array([[0.45, -0.2, 0.2], [0.45, 0.2, 0.35]])  # m, which nobody measures
+sockets = np.array([[0.45, -0.2, 0.2], [0.45, 0.2, 0.35]])  # m, not measured
 joints, number = home + rng.uniform(-0.7, 0.7, (80, 7)), np.repeat([0, 1], 40)
 poses = arm.forward(joints)
-poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in its socket
+poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in the socket
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
-apart = Distance(0, 1, math.dist(*sockets))  # that is measured
+apart = Distance(0, 1, math.dist(*sockets))  # this distance is measured
 observations = Observations(joints, sockets=number, distances=[apart])
 calibration = calibrate(arm, [OFFSETS], observations, initial_frames(arm, observations))
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
-# about their mean: where the arm stands, no socket tells
+# relative to their mean: sockets do not say where the arm stands
 true, before, after = (each[:, :3, 3] - each[:, :3, 3].mean(axis=0) for each in reached)
 for name, found in (("before", before), ("after", after)):
     left = Rotation.align_vectors(true, found)[0].apply(found) - true

@@ -1,4 +1,4 @@
-"""Identify an arm from positions measured at 0.1 mm, each where a measurement teaches the most."""
+"""Identify an arm from positions measured to 0.1 mm, each at the most informative posture."""
 
 import numpy as np
 from ur10 import robot
@@ -12,7 +12,7 @@ arm = recalib.apply(robot, damages)
 
 
 def measure(angles):
-    """The tool's positions (n, 3) [m] at joint angles (n, 6) [rad]: here comes your instrument."""
+    """The tool's positions (n, 3) [m] at joint angles (n, 6) [rad]: put your instrument here."""
     return arm.forward(angles)[:, :3, 3] + rng.normal(scale=1e-4, size=(len(angles), 3))
 
 

@@ -22,9 +22,9 @@ def _(mo):
     mo.md("""
     # Damage an arm, and let it learn
 
-    The controller of this UR10 believes in links and encoders as they left the factory. Move the
-    sliders: the arm is damaged, and nobody tells the controller. Where the tool arrives is measured
-    at 0.1 mm and 0.01 degrees.
+    The controller of this UR10 assumes links and encoders as they left the factory. Move the
+    sliders to damage the arm: the controller does not know. Where the tool arrives is measured
+    with noise of 0.1 mm and 0.01 degrees.
     """)
     return
 
@@ -65,7 +65,7 @@ def _(damage, np, recalib, robot):
     _instrument = recalib.Disturbances(noise=_noise)
 
     def new_plant():
-        """The damaged arm behind its controller, of which no move was asked yet."""
+        """The damaged arm behind its controller, before any move."""
         return recalib.Plant(controller, damaged, _instrument, [np.random.default_rng(7)])
 
     return controller, damaged, new_plant
@@ -88,7 +88,7 @@ def _(controller, new_plant, np, recalib, robot):
 
 @app.cell
 def _(controller, damaged, identified, learned, recalib, robot, tests):
-    wanted = robot.workspace.to_poses(tests[:1])  # one of those that nobody learned from
+    wanted = robot.workspace.to_poses(tests[:1])  # one that no learner was trained on
     _angles = {
         name: controller.inverse(command)
         for name, command in {
@@ -117,9 +117,9 @@ def _(controller, damaged, identified, learned, recalib, robot, tests):
 def _(believed, histories, misses, plt, real):
     figure, (_side, _errors) = plt.subplots(1, 2, figsize=(10, 4.4), layout="constrained")
     _colours = dict(zip(real, ("#D55E00", "#0072B2", "#009E73"), strict=True))
-    _side.plot(*believed.T, "o--", color="0.6", label="what the controller believes")
+    _side.plot(*believed.T, "o--", color="0.6", label="what the controller assumes")
     for _name, _points in real.items():
-        _text = f"{_name}: {misses[_name]:.2f} cm beside it"
+        _text = f"{_name}: {misses[_name]:.2f} cm off"
         _side.plot(*_points.T, "o-", color=_colours[_name], label=_text)
     _side.plot(*believed[-1], "k+", markersize=18, label="the desired position")
     _side.set(xlabel="x [m]", ylabel="z [m]", title="The arm from the side", aspect="equal")
@@ -149,8 +149,8 @@ def _(final, histories, mo):
     mo.md(f"""
     Before, the arm misses by **{_before:.2f} cm** on average. The map of the paper leaves
     **{final["the paper's map"]:.2f} cm** after 200 iterations, which are 400 moves, and knows
-    nothing of links and encoders. Who does know them identifies the arm from five moves and leaves
-    **{final["identification"]:.3f} cm**: here the damage is of the very kind that it looks for.
+    nothing of links and encoders. If you know the kinematics, five moves identify the errors and
+    leave **{final["identification"]:.3f} cm**: here the damage is of the kind that is looked for.
     """)
     return
 

@@ -1,4 +1,4 @@
-"""A learner of your own: it remembers by how much the arm lands beside, and aims beside."""
+"""A learner of your own: it remembers the arm's mean miss, and corrects commands by it."""
 
 import numpy as np
 from ur10 import robot

@@ -1,4 +1,4 @@
-"""Recalibrate a robot of one's own: an object that takes a pose command and measures the pose."""
+"""Recalibrate a robot of your own, given a function that executes a pose command and measures."""
 
 import numpy as np
 

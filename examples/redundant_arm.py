@@ -10,7 +10,7 @@ box = [0.2, 0.24, 0.2], np.radians([40, 40, 40])  # m, rad
 robot = recalib.load_robot("panda.urdf", "panda_link8", home, *box)
 damages = [LinkShortening("panda_link4", 0.03), EncoderShift("panda_joint3", np.radians(4))]
 
-# Of the postures for a pose, the controller always takes the same one, near that of home.
+# For a pose there are many postures: the controller always takes the same one, close to home's.
 controller = recalib.Controller(robot)
 plant = recalib.Plant(controller, recalib.apply(robot, damages))
 widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}

@@ -21,7 +21,7 @@ with TemporaryDirectory() as folder:
     commands = recalib.corrected(recalib.load(path, robot), workspace, tests)
     for name, sent in (("as desired", tests), ("corrected", commands)):
         errors = position_error(arm.forward(controller.inverse(sent)), tests)
-        print(f"commanded {name}: {1e3 * errors.mean():.6f} mm beside it")
+        print(f"commanded {name}: mean error {1e3 * errors.mean():.6f} mm")
     try:
         recalib.load(path, replace(robot, home=robot.home + 0.1))
     except OtherRobot as error:
