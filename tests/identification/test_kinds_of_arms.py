@@ -1,5 +1,7 @@
 """Arms of any joints are identified, by instruments or without one."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -10,8 +12,9 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import GANTRY, SCARA, urdf
-from tests.identification.bars import BALL, SOCKETS, aligned, missed
-from tests.identification.real import Real
+from tests.identification.real import Real, aligned
+
+BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
 
 
 @pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])
@@ -27,8 +30,7 @@ def test_joints_that_slide_are_identified(text, what, load):
     assert found.converged
     nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
     after, before = (
-        missed(real, lambda fresh, its=its: model.predict(its.parameters, fresh))
-        for its in (found, nominal)
+        real.missed(partial(model.predict, its.parameters)) for its in (found, nominal)
     )
     assert after < 4e-4 and before > 3 * after
 

@@ -21,8 +21,7 @@ from recalib.laboratory.measurements import POSITION
 from recalib.laboratory.places import found_places
 from recalib.laboratory.summary import summary
 from recalib.nominal.arms import load_arm
-from tests.identification.bars import ARMS
-from tests.identification.real import Real
+from tests.identification.real import ARMS, Real
 from tests.laboratory.conftest import write
 
 URDF, TOOL = ARMS["UR10"]
