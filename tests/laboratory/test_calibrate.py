@@ -99,11 +99,6 @@ def test_a_frame_that_is_not_there_is_named(text, said, table):
         calibrated_with(text, table)
 
 
-def test_a_distance_that_no_row_uses_is_refused(table):
-    with pytest.raises(InvalidFile, match="a distance between sockets; .* no column 'socket'"):
-        calibrated_with(DISTANCE.format("left", 300), table)
-
-
 def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     result = by_ball(DISTANCE.format("left", 300), in_sockets)
     one, other = result.calibration.frames.sockets
