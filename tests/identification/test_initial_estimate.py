@@ -117,7 +117,7 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda observations: observations[np.arange(2)], "2 rows leave open .* at least 6"),
+        (lambda observations: observations[np.arange(2)], "2 rows are too few .* at least 6"),
         (lambda observations: observations[np.zeros(20, dtype=int)], "along a line"),
         (
             lambda observations: Observations(observations.joints[::-1], observations.measured),

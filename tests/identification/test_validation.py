@@ -188,7 +188,7 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
     real = Real(arm, 5)
     observations = seen_of(real, 30)
     observations.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
-    with pytest.raises(Untrustworthy, match=r"still misses by [0-9.]+ mm .*rows ([0-9]+, ){4}"):
+    with pytest.raises(Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows ([0-9]+, ){4}"):
         validate(arm, observations, initial_frames(arm, observations))
 
 
