@@ -28,7 +28,7 @@ THIN = 5e-3  # m: the standard deviation across a line of points that are on it
 
 
 class NoInitialEstimate(RecalibError):
-    """Where the instrument stands, or where a target sits, cannot be told from the measurements."""
+    """The place of the instrument or of a target is not identifiable."""
 
 
 def fewest(observations: Observations) -> int:
@@ -55,7 +55,7 @@ def initial_frames(
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
-            f"{len(observations)} rows leave open where instrument and target are;"
+            f"{len(observations)} rows are too few to estimate where instrument and target are;"
             f" expected: at least {fewest(observations)}"
         )
     rng = generator(0, "first guess")

@@ -74,7 +74,7 @@ def _names(
             yield f"{motion} {where}", *_unit(slides=motion.startswith("shift"))
     for socket in sockets or range(len(frames.sockets)):
         for axis in "xyz":
-            yield f"{axis} of socket {socket}, from its first guess", "mm", 1e3
+            yield f"{axis} of socket {socket}, from its initial estimate", "mm", 1e3
     for term in model.names:
         for joint, slides in zip(arm.joints, arm.slides, strict=True):
             unit, scale = _unit(slides)

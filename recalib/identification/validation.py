@@ -101,7 +101,7 @@ def validate(
 
     Args:
         frames: at both ends; see `initial_frames` for those that are unknown.
-        on_progress: is told what is being done.
+        on_progress: called with what is being done.
 
     Raises BadMeasurement and Untrustworthy.
     """
@@ -121,7 +121,7 @@ def validate(
         (terms,) = candidates[kind]
         model = ErrorModel(arm, terms, frames)
         full[kind] = Calibration(model, identify(model, observations, weights=weights))
-    on_progress("what is no geometry")
+    on_progress("errors beyond geometry")
     hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
         hybrid = calibrate(arm, candidates[HYBRID], observations, frames, hybrid, weights)

@@ -21,7 +21,7 @@ from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.measurements import Measurements, read_measurements
-from recalib.laboratory.nominal_checks import Fit, check_nominal
+from recalib.laboratory.nominal_checks import check_nominal
 from recalib.laboratory.places import Place, found_places
 from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
@@ -40,7 +40,7 @@ class Calibrated:
         table: the file with the measurements.
         observations: what it says.
         targets, sockets: their names, in the order of their numbers.
-        beside: frames between the nominal positions and the nominal kinematics, if they differ.
+        between: what is between nominal positions and the nominal kinematics, in words.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
     """
@@ -52,7 +52,7 @@ class Calibrated:
     observations: Observations
     targets: tuple[str, ...]
     sockets: tuple[str, ...]
-    beside: Fit | None
+    between: str | None
     frames: Frames
     validation: Validation
 
@@ -86,7 +86,7 @@ class Calibrated:
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
-        """The parameters of geometry that were not told apart."""
+        """The parameters of geometry that are not identifiable."""
         return unidentifiable_parameters(self.geometry, self.observations)
 
     @cached_property
@@ -111,7 +111,7 @@ class Calibrated:
 
     @property
     def doubted(self) -> np.ndarray:
-        """Numbers (from 1) of the rows that did not fit to the others and hardly counted."""
+        """Numbers (from 1) of the rows that are outliers: they have almost no weight."""
         unlikely = self.geometry.estimate.weights < DOUBTFUL
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
@@ -152,11 +152,11 @@ def calibrate_arm(
         table: see docs/own_arm.md.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
-        on_progress: is told what is being done, in a line each.
+        on_progress: called with what is being done, in a line each.
 
     Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
-    another arm; frames that cannot be told, or that are not where the description has them; a fit
-    that did not work out.
+    another arm; frames that are not identifiable, or not where the description has them; a fit that
+    did not work out.
     """
     path = find_urdf(urdf)
     source = read_file(path, MOST)
@@ -167,18 +167,17 @@ def calibrate_arm(
     rows = read_measurements(table, arm, given)
     on_progress(its := origin(urdf, source))
     on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
-    beside = None
+    between = None
     if rows.nominal is not None:
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
-        point = None if given.target is None else given.target[:3, 3]
-        beside = check_nominal(arm, rows.joints, rows.nominal, stand, point)
+        between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
     observations, targets, sockets = _observations(rows, given, Path(table))
-    on_progress("where instrument and target are, about")
+    on_progress("initial estimate of instrument and target")
     frames = checked_frames(arm, observations, given.instrument, given.target)
     check_distances(arm, observations, frames, sockets)
     validation = validate(arm, observations, frames, on_progress)
     return Calibrated(
-        path, source, its, Path(table), observations, targets, sockets, beside, frames, validation
+        path, source, its, Path(table), observations, targets, sockets, between, frames, validation
     )
 
 

@@ -15,7 +15,7 @@ EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better t
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command, and return its exit code. Mistakes are told in a sentence on stderr."""
+    """Run a command, and return its exit code. A mistake is one sentence on stderr."""
     given = _parser().parse_args(arguments)
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
@@ -26,15 +26,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         check_new(given.out, given.makes_folder)
         return given.command(given)
     except RecalibError as error:
-        told = str(error)
+        message = str(error)
     except OSError as error:
-        told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
     except MemoryError:
-        told = "there is not enough memory for this; try: fewer rows"
+        message = "there is not enough memory for this; try: fewer rows"
     except KeyboardInterrupt:
         there = is_taken(given.out, given.makes_folder)
-        told = f"interrupted; {given.out} is {'there, and whole' if there else 'not written'}"
-    print(f"recalib: {told}", file=sys.stderr)
+        message = f"interrupted; {given.out} is {'there, and whole' if there else 'not written'}"
+    print(f"recalib: {message}", file=sys.stderr)
     return REFUSED
 
 
@@ -70,7 +70,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     own.add_argument("--out", default="commands.csv", help="a new file (%(default)s)")
 
-    own = add("next", _next, "the postures that would teach most, and whether they are worth it")
+    own = add("next", _next, "the most informative postures to measure next")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
     own.add_argument("candidates", type=Path, nargs="?", help="to choose from (CSV)")
     own.add_argument("--count", type=_positive, default=10, help="how many (%(default)s)")
@@ -113,7 +113,7 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correct import correct, untold
+    from recalib.laboratory.correct import correct, unidentifiable_ends
     from recalib.laboratory.correction import load_correction
     from recalib.laboratory.files import CORRECTION, write_postures
     from recalib.laboratory.measurements import read_desired
@@ -122,19 +122,19 @@ def _correct(given: argparse.Namespace) -> int:
     in_instrument = given.frame == "instrument"
     commands = correct(correction, read_desired(given.desired, correction.arm), in_instrument)
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
-    ends = untold(correction)
+    ends = unidentifiable_ends(correction)
     if ends and not in_instrument:
         _warn(
-            f"{ends} could not be told from errors of the arm: in the base, commands are off by"
-            " those. To the instrument they are right. Try: --frame instrument, or say in the"
-            " description where both are"
+            f"errors of {ends} are not identifiable from the measurements, so commands in the base"
+            " have them. In the instrument's frame commands are right. Try: --frame instrument, or"
+            " a description with [instrument] and [target]"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
         names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
         _warn(
             f"{len(rows)} of {len(commands.joints)} commands, first in row {rows[0] + 1}, leave the"
-            f" range that was learned from: {', '.join(names)}"
+            f" measured range: {', '.join(names)}"
         )
     print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
@@ -154,7 +154,7 @@ def _next(given: argparse.Namespace) -> int:
         given.out, correction.arm, proposal.joints, correction.arm.forward(proposal.joints)
     )
     before, after = 1e3 * proposal.uncertainty[[0, -1]]
-    print(f"{len(proposal.joints)} postures in {given.out}, the most telling first.")
+    print(f"{len(proposal.joints)} postures in {given.out}, the most informative first.")
     print(
         f"They would make the uncertainty of predicted positions fall from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")
