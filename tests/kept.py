@@ -46,6 +46,8 @@ def plain(value: Any) -> Any:
             return int(value)
         case str() | None:
             return value
+        case _ if callable(value):
+            return "a function"
     if is_dataclass(value):
         return {its.name: plain(getattr(value, its.name)) for its in fields(value)}
     return repr(value)
