@@ -140,4 +140,3 @@ def test_the_committed_power_is_of_the_effects_that_are_tried():
     table = pd.read_csv(ROOT / "workflow" / "universes" / "second" / "power.csv")
     assert sorted(table["effect"].unique()) == sorted(power.EFFECTS)
     assert sorted(table["heterogeneity"].unique()) == sorted(power.HETEROGENEITIES)
-
