@@ -53,35 +53,26 @@ def test_how_long_ritters_takes_in_a_setup(setups, data_regression):
     data_regression.check(plain({"rows": horizon.horizon(made_small(setups[6], replicates=2))}))
 
 
-@pytest.fixture
-def damaged(plan, setups, tmp_path):
-    """File of the study's robot with a damage of links and encoders."""
-    its = plan.resolved("links")
-    damages = next(its.scenarios[its.own] for its in setups if its.nominal.name == plan.study.robot)
-    write(tmp_path / "damaged.json", its.model_copy(update={"damages": damages}))
-    return tmp_path / "damaged.json"
-
-
 def test_what_a_replicate_of_the_reference_study_measures(
-    study, damaged, monkeypatch, data_regression
+    study, uneven_scenario, monkeypatch, data_regression
 ):
     monkeypatch.setattr(measuring, "LATE", 2 * ITERATIONS)
     monkeypatch.setattr(lengths, "MAPS", (3, ITERATIONS))
     its = reference.reference_universe
     monkeypatch.setattr(reference, "reference_universe", lambda *told: made_small(its(*told)))
-    data_regression.check(plain({"rows": reference.reference(damaged, study, 1)}))
+    data_regression.check(plain({"rows": reference.reference(uneven_scenario, study, 1)}))
 
 
 @pytest.mark.parametrize("iterations", [4, 8])
 def test_winners_by_the_effort_of_the_search(
-    iterations, study, damaged, monkeypatch, data_regression
+    iterations, study, uneven_scenario, monkeypatch, data_regression
 ):
     for name, value in (("LONG", 8), ("FIRST", 2), ("WATCHED", 3)):
         monkeypatch.setattr(efforts, name, value)
     learner = study.learners["improved"].model_copy(update={"iterations": iterations})
     sample = ROOT / SEARCHED / "improved_200.csv"
     table = efforts.efforts(
-        damaged, sample, "improved", learner, rough_trials=32, seeds=2, tests=5, seed=1
+        uneven_scenario, sample, "improved", learner, rough_trials=32, seeds=2, tests=5, seed=1
     )
     data_regression.check(plain(table))
 
