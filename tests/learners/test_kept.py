@@ -125,7 +125,7 @@ def test_what_a_learner_of_geometry_learns_is_as_kept(kind, controller, worn, da
             {
                 "commands": np.round(found["commands"], 5),
                 "settings": found["settings"],
-                "moves": [state["moves"] for state in learner._experience.state()],
+                "moves": [state["moves"] for state in found["state"]],
                 "terms": [its.model.names for its in learner.calibrations],
                 "noise": [np.round(its.noise, 8) for its in estimates],
                 "offsets": [np.round(its.parameters[-6:], 6) for its in estimates],
