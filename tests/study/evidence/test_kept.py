@@ -50,7 +50,7 @@ class Uneven(MadeUp):
 
 @pytest.fixture(scope="module")
 def results(few, tmp_path_factory):
-    its = Uneven(tmp_path_factory.mktemp("kept"), few, final=UNEVEN)
+    its = Uneven(tmp_path_factory.mktemp("kept"), few, final=UNEVEN, noise=0.2)
     its.conclude()
     return its
 
