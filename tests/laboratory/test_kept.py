@@ -3,6 +3,7 @@
 import csv
 import re
 from contextlib import suppress
+from dataclasses import replace
 from io import StringIO
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
+from recalib.identification.validation import HYBRID, KINDS, RANDOM
 from recalib.laboratory import doubts, watching
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.columns import read_table
@@ -48,6 +50,9 @@ SLIDING = urdf(
     ("turn", "revolute", "1 0 0", "0.2 0.03 0.01"),
     ("flange", "fixed", "0 0 1", "0.15 0 0.02"),
     mass=3.0,
+).replace(
+    "</inertial>",
+    '</inertial><visual><geometry><box size="0.1 0.2 0.3"/></geometry></visual>',
 )
 ROWS = 26
 USAGE = "usage", " "  # how lines of it begin
@@ -236,7 +241,13 @@ def test_doubts_are_as_kept(made, data_regression):
     kinds = [Fault(LAG, 0.12), Fault(LAG, -0.034), Fault(DRIFT, 0.0012), Fault(JUMP, 0.0034, 17)]
     untimed = made("targets").observations
     found = [[doubts._sentence(one, seen) for seen in (its.observations, untimed)] for one in kinds]
-    data_regression.check(plain([found, [*doubts.doubts(its)]]))
+    validation, told = its.validation, {}
+    whole = replace(validation.held_out[RANDOM][HYBRID], residuals=np.full((ROWS, 6), 1e-4))
+    held_out = validation.held_out | {RANDOM: validation.held_out[RANDOM] | {HYBRID: whole}}
+    for chosen in KINDS:
+        patterned = replace(validation, held_out=held_out, chosen=chosen)
+        told[chosen] = [*doubts.doubts(replace(its, validation=patterned))]
+    data_regression.check(plain([found, [*doubts.doubts(its)], told]))
 
 
 @pytest.mark.parametrize("name", [("ur5_robot.urdf", "tool0"), ("panda.urdf", "panda_link8")])

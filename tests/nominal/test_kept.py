@@ -76,11 +76,17 @@ def test_poses_and_their_errors_are_as_kept(coordinates, data_regression):
     still = np.array([[0.1, 0.2, 0.3, 0.0, 0.0, 0.0]])
     poses = [workspace.to_poses(its) for its in (near, far, still)]
     turned = np.array([[0, 0, 0, *turn] for turn in np.diag([7.5, 7.0, 6.5]) + 0.2])
+    half_a_turn = np.zeros((2, 3, 6))
+    half_a_turn[:, :, 3:] = np.diag([2.9, 0.4, 2.8]) / half_ranges[3:] + 0.1
+    half_a_turn[1] *= -1
     found = {
         "poses": poses,
         "back": [workspace.to_coordinates(its) for its in poses],
         "turned far": workspace.to_coordinates(workspace.to_poses(turned)),
         "errors": [pose_errors(workspace, poses[0], poses[1], error) for error in ERRORS],
+        "errors about half a turn": [
+            pose_errors(workspace, *workspace.to_poses(half_a_turn), error) for error in ERRORS
+        ],
     }
     data_regression.check(plain(found))
 
