@@ -9,6 +9,7 @@ from recalib.damaged.damage import apply
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.nongeometric import EccentricGear, Sag
 from recalib.errors import RecalibError
+from recalib.identification import estimation
 from recalib.identification.calibration import (
     Calibration,
     angles_for,
@@ -16,7 +17,7 @@ from recalib.identification.calibration import (
     calibrate_again,
 )
 from recalib.identification.closed_forms import solutions
-from recalib.identification.consensus import identify_by_consensus
+from recalib.identification.consensus import _by_chance, identify_by_consensus
 from recalib.identification.design import information_gains, most_telling
 from recalib.identification.diagnostics import check_estimate, check_postures
 from recalib.identification.error_model import (
@@ -224,12 +225,37 @@ def test_frames_of_which_one_is_known_are_as_kept(kind, known, arm, data_regress
     data_regression.check(plain(found))
 
 
+@pytest.mark.parametrize("terms", [OFFSETS, JOINT_ERRORS], ids=["offsets", "errors"])
+def test_an_estimate_after_few_steps_is_as_kept(terms, arm, monkeypatch, data_regression):
+    """Before it has settled, it shows by which way it goes."""
+    observations, model, found = measured(arm, "poses"), ErrorModel(arm, terms), {}
+    seen = replace(observations, measured=arm.forward(observations.joints + 0.01))
+    for steps in (1, 2, 4, 5, 60):
+        monkeypatch.setattr(estimation, "STEPS", steps)
+        estimate = identify(model, seen)
+        again = identify(model, seen, start=estimate)
+        found[str(steps)] = [
+            [its.converged, coarse(its.noise), coarse(its.parameters), round(its.log_evidence, 1)]
+            for its in (estimate, again)
+        ]
+    data_regression.check(plain(found))
+
+
+def test_frames_of_more_rows_than_are_needed_are_as_kept(load, data_regression):
+    arm = load(SMALL)
+    real = Real(arm, 8, targets=3)
+    joints, targets = real.postures(260), np.repeat([0, 1, 2], [200, 58, 2])
+    seen = Observations(joints, real.poses(joints, targets), targets)
+    data_regression.check(plain([of_frames(initial_frames(arm, seen)), fewest(seen)]))
+
+
 def test_what_many_outliers_leave_is_as_kept(arm, data_regression):
     observations, rng = measured(arm, "poses", 40), np.random.default_rng(7)
     observations.measured[::3, :3, 3] += rng.normal(scale=0.05, size=(14, 3))
     model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
     estimates = identify(model, observations), identify_by_consensus(model, observations)
-    data_regression.check(plain([[coarse(its.noise), its.weights > 0.3] for its in estimates]))
+    found = [[coarse(its.noise), its.weights > 0.3] for its in estimates]
+    data_regression.check(plain([found, _by_chance(model)]))
 
 
 def test_a_calibration_with_joint_errors_and_a_pattern_is_as_kept(controller, data_regression):
@@ -293,6 +319,8 @@ def test_parts_to_hold_out_and_their_errors_are_as_kept(arm, data_regression):
             some = out[parts != 1]
             found[f"{name} {columns}"] = [out.errors, out.losses, out.radius(), out.coverage()]
             found[f"{name} {columns}"] += [some.radius(), some.coverage()]
+    many = HeldOut(rng.lognormal(size=(130, 3)), np.arange(130) % 2)
+    found["many"] = [many.radius(), many.coverage()]
     data_regression.check(plain(found))
 
 

@@ -12,6 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
+from recalib.identification.observations import Distance, Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
 from recalib.identification.validation import HYBRID, KINDS, RANDOM
 from recalib.laboratory import doubts, watching
@@ -22,6 +23,7 @@ from recalib.laboratory.correct import correct, solve, untold
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.files import optional_outputs, write_files
+from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.links import read_rows, urdf_of
 from recalib.laboratory.measurements import Measurements, read_desired, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
@@ -38,7 +40,7 @@ from tests.arms import urdf
 from tests.identification.real import Real
 from tests.identification.test_kept import coarse
 from tests.kept import plain
-from tests.laboratory.conftest import in_degrees, in_millimetres, write
+from tests.laboratory.conftest import in_degrees, in_millimetres, postures, write
 from tests.laboratory.test_urdf import random_calibration
 from tests.logged import arranged, logged
 
@@ -202,6 +204,56 @@ def test_the_recording_of_a_calibration_is_as_kept(made, tmp_path, data_regressi
         if "/__properties" not in key
     }
     data_regression.check(plain([found, arranged(watching._blueprint(20.0))]))
+
+
+def test_corrections_of_an_arm_with_a_ball_in_sockets_are_as_kept(made, data_regression):
+    """It has no instrument, and poses of six coordinates."""
+    correction = made("sockets").correction
+    rows = slice(3, 40, 9)
+    poses = correction.calibration.forward(correction.learned[rows] + 0.01)
+    desired = Measurements(5, positions=poses[:, :3, 3], rotations=poses[:, :3, :3])
+    commands = correct(correction, desired)
+    found = {"untold": untold(correction), "beyond": commands.beyond}
+    found |= {"joints": coarse(commands.joints, 3), "poses": coarse(commands.poses, 3)}
+    for name, ask in {
+        "to an instrument": lambda: correct(correction, desired, in_instrument=True),
+        "drawn": lambda: propose(correction, 2),
+    }.items():
+        with pytest.raises(RecalibError) as refused:
+            ask()
+        found[name] = str(refused.value)
+    data_regression.check(plain(found))
+
+
+def test_what_descriptions_say_wrongly_is_as_kept(arm, in_sockets, data_regression):
+    real = Real(arm, 7)
+    joints = postures(9, 24)
+    rows = Observations(joints, real.poses(joints)[:, :3, 3])
+    stand, target = np.linalg.inv(real.base), real.targets[0]
+    off = np.eye(4)
+    off[:3, :3] = Rotation.from_euler("xyz", [0.9, -0.4, 1.3]).as_matrix()
+    off[:3, 3] = 0.7, -0.5, 0.4
+    cases = {
+        "instrument": (stand @ off, None),
+        "target": (None, target @ off),
+        "instrument beside a target": (off @ stand, target),
+        "target beside an instrument": (stand, off @ target),
+        "both": (off @ stand, off @ target),
+    }
+    found = {}
+    for name, given in cases.items():
+        with pytest.raises(RecalibError) as refused:
+            checked_frames(arm, rows, *given)
+        found[name] = str(refused.value)
+    panda = load_arm("panda.urdf", "panda_hand_tcp")
+    seated = read_measurements(in_sockets, panda)
+    sockets = np.unique(seated.sockets, return_inverse=True)[1]
+    balls = Observations(seated.joints, sockets=sockets, distances=[Distance(0, 1, 0.41)])
+    frames = checked_frames(panda, balls)
+    with pytest.raises(RecalibError) as refused:
+        check_distances(panda, balls, frames, ["left", "right"])
+    found["distance"] = str(refused.value)
+    data_regression.check(plain(found))
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])
@@ -431,14 +483,18 @@ def test_the_description_of_a_table_is_as_kept(convention, tmp_path, data_regres
 def test_what_the_command_line_prints_is_as_kept(calibrated, tmp_path, capsys, data_regression):
     table = calibrated.parent / "measurements.csv"
     found = {}
+    links = tmp_path / "links.csv"
+    links.write_text("joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,7,-90,412,3\n")
     for name, command in {
+        "calibrate": ["calibrate", calibrated.parent / "arm.urdf", table],
+        "urdf": ["urdf", links, "--convention=modified"],
         "correct": ["correct", calibrated, table],
         "to the instrument": ["correct", calibrated, table, "--frame=instrument"],
         "next": ["next", calibrated, "--count=3"],
         "no count": ["next", calibrated, "--count=0"],
         "gone": ["correct", calibrated, tmp_path / "gone.csv"],
     }.items():
-        out = tmp_path / f"{name}.csv"
+        out = tmp_path / f"{name.replace(' ', '_')}.csv"
         try:
             code = main([*map(str, command), f"--out={out}"])
         except SystemExit as error:
@@ -446,5 +502,9 @@ def test_what_the_command_line_prints_is_as_kept(calibrated, tmp_path, capsys, d
         said = capsys.readouterr()
         lines = [*said.out.splitlines(), *said.err.splitlines()]
         lines = [re.sub(r"/\S*/", "", line) for line in lines if not line.startswith(USAGE)]
-        found[name] = [code, lines, of_table(out) if out.exists() else None]
+        found[name] = [
+            code,
+            lines,
+            of_table(out) if command[0] in ("correct", "next") and out.exists() else None,
+        ]
     data_regression.check(plain(found))

@@ -6,7 +6,9 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.plant import Plant
+from recalib.errors import RecalibError
 from recalib.learners import schedules
+from recalib.learners.cells import Cells
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS, class_of, kind_of
@@ -138,6 +140,18 @@ def test_what_a_learner_of_geometry_learns_is_as_kept(kind, controller, worn, da
     )
 
 
+@pytest.mark.parametrize("increments", [True, False])
+def test_cells_of_many_updates_are_as_kept(increments, data_regression):
+    rng = np.random.default_rng(4)
+    cells = Cells(RUNS, rng.normal(size=(3, 2, 4, 2)), increments)
+    winners, read = (np.array([2, 0]), np.array([1, 0])), []
+    for _ in range(70):  # more than are kept back, twice
+        shares = [rng.uniform(size=(RUNS, size)) for size in (3, 2)]
+        cells.update(rng.uniform(size=RUNS), *shares, rng.normal(size=(RUNS, 4, 2)))
+        read.append(cells.at(*winners))
+    data_regression.check(plain([np.array(read), cells.at(*winners), cells.all]))
+
+
 def test_nets_and_their_winners_are_as_kept(data_regression):
     poses = desired(8, 2, 5)
     found = {}
@@ -178,6 +192,33 @@ def test_schedules_are_as_kept(data_regression):
         for name, rules in RULES.items()
     }
     data_regression.check(plain(found))
+
+
+REFUSED = {
+    "centres": lambda: Rules(True, True, True, True, centres="corners"),
+    "spread": lambda: Rules(True, True, True, True, spread="squares"),
+    "rate": lambda: Rules(True, True, True, True, rate="constant"),
+    "dimensions": lambda: Rules(True, True, True, True, dimensions=4),
+    "metric": lambda: Rules(True, True, True, True, metric=(1.0,) * 5),
+    "units": lambda: Rules(True, True, True, True, width_units=(1.0,) * 5 + (0.0,)),
+    "no width": lambda: Schedule(0.0, SINGLE, 0.8, 0.4),
+    "no final width": lambda: Schedule(1.0, {"pose": (0.5, 0.0)}, 0.8, 0.4),
+    "no rate": lambda: Schedule(1.0, SINGLE, 0.0, 0.4),
+    "rate above one": lambda: Schedule(1.0, SINGLE, np.array([0.5, 1.01]), 0.4),
+    "no final rate": lambda: Schedule(1.0, SINGLE, 1.0, 0.0),
+    "degree": lambda: PolynomialLearner(3),
+    "kind": lambda: class_of("cubic"),
+    "learner": lambda: kind_of(UncorrectedLearner()),
+}
+
+
+def test_why_settings_are_refused_is_as_kept(data_regression):
+    said = {}
+    for name, make in REFUSED.items():
+        with pytest.raises(RecalibError) as refused:
+            make()
+        said[name] = str(refused.value)
+    data_regression.check(said)
 
 
 def test_the_memory_of_moves_is_as_kept(data_regression):

@@ -2,20 +2,25 @@
 
 import json
 import re
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.learners.polynomial import PolynomialLearner
+from recalib.study.inference.measured import ERRORS
 from recalib.study.plan.trainings import Measuring
 from recalib.study.recording import captions, colours, labels, pictures, scene, viewer
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.markers import base_shift, circle, markers
 from recalib.study.recording.measurements import enlarged
-from recalib.study.recording.phases import move
+from recalib.study.recording.phases import ARM, CLOCK, move
 from recalib.study.recording.sight import sight_of
 from recalib.study.recording.watched import visiting_order
 from recalib.study.recording.writing import BrokenRecording, _compare, write_recording
@@ -132,16 +137,63 @@ def test_the_ends_of_a_recording_are_as_kept(written, data_regression):
     data_regression.check(plain({"ends": pictures.ends(written[0])}))
 
 
-@pytest.mark.parametrize("spoilt", ["moves", "position_error_cm", "orientation_error_deg"])
-def test_why_a_recording_is_broken_is_as_kept(spoilt, written, tmp_path, data_regression):
-    _, watched, _ = written
-    shown = watched["affine"].history.columns()
-    measured = {name: its.copy()[1:] for name, its in shown.items()}
-    measured[spoilt][1] = measured[spoilt][1] * 2 + 7
-    with pytest.raises(BrokenRecording) as refused:
-        _compare(tmp_path, "affine", shown, measured)
-    exact = re.compile(r"(\d\.\d{6})\d+")
-    data_regression.check({"reason": exact.sub(r"\1", refused.value.reason)})
+class StandIn:
+    """A viewer that shows the same picture in every frame, and notes what it is asked."""
+
+    def __init__(self):
+        self.asked, self._size = [], None
+
+    @contextmanager
+    def opened(self, window):
+        self._size = window
+        self.asked.append(window)
+        yield self
+
+    def open(self, path):
+        self.asked.append(Path(path).name)
+
+    def get_state(self):
+        views = [SimpleNamespace(name=ARM, view_id=17)]
+        return SimpleNamespace(loading=False, recordings=[1], views=views)
+
+    def set_time(self, clock, sequence, play_state):
+        self.asked.append(f"{clock} {sequence} {play_state}")
+
+    def save_screenshot(self, path, view):
+        self.asked.append(f"picture of {view}")
+        shade = np.add.outer(np.arange(self._size[1]), np.arange(self._size[0])) % 251
+        Image.fromarray(np.stack([shade] * 3, axis=2).astype(np.uint8)).save(path, "png")
+
+
+def test_pictures_and_films_are_as_kept(written, tmp_path, monkeypatch, data_regression):
+    stand_in = StandIn()
+    monkeypatch.setattr(pictures, "_client", stand_in.opened)
+    monkeypatch.setattr(pictures.time, "sleep", lambda _: None)
+    monkeypatch.setattr(pictures, "WINDOW", (300, 200))
+    monkeypatch.setattr(pictures, "FILM", (90, 60))
+    pictures.before_and_after(written[0], tmp_path / "before.png", tmp_path / "after.png")
+    pictures.take_pictures(written[0], {tmp_path / "arm.png": 5}, ARM, (120, 80))
+    taken = len(stand_in.asked)
+    pictures.take_film(written[0], tmp_path / "film.webp")
+    shown = [its for its in stand_in.asked[taken:] if str(its).startswith(CLOCK)]
+    sizes = []
+    for name in ("before.png", "after.png", "arm.png", "film.webp"):
+        with Image.open(tmp_path / name) as image:
+            sizes.append([*image.size, getattr(image, "n_frames", 1), image.info.get("loop")])
+            darkest = np.asarray(image.convert("L")).astype(float)
+            sizes[-1].append(round(darkest[:3].mean()))
+    data_regression.check(plain([sizes, stand_in.asked[40:taken], shown]))
+
+
+def test_why_a_recording_is_broken_is_as_kept(written, tmp_path, data_regression):
+    shown, said = written[1]["affine"].history.columns(), {}
+    for spoilt in ("moves", *ERRORS):
+        measured = {name: its.copy()[1:] for name, its in shown.items()}
+        measured[spoilt][1] = measured[spoilt][1] * 2 + 7
+        with pytest.raises(BrokenRecording) as refused:
+            _compare(tmp_path, "affine", shown, measured)
+        said[spoilt] = re.sub(r"(\d\.\d{6})\d+", r"\1", refused.value.reason)
+    data_regression.check(said)
 
 
 def test_a_recording_of_another_seed_and_damage_is_as_kept(
