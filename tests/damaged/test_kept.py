@@ -77,6 +77,7 @@ def test_the_words_of_damages_are_as_kept(data_regression):
         }
         usual = {its.name: its.default for its in fields(kind) if its.default is not MISSING}
         found[kind.__name__] = [kind.under, said, usual]
+    found["unless given"] = Disturbances()
     data_regression.check(plain(found))
 
 
