@@ -22,10 +22,11 @@ EVIDENCE = tuple(
     for name in (
         *("words", "tables", "contexts", "criteria", "evidence", "claims", "report_texts"),
         *("across", "factor", "findings", "outcome", "planted_effects", "reference", "verdicts"),
+        "kept",
     )
 )
 OF_STATISTICS = (
-    *(f"tests/study/evidence/test_{name}.py" for name in ("statistics", "speedup")),
+    *(f"tests/study/evidence/test_{name}.py" for name in ("statistics", "speedup", "kept")),
     "tests/study/test_hierarchy.py",
 )
 PARTS = {

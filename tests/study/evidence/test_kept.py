@@ -1,0 +1,142 @@
+"""What is said of uneven results is as kept: every number of every claim, table and page."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.study.evidence import checks, report
+from recalib.study.evidence.benchmark import seconds
+from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.effects import effects
+from recalib.study.evidence.pages import PAGES
+from recalib.study.inference import hierarchy, intervals
+from recalib.study.multiverse import power
+from tests.conftest import ROOT
+from tests.kept import plain
+from tests.made_up import MadeUp
+
+UNEVEN = {  # no two errors, and no two ratios, alike
+    "ritter_200": [5.3, 2.9],
+    ("improved", "translation"): [0.13, 0.017],
+    ("improved", "rotation"): [0.11, 0.19],
+    "improved_single_map": [0.61, 0.37],
+    "improved_theta_values": [0.43, 0.31],
+    "improved_jacobian_values": [0.29, 0.23],
+    "ritter_equal_visits": [4.1, 2.3],
+    "ritter_jacobian_increments": [5.9, 2.7],
+}
+
+
+SAID = {"claims", "summary", "runs", "versions"}  # on several pages, or another one each day
+
+
+class Uneven(MadeUp):
+    """Results that support some claims, and contradict others."""
+
+    def outcomes(self, *_):
+        across = {its.column: its for claim in CLAIMS for its in claim.across.values()}
+        uneven = np.random.default_rng(7).uniform(0.85, 1.15, len(across))
+        means = {
+            name: its.comparison.limit * by or 0.3 * (by - 1)
+            for (name, its), by in zip(across.items(), uneven, strict=True)
+        }
+        return super().outcomes(means, 1)
+
+    def horizon(self, *_):
+        return super().horizon(55.0)
+
+
+@pytest.fixture(scope="module")
+def results(few, tmp_path_factory):
+    its = Uneven(tmp_path_factory.mktemp("kept"), few, final=UNEVEN, noise=0.2)
+    its.conclude()
+    return its
+
+
+def test_what_is_measured_for_each_claim_and_its_verdict(results, data_regression):
+    judged = json.loads(results.path("claims.json").read_text(encoding="utf-8"))
+    data_regression.check({claim["id"]: plain(claim) for claim in judged})
+
+
+@pytest.mark.parametrize("name", [name for name in PAGES if name != "article.typ"])
+def test_what_a_page_may_say(name, results, data_regression):
+    page = PAGES[name]
+    said = plain(page.context(results.evidence(page.NEEDS)))
+    data_regression.check({key: said[key] for key in said.keys() - SAID})
+
+
+def test_what_the_report_may_say(results, data_regression):
+    said = plain(report.context(results.evidence(report.NEEDS)))
+    data_regression.check({key: said[key] for key in said.keys() - SAID})
+
+
+def test_the_tables_of_results(results, data_regression):
+    names = "summary", "benchmark", "benchmark_moves", "real"
+    tables = {name: pd.read_csv(results.path(f"{name}.csv")) for name in names}
+    spent = pd.DataFrame({"learner": [*"baab"], "seconds_per_move": [0.1, 0.7, 0.5, 0.2]})
+    data_regression.check(plain(tables | {"seconds": seconds(spent)}))
+
+
+def test_what_the_check_says_of_a_summary(results, tmp_path, data_regression):
+    path = results.path("summary.csv")
+    bands = checks.propose(path)
+    bands.to_csv(tmp_path / "expected.csv", index=False)
+    text = checks.report(path, tmp_path / "expected.csv")
+    assert text.endswith("\n")
+    data_regression.check({"bands": plain(bands), "text": text.splitlines()[:6]})
+
+
+def test_the_effects_of_factors(data_regression):
+    rng = np.random.default_rng(8)
+    design = pd.DataFrame({"one": [*"abc"] * 14, "two": [*"xy"] * 21, "three": [*"pqqprr"] * 7})
+    numbers = rng.normal(size=42) + 2.0 * (design["two"] == "y") - (design["one"] == "b")
+    data_regression.check(plain(effects(numbers.to_numpy(), design, rng)))
+
+
+UNEVENLY = np.random.default_rng(3).lognormal(size=(5, 4, 2))
+
+
+def test_intervals_of_uneven_errors(data_regression):
+    ours, theirs = UNEVENLY, UNEVENLY[:3, ::-1] ** 1.3
+
+    def rng():
+        return np.random.default_rng(2)
+
+    data_regression.check(
+        plain(
+            {
+                "estimate": intervals.estimate(ours[..., 0], rng()),
+                "of a single search": intervals.estimate(ours[:1, :, 0], rng()),
+                "geometric": intervals.geometric(ours[..., 1], rng()),
+                "ratio": intervals.ratio(ours[..., 0], theirs[..., 1], rng()),
+                "bootstrap": intervals.bootstrap(ours[..., 0].ravel(), rng()),
+                "of a single seed": intervals.bootstrap(ours[0, :1, 0], rng()),
+                "of two": intervals.bootstrap(ours[0, :2, 0], rng()),
+                "typical": [intervals.typical(ours[some:]) for some in range(4)],
+                "combined": intervals.combined(ours),
+                "columns": intervals.Estimate(1.5, 0.5, 2.0).columns("error"),
+                "first within": [
+                    intervals.first_within(np.array([3, 7, 9, 20]), ours[0], np.array(limits))
+                    for limits in ([1.0, 1.0], [2.0, 3.0], [9.0, 9.0], [0.1, 0.1])
+                ],
+            }
+        )
+    )
+
+
+def test_what_uneven_setups_have_in_common(data_regression):
+    rng = np.random.default_rng(4)
+    luck = np.repeat([0.1, 0.4], [5, 7])
+    values = 0.3 + 0.5 * rng.normal(size=(12, 1)) + luck[:, None] * rng.normal(size=(12, 3))
+    of_two = hierarchy.hierarchy(values, luck)
+    of_one = hierarchy.hierarchy(values[:6, :2], np.zeros(6))
+    alike = hierarchy.hierarchy(np.tile(values[:1], (4, 1)), np.zeros(4))
+    data_regression.check(plain({"two": of_two, "one": of_one, "alike": alike}))
+
+
+def test_the_committed_power_is_of_the_effects_that_are_tried():
+    table = pd.read_csv(ROOT / "workflow" / "universes" / "second" / "power.csv")
+    assert sorted(table["effect"].unique()) == sorted(power.EFFECTS)
+    assert sorted(table["heterogeneity"].unique()) == sorted(power.HETEROGENEITIES)

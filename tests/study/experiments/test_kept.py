@@ -1,0 +1,174 @@
+"""What small searches, trainings and comparisons come to is as kept."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.loop.training import measuring_grid
+from recalib.study.configuration.shipped import SEARCHED
+from recalib.study.experiments import search, speed
+from recalib.study.experiments.benchmark import compete
+from recalib.study.experiments.campaign import train_seeds
+from recalib.study.experiments.ensemble import train_draws
+from recalib.study.experiments.poses import Stream
+from recalib.study.experiments.replay import replay
+from recalib.study.experiments.samples import sample_of, sought, winners
+from recalib.study.experiments.settings import rules_of
+from recalib.study.experiments.trials import Search, best_of, search_for
+from recalib.study.plan.trainings import Measuring, budget, measuring
+from recalib.study.scenarios.plants import Resolved
+from tests.conftest import ROOT
+from tests.kept import plain
+
+SAMPLES = ROOT / SEARCHED
+
+
+def shortened(study, name: str, iterations: int):
+    return study.every_learner[name].model_copy(update={"iterations": iterations})
+
+
+@pytest.fixture(scope="module")
+def small(study):
+    """What a small search may spend."""
+    return budget(study).model_copy(update={"rounds": 2, "trials": 4, "seeds": 2})
+
+
+@pytest.mark.parametrize("name", ["improved", "ritter"])
+def test_all_trials_of_two_searches(name, study, small, uneven_scenario, data_regression):
+    learner = shortened(study, name, 5)
+    found = search_for(uneven_scenario, f"{name}_5", learner, small, first=1, last=3, tests=7)
+    assert list(found["search"].unique()) == [2, 3]
+    data_regression.check(plain(found))
+
+
+def test_trials_around_another_one(study, small, uneven_scenario, data_regression):
+    resolved = Resolved.read(uneven_scenario)
+    controller = resolved.controller()
+    poses = Stream.SEARCH.draw(3, [0, 1], 4, 5, number=2, training="t", scenario="s")
+    its = Search(
+        lambda runs: resolved.plant(controller, 3, range(runs)),
+        rules_of(study.learners["improved"]),
+        small,
+        poses,
+        fixed={"position/g_k": 0.7},
+    )
+    first = its.all_rounds()
+    again = its.further(best_of(first))
+    data_regression.check(plain({"first": first, "again": again}))
+
+
+def test_draws_schedules_and_scores(study, data_regression):
+    found = {}
+    for name in ("improved", "ritter"):
+        rules, its = rules_of(study.learners[name]), budget(study)
+        trials = search.draw(rules, dict(its.ranges), 4, np.random.default_rng(2), None)
+        around = search.draw(rules, dict(its.ranges), 4, np.random.default_rng(2), trials.iloc[2])
+        trials["position_error_cm"] = np.linspace(1, 9, 4)
+        trials["orientation_error_deg"] = np.linspace(3, 2, 4) ** 2
+        scores = {
+            score: search.scores(trials, its.model_copy(update={"score": score})).to_list()
+            for score in ("worse", "geometric_mean")
+        }
+        found[name] = {
+            "trials": trials,
+            "around": around,
+            "schedule": search.schedule(trials, rules, 2),
+            "scores": scores,
+        }
+    data_regression.check(plain(found))
+
+
+@pytest.mark.parametrize("name", ["improved", "ritter"])
+@pytest.mark.parametrize("throughout", [True, False])
+def test_a_training(name, throughout, study, uneven_scenario, tmp_path, data_regression):
+    learned = tmp_path / "learned.npz"
+    history = train_seeds(
+        uneven_scenario,
+        SAMPLES / f"{name}_200.csv",
+        learned,
+        shortened(study, name, 9),
+        seeds=3,
+        first=1,
+        last=5,
+        measuring=Measuring(tests=7, every=2, evenly=10, measurements=4),
+        throughout=throughout,
+        seed=11,
+    )
+    data_regression.check(plain({"history": history, "learned": arrays(learned)}))
+
+
+def arrays(path) -> dict:
+    with np.load(path) as file:
+        return {name: file[name] for name in file.files if file[name].dtype.kind in "fiub"}
+
+
+def test_on_other_damages(study, plan, data_regression):
+    found = train_draws(
+        SAMPLES / "improved_200.csv",
+        plan.nominal("ur10"),
+        study.paper_damage.shorten,
+        study.paper_damage.shift,
+        series="others",
+        scales=(0.5, 1.5),
+        first=1,
+        last=4,
+        rules=shortened(study, "improved", 6),
+        tests=5,
+        seed=3,
+    )
+    data_regression.check(plain(found))
+
+
+@pytest.mark.parametrize("name", ["affine", "geometric", "improved"])
+def test_a_comparison(name, study, uneven_scenario, data_regression):
+    ours = name == "improved"
+    table = compete(
+        [uneven_scenario],
+        name,
+        shortened(study, name, 8) if ours else None,
+        seeds=2,
+        moves=(4, 10),
+        longer=(16,),
+        tests=6,
+        seed=5,
+        sample=SAMPLES / "improved_200.csv" if ours else None,
+    )
+    digits = 2 if name == "geometric" else 6  # an optimiser's last digits are its own
+    table = table.drop(columns="seconds_per_move").round(digits)
+    data_regression.check(plain(table))
+
+
+def test_a_replay(study, uneven_scenario, data_regression):
+    rules = shortened(study, "improved", 6)
+    found = replay(uneven_scenario, SAMPLES / "improved_200.csv", rules, seed=4)
+    assert (found["difference"] == 0).all()
+    data_regression.check(plain(found))
+
+
+def test_samples_of_searches(study, tmp_path, data_regression):
+    its = sought(study, "improved_200")
+    path = SAMPLES / "improved_200.csv"
+    trials = pd.read_csv(path, comment="#")
+    data_regression.check(
+        plain({"sought": its, "winners": winners(path), "text": sample_of(its, trials[:2])})
+    )
+
+
+def test_when_trainings_are_measured(study, data_regression):
+    its = measuring(study)
+    grids = [(10, 3, 20, 5), (50, 3, 20, 5), (1000, 4, 200, 12)]
+    data_regression.check(plain({"study": its, "grids": [measuring_grid(*it) for it in grids]}))
+
+
+def test_what_is_said_of_speed(study, uneven_scenario, monkeypatch, data_regression):
+    """With a clock that goes on evenly: each call takes a second."""
+    for name, value in (("RUNS", 2), ("MOVES", 3), ("REPEATS", 3), ("ITERATIONS", 4)):
+        monkeypatch.setattr(speed, name, value)
+    spent = iter([2.0, 1.0, 9.0, 3.0, 5.0, 1.0, 7.0])
+    monkeypatch.setattr(speed, "seconds", lambda function, *its: (function(*its), next(spent))[1])
+    text = speed.measure_speed(
+        uneven_scenario,
+        [SAMPLES / "improved_200.csv"],
+        {"improved": study.learners["improved"]},
+    )
+    data_regression.check(text.splitlines())

@@ -1,0 +1,208 @@
+"""All that recordings show and say, as it is kept in files."""
+
+import json
+import re
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
+from recalib.damaged.disturbances import Noise, Outliers, Repeatability
+from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib.learners.polynomial import PolynomialLearner
+from recalib.study.inference.measured import ERRORS
+from recalib.study.plan.trainings import Measuring
+from recalib.study.recording import captions, colours, labels, pictures, scene, viewer
+from recalib.study.recording.blueprint import arrange
+from recalib.study.recording.markers import base_shift, circle, markers
+from recalib.study.recording.measurements import enlarged
+from recalib.study.recording.phases import ARM, CLOCK, move
+from recalib.study.recording.sight import sight_of
+from recalib.study.recording.watched import visiting_order
+from recalib.study.recording.writing import BrokenRecording, _compare, write_recording
+from tests.kept import plain
+from tests.logged import arranged, logged
+from tests.study.recording.conftest import SEED, learner
+
+EVERY = (
+    BaseShift((0.013, -0.007, 0.021), (0.04, -0.03, 0.05)),
+    LinkShortening("forearm_link", 0.037),
+    LinkShortening("wrist_1_link", 0.011, "axis"),
+    EncoderShift("elbow_joint", 0.05),
+    EncoderShift("wrist_2_joint", np.radians(-3)),
+    EccentricGear("elbow_joint", 0.02, 0.4),
+    Sag("shoulder_lift_joint", 1.5e-4),
+    Backlash("wrist_1_joint", 0.01),
+    Noise(0.0003, 0.0004),
+    Repeatability(0.0005),
+    Outliers(0.1, 0.02),
+)
+LEAST = EVERY[1:2]
+
+
+@pytest.fixture(scope="module")
+def small(job, study):
+    """A recording of few iterations of one of the paper's learners and one of today's."""
+    few = study.learners["improved"].model_copy(update={"iterations": 7})
+    measuring = Measuring(tests=5, every=3, evenly=10, measurements=2)
+    return job.model_copy(
+        update={"learners": {"improved": few, "affine": None}, "measuring": measuring}
+    )
+
+
+@pytest.fixture(scope="module")
+def written(small, resolved, tmp_path_factory):
+    """The file, what was watched, and on what."""
+    its = resolved(EVERY)
+    learners = {"improved": learner("improved"), "affine": PolynomialLearner(1)}
+    path = tmp_path_factory.mktemp("kept") / "kept.rrd"
+    return path, write_recording(path, small, its, learners, {}, 3), its
+
+
+def test_all_that_is_logged_is_as_kept(written, data_regression):
+    path, _, _ = written
+    found = {key: its for key, its in logged(path).items() if "/__properties" not in key}
+    data_regression.check(plain(found))
+
+
+def test_all_that_is_watched_is_as_kept(written, data_regression):
+    _, watched, _ = written
+    data_regression.check(plain(watched))
+
+
+def test_all_that_is_said_is_as_kept(written, small, data_regression):
+    _, watched, its = written
+    job = small.model_copy(update={"published": {"position_error_cm": 8.3}})
+    said = captions.properties(job, its)
+    kept = {
+        "about": captions.about(its, watched).splitlines(),
+        "beside": captions.beside(watched).splitlines(),
+        "progress": [captions.progress(its, one) for one in watched.values()],
+        "words": [captions.in_words(entry) for entry in its.damages],
+        "damage": [said["robot"], *json.loads(said["damage"])],
+        "keys": sorted(said),
+        "job": sorted(json.loads(said["job"])),
+        "enlarged": [enlarged(one) for one in watched.values()],
+    }
+    data_regression.check(plain(kept))
+
+
+def test_the_blueprint_is_as_kept(written, small, robot, data_regression):
+    _, watched, _ = written
+    main = watched["improved"]
+    sight = sight_of(robot.workspace, (main.achieved[0] - main.desired)[:, :3, 3])
+    views = [
+        arrange(some, sight, published, side)
+        for some, published, side in (
+            (watched, small.published, True),
+            (watched, {}, False),
+            ({"improved": main}, {"position_error_cm": 43.0}, True),
+        )
+    ]
+    data_regression.check(plain([arranged(its) for its in views]))
+
+
+def test_what_stands_beside_an_arm_is_as_kept(robot, data_regression):
+    unit, rng = scene.unit_of(robot.workspace), np.random.default_rng(3)
+    shift = base_shift(robot, EVERY)
+    sights = [sight_of(robot.workspace, rng.normal(size=(3, 3)) * side) for side in (1, [3, 0, 1])]
+    points = rng.normal(size=(4, 3))
+    angles = rng.normal(size=(3, 4, 6))
+    found = {
+        "markers": markers(robot, EVERY[:8], unit),
+        "base": shift.homogeneous,
+        "intact": base_shift(robot, LEAST).homogeneous,
+        "circle": circle(shift, 0.17),
+        "sights": [[its, its.place(0.3, -0.2), its.seen(points)] for its in sights],
+        "order": visiting_order(rng.uniform(-1, 1, (7, 6))),
+        "motion": move(angles, np.array([0, 5, 9]), robot.home, 14),
+        "axes": scene.axes_of(robot.arm.forward(rng.normal(size=(2, 6))), 0.13),
+        "colours": {name: its for name, its in vars(colours).items() if name.isupper()},
+        "sizes": {name: its for name, its in vars(labels).items() if name.isupper()}
+        | {"unit": unit},
+        "of pictures": [pictures.WINDOW, pictures.TOP_BAR, pictures.FILM, pictures.STEP],
+        "of films": [pictures.FRAME, pictures.LAST, pictures.SHOWN, pictures.REPAINTS],
+        "viewer": [viewer.HERE, viewer.PATIENCE, viewer.quiet()["CI"]],
+    }
+    found["sizes"].pop("WRONG", None)
+    found["sizes"].pop("BEFORE", None)
+    data_regression.check(plain(found))
+
+
+def test_the_ends_of_a_recording_are_as_kept(written, data_regression):
+    data_regression.check(plain({"ends": pictures.ends(written[0])}))
+
+
+class StandIn:
+    """A viewer that shows the same picture in every frame, and notes what it is asked."""
+
+    def __init__(self):
+        self.asked, self._size = [], None
+
+    @contextmanager
+    def opened(self, window):
+        self._size = window
+        self.asked.append(window)
+        yield self
+
+    def open(self, path):
+        self.asked.append(Path(path).name)
+
+    def get_state(self):
+        views = [SimpleNamespace(name=ARM, view_id=17)]
+        return SimpleNamespace(loading=False, recordings=[1], views=views)
+
+    def set_time(self, clock, sequence, play_state):
+        self.asked.append(f"{clock} {sequence} {play_state}")
+
+    def save_screenshot(self, path, view):
+        self.asked.append(f"picture of {view}")
+        shade = np.add.outer(np.arange(self._size[1]), np.arange(self._size[0])) % 251
+        Image.fromarray(np.stack([shade] * 3, axis=2).astype(np.uint8)).save(path, "png")
+
+
+def test_pictures_and_films_are_as_kept(written, tmp_path, monkeypatch, data_regression):
+    stand_in = StandIn()
+    monkeypatch.setattr(pictures, "_client", stand_in.opened)
+    monkeypatch.setattr(pictures.time, "sleep", lambda _: None)
+    monkeypatch.setattr(pictures, "WINDOW", (300, 200))
+    monkeypatch.setattr(pictures, "FILM", (90, 60))
+    pictures.before_and_after(written[0], tmp_path / "before.png", tmp_path / "after.png")
+    pictures.take_pictures(written[0], {tmp_path / "arm.png": 5}, ARM, (120, 80))
+    taken = len(stand_in.asked)
+    pictures.take_film(written[0], tmp_path / "film.webp")
+    shown = [its for its in stand_in.asked[taken:] if str(its).startswith(CLOCK)]
+    sizes = []
+    for name in ("before.png", "after.png", "arm.png", "film.webp"):
+        with Image.open(tmp_path / name) as image:
+            sizes.append([*image.size, getattr(image, "n_frames", 1), image.info.get("loop")])
+            darkest = np.asarray(image.convert("L")).astype(float)
+            sizes[-1].append(round(darkest[:3].mean()))
+    data_regression.check(plain([sizes, stand_in.asked[40:taken], shown]))
+
+
+def test_why_a_recording_is_broken_is_as_kept(written, tmp_path, data_regression):
+    shown, said = written[1]["affine"].history.columns(), {}
+    for spoilt in ("moves", *ERRORS):
+        measured = {name: its.copy()[1:] for name, its in shown.items()}
+        measured[spoilt][1] = measured[spoilt][1] * 2 + 7
+        with pytest.raises(BrokenRecording) as refused:
+            _compare(tmp_path, "affine", shown, measured)
+        said[spoilt] = re.sub(r"(\d\.\d{6})\d+", r"\1", refused.value.reason)
+    data_regression.check(said)
+
+
+def test_a_recording_of_another_seed_and_damage_is_as_kept(
+    small, resolved, tmp_path, data_regression
+):
+    job = small.model_copy(update={"seed": SEED + 4, "moves": 2, "published": {}})
+    job = job.model_copy(update={"learners": {"affine": None}})
+    its, path = resolved(LEAST), tmp_path / "other.rrd"
+    watched = write_recording(path, job, its, {"affine": PolynomialLearner(1)}, {}, 1)
+    entities = {key: one for key, one in logged(path).items() if "/__properties" not in key}
+    said = captions.about(its, watched).splitlines(), captions.beside(watched).splitlines()
+    data_regression.check(plain([watched, said, entities]))
