@@ -18,7 +18,7 @@ from recalib.identification.calibration import (
 )
 from recalib.identification.closed_forms import solutions
 from recalib.identification.consensus import _by_chance, identify_by_consensus
-from recalib.identification.design import information_gains, most_telling
+from recalib.identification.design import information_gains, most_informative
 from recalib.identification.diagnostics import check_estimate, check_postures
 from recalib.identification.error_model import (
     JOINT_ERRORS,
@@ -200,8 +200,10 @@ def test_what_is_identified_from_each_kind_of_rows_is_as_kept(kind, arm, panda, 
             for one in unidentifiable_parameters(calibration, observations)
         ],  # in which order several targets are named, rounding decides
         "gains": coarse(information_gains(calibration, observations.joints)),
-        "telling": [best for best, _ in most_telling(calibration, observations.joints, 4)],
-        "told": [coarse(its, 3) for _, its in most_telling(calibration, observations.joints, 2)],
+        "telling": [best for best, _ in most_informative(calibration, observations.joints, 4)],
+        "told": [
+            coarse(its, 3) for _, its in most_informative(calibration, observations.joints, 2)
+        ],
     }
     data_regression.check(plain(found))
 

@@ -19,7 +19,7 @@ from recalib.laboratory import doubts, watching
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import main
-from recalib.laboratory.correct import correct, solve, untold
+from recalib.laboratory.correct import correct, solve, unidentifiable_ends
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.files import optional_outputs, write_files
@@ -27,7 +27,6 @@ from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.links import read_rows, urdf_of
 from recalib.laboratory.measurements import Measurements, read_desired, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
-from recalib.laboratory.panels import Axis, Panel, drawing
 from recalib.laboratory.parameters import unidentifiable_directions
 from recalib.laboratory.propose import propose
 from recalib.laboratory.summary import errors_table, notes, verdict
@@ -66,6 +65,7 @@ def numbers(text: str) -> np.ndarray:
 
 
 def words(text: str) -> list[str]:
+    text = re.sub(r"/\S*/", "", text)  # folders
     return sorted({*map(untied, NUMBER.sub("#", text).splitlines())})
 
 
@@ -171,7 +171,7 @@ def test_what_is_said_of_a_calibration_is_as_kept(name, made, data_regression):
             for one in its.places
         ],
         "faults": [[one.kind, coarse(one.size, 2), one.row] for one in its.faults],
-        "beside": its.beside and str(its.beside),
+        "between": its.between,
     }
     data_regression.check(plain(found))
 
@@ -181,7 +181,6 @@ def test_the_files_of_a_calibration_are_as_kept(name, made, tmp_path, data_regre
     its, folder = made(name), tmp_path / "calibration"
     written = write_files(its, folder, optional_outputs()[0])
     page = (folder / "page.html").read_text(encoding="utf-8")
-    drawn = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
     text = re.sub(r"<svg.*?</svg>|<style.*?</style>", "", page, flags=re.DOTALL)
     found = {
         "files": written,
@@ -193,12 +192,8 @@ def test_the_files_of_a_calibration_are_as_kept(name, made, tmp_path, data_regre
         "parameters": cells(folder / "parameters.csv")["decided_by"],
         "summary": words((folder / "summary.txt").read_text()),
         "urdf": coarse(numbers((folder / "arm.urdf").read_text()), 4),
-        "drawings": [coarse(numbers(one), 2) for one in drawn],
-        "drawn": [sorted({*re.findall(r"<(\w+)|(#[0-9A-F]+)|>([^<>]+)<", one)}) for one in drawn],
         "page": [line for line in words(text) if line.strip()][:40],
     }
-    found["drawn"] = [[" ".join(filter(None, one)) for one in its] for its in found["drawn"]]
-    found["drawn"] = [sorted({NUMBER.sub("#", one) for one in its}) for its in found["drawn"]]
     data_regression.check(plain(found))
 
 
@@ -219,7 +214,7 @@ def test_corrections_of_an_arm_with_a_ball_in_sockets_are_as_kept(made, data_reg
     poses = correction.calibration.forward(correction.learned[rows] + 0.01)
     desired = Measurements(5, positions=poses[:, :3, 3], rotations=poses[:, :3, :3])
     commands = correct(correction, desired)
-    found = {"untold": untold(correction), "beyond": commands.beyond}
+    found = {"unidentifiable": unidentifiable_ends(correction), "beyond": commands.beyond}
     found |= {"joints": coarse(commands.joints, 3), "poses": coarse(commands.poses, 3)}
     for name, ask in {
         "to an instrument": lambda: correct(correction, desired, in_instrument=True),
@@ -279,7 +274,7 @@ def test_corrections_and_proposals_are_as_kept(name, made, tmp_path, data_regres
     proposals = propose(correction, 5), propose(correction, 3, candidates)
     proposals = *proposals, propose(correction, 2, positions)
     found = {
-        "untold": untold(correction),
+        "unidentifiable": unidentifiable_ends(correction),
         "commands": [[coarse(one.joints, 3), coarse(one.poses, 3), one.beyond] for one in commands],
         "solved": [coarse(part, 3) for part in solve(correction, positions)[::2]],
         "proposals": [
@@ -441,35 +436,16 @@ def test_mistakes_in_nominal_positions_are_named_as_kept(lab, data_regression):
         "unit": (joints, 1e3 * right, {}),
         "both": (shifted * [-1, 1, 1, 1], right, {}),
         "exchanged": (joints[:, [1, 0, 2, 3]], right, {}),
-        "known": (joints, turned, {"base": np.eye(4), "target": np.zeros(3)}),
+        "known": (joints, turned, {"base": np.eye(4), "target": np.eye(4)}),
         "other": (joints, right[::-1], {}),
     }
     found = {}
     for name, (asked, nominal, known) in cases.items():
         try:
-            fit = check_nominal(arm, asked, nominal, **known)
-            found[name] = fit and [str(fit), np.round(fit.base, 4), np.round(fit.rms, 5)]
+            found[name] = check_nominal(arm, asked, nominal, **known)
         except RecalibError as error:
             found[name] = str(error)
     data_regression.check(plain(found))
-
-
-def test_drawings_are_as_kept(data_regression):
-    across, up = Axis("length [mm]", [-3.7, 11.2, 4.1]), Axis("error", [2e-5, 3.1], 1e-4)
-    alike = [Axis("x", [0.0, 2.1]), Axis("y", [-0.4, 0.9])]
-    panels = [Panel((300, 200), (across, up), "a title"), Panel((300, 200), alike, alike=True)]
-    rng = np.random.default_rng(8)
-    x, y = rng.uniform(0, 2, 5), rng.uniform(0.1, 0.9, 5)
-    for panel in panels:
-        panel.line(x, y, "#123", 2)
-        panel.dots(x, y, "#456", 3.5)
-        panel.spikes(np.stack([x, y], axis=1), np.stack([y, x], axis=1), "#789")
-    one = Axis("one", [5.0, 5.0])
-    found = [axis.ends for axis in (across, up, one)], [axis.ticks() for axis in (across, up, one)]
-    text = drawing([*panels, panels[0]], 2)
-    data_regression.check(
-        plain([found, [len(its.drawn) for its in panels], text.split("><")[:60], numbers(text)])
-    )
 
 
 @pytest.mark.parametrize("convention", ["standard", "modified"])
