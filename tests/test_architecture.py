@@ -70,6 +70,7 @@ BRINGS = {
     "experiments.campaign experiments.replay mapping.measured multiverse.efforts"
     " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"},
     "experiments.tracker": ARMS - {"numba"},
+    "recording.in_browser": ARMS - {"scipy.spatial"} | {"pandas"},
     "recording.pictures": {"rerun"},
     "recording.writing": ARMS | {"pandas", "rerun"},
 }

@@ -111,7 +111,8 @@ def test_the_readme_is_read_in_a_few_minutes():
     "page",
     [
         "README.md",
-        *(f"docs/{name}.md" for name in ("results", "findings", "choices", "deviations")),
+        "docs/study.js",
+        *(f"docs/{name}.md" for name in ("index", "results", "findings", "choices", "deviations")),
     ],
 )
 def test_the_committed_pages_are_those_of_the_results(page):

@@ -1,5 +1,6 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
+from recalib.study.configuration.switches import IMPROVED
 from recalib.study.plan.recordings import recording as what_is_recorded, recordings
 
 
@@ -50,6 +51,32 @@ rule recording:
 def recordings_of(root):
     """The recordings of a study, if it has learners that are recorded."""
     return [f"{root}/recordings/{name}.rrd" for name in recordings(STUDIES[root])]
+
+
+rule in_browser:
+    input:
+        scenario=own_scenario,
+        sample=lambda w: sample(w, IMPROVED),
+        history=lambda w: f"{w.root}/runs/{study(w).scenario}/{TRAININGS[w.root].name(IMPROVED)}.parquet",
+    output:
+        "{root}/pages/study.js",
+    log:
+        "{root}/logs/in_browser.log",
+    localrule: True
+    params:
+        **calls(
+            "recalib.study.recording.in_browser.script",
+            reads=lambda w: [sample(w, IMPROVED)],
+        ),
+        arguments=lambda w: as_text(
+            learner=rules_of(study(w), IMPROVED),
+            measuring=measuring(study(w)),
+            seed=study(w).seed,
+        ),
+    message:
+        "Write what a browser needs to repeat the recorded run"
+    script:
+        "../scripts/call.py"
 
 
 def pictured(wildcards):

@@ -7,7 +7,7 @@ from recalib.study.evidence import report as report_
 
 TEXTS = Path(report_.TEXTS)
 PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
-PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md"]
+PAGES_OF_THE_SHIPPED = ["findings.md", "deviations.md", "index.md", "study.js"]
 
 
 report: str(Path(MAIN, "report", f"{report_.FRONT}.rst").resolve())

@@ -55,7 +55,10 @@ def everything(root):
     return [*wanted, *with_copies(root, figures=drawn_), *recordings_of(root), *report_of(root)]
 
 
-COPIES = {page if page == "README.md" else f"docs/{page}": page for page in PAGES_OF_EVIDENCE}
+COPIES = {
+    page if page == "README.md" else f"docs/{page}": page
+    for page in [*PAGES_OF_EVIDENCE, "study.js"]
+}
 
 
 def with_copies(root, figures=(), pages=()):

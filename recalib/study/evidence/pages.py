@@ -28,6 +28,7 @@ PAGES: Mapping[str, ModuleType] = {
     "guidance.md": guidance,
     "real_arm.md": real_arm,
     "article.typ": article,
+    "index.md": readme,
 }
 MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
 

@@ -1,11 +1,13 @@
 """Colours that mean different things differ, also to the colour-blind."""
 
+import re
 from itertools import combinations
 
 import numpy as np
 import pytest
 
 from recalib.study.recording import colours
+from tests.conftest import ROOT
 
 # of linear RGB, at full severity: Machado, Oliveira and Fernandes, 2009
 SEEN = {
@@ -34,6 +36,8 @@ XYZ = np.array(
     ]
 )  # of linear RGB
 FEWEST = 15  # of CIEDE2000 between two meanings
+SITE = ROOT / "workflow" / "site" / "try" / "try.css"
+PAPER = {"light": "#ffffff", "dark": "#1e2129"}  # of the site's theme
 
 
 def linear(colour) -> np.ndarray:
@@ -96,5 +100,19 @@ def test_colours_that_mean_different_things_differ(seen):
     del named["LEARNERS"]
     assert len(named) == 9
     shades = {name: lab(SEEN[seen] @ linear(colour)) for name, colour in named.items()}
+    for one, other in combinations(shades, 2):
+        assert ciede2000(shades[one], shades[other]) >= FEWEST, (one, other)
+
+
+@pytest.mark.parametrize("scheme", PAPER)
+@pytest.mark.parametrize("seen", SEEN)
+def test_so_do_those_of_the_site_where_one_can_try_it(seen, scheme):
+    found = re.findall(r"--(\w+): (#\w{6});", SITE.read_text(encoding="utf-8"))
+    assert len(found) == 10, "five by day, five by night"
+    half = found[:5] if scheme == "light" else found[5:]
+    shades = {
+        name: lab(SEEN[seen] @ linear(list(bytes.fromhex(text[1:]))))
+        for name, text in [*half, ("paper", PAPER[scheme])]
+    }
     for one, other in combinations(shades, 2):
         assert ciede2000(shades[one], shades[other]) >= FEWEST, (one, other)
