@@ -101,6 +101,11 @@ class Schema:
         """The keys of a mapping."""
         return list(self.resolved(schema).get("properties", {}))
 
+    def meaning(self, schema: Mapping) -> str:
+        """What a key is, within a sentence; of a value in a list, that it is one."""
+        text = schema.get("description") or self.resolved(schema).get("description", "A value.")
+        return f"{text[0].lower()}{text[1:-1]}"
+
 
 if __name__ == "__main__":
     with whole(FILE) as path:
