@@ -56,7 +56,7 @@ def room(mem_mb, runtime):
 wildcard_constraints:
     root="|".join(STUDIES),
     scenario=r"\w+(-\w+)?",
-    recording=r"\w+(-\w+)?(\.today)?",
+    recording=r"\w+(-\w+)?",
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",
