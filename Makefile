@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster lint test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster lint lines test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -54,6 +54,10 @@ lint: setup ## the linters and the types of the library
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
 	.venv/bin/snakefmt --check Snakefile workflow/rules
+
+lines: ## how many lines of Python there are
+	@echo "recalib and workflow: $$(git ls-files 'recalib/*.py' 'workflow/*.py' | xargs cat | wc -l)"
+	@echo "tests: $$(git ls-files 'tests/*.py' | xargs cat | wc -l)"
 
 dist: setup ## what is released, the sources and the wheel, in dist/
 	rm -rf dist
