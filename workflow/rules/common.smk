@@ -60,7 +60,6 @@ wildcard_constraints:
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",
-    batch=r"\d+",
     series=r"[a-z]+",
     figure=r"\w+",
     training=r"\w+_\d+",
