@@ -76,8 +76,8 @@ lowest: setup ## the library's tests with the lowest versions that pyproject.tom
 slurm: setup ## a small campaign on a Slurm of one node, with faults; says what it lacks
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: setup ## what befalls a run: killed, two at once, damaged files, disk full; prints a table
-	.venv/bin/python -m tests.faults --cores $(CORES)
+faults: setup ## what befalls a run: killed, two at once, damaged files, disk full
+	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
 verify: setup ## whether all results are as they were written; what is not is removed
 	.venv/bin/python -m workflow.digests results
