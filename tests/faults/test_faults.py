@@ -54,11 +54,11 @@ def goes_on(yard: Yard, project: Project) -> None:
 
 @pytest.mark.slow
 def test_all_processes_are_killed_at_random_moments_and_run_again_each_time(yard):
-    project, luck = yard.bare(), random.Random(1996)
+    project, rng = yard.bare(), random.Random(1996)
     for _ in range(CHAIN):
         process = project.start()
         project.at_work(process)
-        time.sleep(luck.uniform(0, 3))
+        time.sleep(rng.uniform(0, 3))
         kill(process)
     goes_on(yard, project)
 
