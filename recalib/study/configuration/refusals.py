@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from recalib.spelling import instead, nearest
 from recalib.study.configuration.messages import Mistake, unlike
-from recalib.study.configuration.schema import Schema, json_schema
+from recalib.study.configuration.schema import find, keys, meaning
 
 KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
 # What it says of Python, said of YAML.
@@ -24,20 +24,20 @@ def refusals(error: ValidationError) -> list[Mistake]:
 
     A misspelt key is no missing one, too.
     """
-    schema, found, meant = Schema(json_schema()), {}, set()
+    found, meant = {}, set()
     errors = error.errors(include_url=False)
     for refusal in sorted(errors, key=lambda its: its["type"] == "missing"):
         *parents, last = refusal["loc"]
-        path, its = schema.find(parents if last == KEY else refusal["loc"])
+        path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
             case "extra_forbidden":
-                keys = schema.keys(schema.find(parents)[1])
-                meant.add((*path[:-1], nearest(last, keys)))
-                found[path] = Mistake(path, f": unknown key; {instead(last, keys)}")
+                valid = keys(find(parents)[1])
+                meant.add((*path[:-1], nearest(last, valid)))
+                found[path] = Mistake(path, f": unknown key; {instead(last, valid)}")
             case "missing" if path in meant:
                 pass
             case "missing":
-                found[path] = Mistake(path, f" is missing: {schema.meaning(its)}")
+                found[path] = Mistake(path, f" is missing: {meaning(schema)}")
             case "too_short" if refusal["input"]:
                 pass  # since none of its values is valid, which each of them says
             case _:

@@ -187,11 +187,10 @@ def test_the_editors_schema_is_that_of_the_types():
 
 def test_every_key_is_described():
     whole = schema.json_schema()
-    resolved = schema.Schema(whole).resolved
     undescribed = [
         key
         for part in (whole, *whole["$defs"].values())
         for key, value in part["properties"].items()
-        if not (value.get("description") or resolved(value).get("description"))
+        if not (value.get("description") or schema.resolved(value).get("description"))
     ]
     assert undescribed == []
