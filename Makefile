@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster lint test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -55,6 +55,10 @@ lint: setup ## the linters and the types of the library
 	.venv/bin/mypy
 	.venv/bin/snakefmt --check Snakefile workflow/rules
 
+lines: ## count the lines of Python
+	@echo "recalib and workflow: $$(git ls-files 'recalib/*.py' 'workflow/*.py' | xargs cat | wc -l)"
+	@echo "tests: $$(git ls-files 'tests/*.py' | xargs cat | wc -l)"
+
 dist: setup ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
@@ -72,8 +76,8 @@ lowest: setup ## the library's tests with the lowest versions that pyproject.tom
 slurm: setup ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: setup ## kill runs, start two at once, damage files, fill the disk; print what happens
-	.venv/bin/python -m tests.faults --cores $(CORES)
+faults: setup ## kill runs, start two at once, damage files, fill the disk
+	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
 verify: setup ## remove results that have changed since they were written
 	.venv/bin/python -m workflow.digests results

@@ -40,8 +40,8 @@ from recalib.learners.gaussian_process import GaussianProcessLearner as Gaussian
 from recalib.learners.geometric import GeometricLearner as GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner as HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner as HybridLearner
+from recalib.learners.learned import load as load
 from recalib.learners.learned import save as save
-from recalib.learners.loading import load as load
 from recalib.learners.polynomial import PolynomialLearner as PolynomialLearner
 from recalib.learners.radial import RadialLearner as RadialLearner
 from recalib.learners.rules import IMPROVED as IMPROVED

@@ -18,8 +18,7 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS
-from recalib.learners.learned import ALIKE, VERSION, differences, identity, join, read, save
-from recalib.learners.loading import load
+from recalib.learners.learned import ALIKE, VERSION, differences, identity, join, load, read, save
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule

@@ -52,10 +52,9 @@ def test_an_example_needs_the_public_names_alone(path):
 
 MISUSE = """
 import recalib
-from recalib.damaged.fleet import Fleet
 
-def robots(one: recalib.Plant, several: Fleet, own: recalib.ExternalRobot) -> None:
-    taken: list[recalib.Commandable] = [one, several, own]
+def robots(one: recalib.Plant, own: recalib.ExternalRobot) -> None:
+    taken: list[recalib.Commandable] = [one, own]
 
 recalib.Controller(3, nonsense=4)
 recalib.load_robott("ur10_robot.urdf")
@@ -74,7 +73,7 @@ def test_a_type_checker_knows_the_public_names_and_finds_no_fault_with_the_examp
     )
     # not the whole path: of the same text, mypy's cache still knows the one of the last run
     faults = re.findall(r"(\w+)\.py:(\d+): error:", ran.stdout)
-    assert faults == [("misuse", "8"), ("misuse", "8"), ("misuse", "9")], ran.stdout
+    assert faults == [("misuse", "7"), ("misuse", "7"), ("misuse", "8")], ran.stdout
     assert "nonsense" in ran.stdout and "load_robott" in ran.stdout
 
 

@@ -21,37 +21,17 @@ OTHERS = "studies"  # below the shipped study's folder lie those of the others
 class Busy(RecalibError):
     """Another run works in the same folder."""
 
-    def __init__(self, folder: str):
-        self.folder = folder
-        super().__init__(f"another run is at work in {folder}: wait until it has ended")
-
 
 class Unknown(RecalibError):
     """Results whose notes are gone, so that nobody can say from what they were made."""
 
-    def __init__(self, folder: str):
-        self.folder = folder
-        super().__init__(
-            f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can say"
-            f" whether it is up to date; try: remove {folder}, or, if nothing was changed since,"
-            f" {folder}/{MARK}"
-        )
-
-
-class ReadOnly(RecalibError):
-    """A folder in which nothing can be written."""
-
-    def __init__(self, folder: str):
-        self.folder = folder
-        super().__init__(f"nothing can be written in {folder}; try: a copy of the project")
-
 
 def check_writable(folder: str) -> None:
-    """Raise ReadOnly where no file can be made; the folder itself need not be there yet."""
+    """Raise RecalibError where no file can be made; the folder itself need not be there yet."""
     made = Path(folder).absolute()
     there = made if made.exists() else made.parent
     if not os.access(there, os.W_OK):
-        raise ReadOnly(str(there))
+        raise RecalibError(f"nothing can be written in {there}; try: a copy of the project")
 
 
 def check_known(folders: Iterable[str]) -> None:
@@ -59,7 +39,11 @@ def check_known(folders: Iterable[str]) -> None:
     here = _read(NOTES)
     for folder in folders:
         if _read(f"{folder}/{MARK}") not in ("", here):
-            raise Unknown(folder)
+            raise Unknown(
+                f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
+                f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"
+                f" since, {folder}/{MARK}"
+            )
 
 
 def _read(path: str) -> str:
@@ -92,7 +76,8 @@ def hold(folders: Iterable[str]) -> None:
             fcntl.flock(mark, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             os.close(mark)
-            raise Busy(folder) from None
+            busy = f"another run is at work in {folder}: wait until it has ended"
+            raise Busy(busy) from None
         os.truncate(mark, 0)
         os.write(mark, _identity().encode("ascii"))
         sweep(folder)

@@ -49,17 +49,7 @@ class Plant:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what the robots achieve."""
-        return self.execute_targets(self._controller.targets(commands))
-
-    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
-
-        Undisturbed and not counted.
-        """
-        return self.achieve_targets(self._controller.targets(commands))
-
-    def execute_targets(self, targets: Targets) -> Outcome:
-        """As `execute`, for commands that the controller has turned into joint angles."""
+        targets = self._controller.targets(commands)
         if self._disturbances is None:
             poses, executed = self.achieve_targets(targets)
         else:
@@ -69,6 +59,13 @@ class Plant:
         self.moves += executed.shape[1]
         self.refused = self.refused + np.sum(~executed, axis=1)
         return Outcome(self.workspace.to_coordinates(poses), executed)
+
+    def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
+
+        Undisturbed and not counted.
+        """
+        return self.achieve_targets(self._controller.targets(commands))
 
     def achieve_targets(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
         """As `achieve`, for commands that the controller has turned into joint angles."""

@@ -1,7 +1,5 @@
 """Geometry, joint errors and a Gaussian process: as much of them as the measurements show."""
 
-import numpy as np
-
 from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
@@ -14,8 +12,6 @@ class HybridLearner(GeometricLearner):
     Such as eccentric gears and sag.
     """
 
-    def _calibrate(
-        self, angles: np.ndarray, measured: np.ndarray, last: Calibration | None
-    ) -> Calibration:
-        arm, observations = self._controller.robot.arm, Observations(angles, measured)
+    def _calibrate(self, observations: Observations, last: Calibration | None) -> Calibration:
+        arm = self._controller.robot.arm
         return calibrate(arm, (OFFSETS, JOINT_ERRORS), observations, last=last)

@@ -1,7 +1,5 @@
 """Files of what was learned: enough to go on or to correct commands elsewhere, on the same robot.
 
-`recalib.learners.loading` makes learners of them again.
-
 A file is an archive (`recalib.files.archives`). Its header has the format's version, the kind of
 learner and what it was made with, and the robot. All other arrays are named RUN/GROUP/NAME.
 """
@@ -12,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from recalib.errors import InvalidFile
+from recalib.errors import InvalidFile, InvalidSetting, OtherRobot
 from recalib.files.archives import read_archive, refused, write_archive
-from recalib.learners.kinds import kind_of
+from recalib.learners.kinds import class_of, kind_of
 from recalib.loop.interfaces import Savable, State
 
 if TYPE_CHECKING:  # to join files takes no robot
@@ -41,6 +39,33 @@ def save(path: Path, learner: Savable, robot: "Robot") -> None:
         "robot": identity(robot),
     }
     _write(path, header, learner.state())
+
+
+def load(path: Path, robot: "Robot", run: int | None = None) -> Savable:
+    """The learner that `save` wrote, for the same robot.
+
+    Args:
+        run: the one to load; all of them unless given.
+
+    Raises InvalidFile (not whole, or no such file), OtherRobot, and InvalidSetting (no such run).
+    """
+    header, states = read(path)
+    with refused(path, WRITER):
+        if found := differences(header["robot"], identity(robot)):
+            raise OtherRobot(path, found)
+        settings = header["settings"]
+        if run is not None:
+            if not 0 <= run < len(states):
+                raise InvalidSetting("run", run, f"0 to {len(states) - 1}")
+            states = [states[run]]
+            if "by_run" in settings:
+                settings["by_run"] = [settings["by_run"][run]]
+        learner = class_of(header["kind"]).from_settings(settings, len(states), robot)
+        learner.restore(states)
+        centre = np.zeros((len(states), 1, 6))
+        if not np.isfinite(learner.command(centre)).all():
+            raise ValueError
+    return learner
 
 
 def join(path: Path, parts: Iterable[Path]) -> None:

@@ -4,9 +4,10 @@ Each law takes the value at the start, the value at the end and the fraction of 
 is done, in [0, 1]; they broadcast.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -93,25 +94,17 @@ class Schedule:
                 raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
 
     def over(self, runs: int) -> "Schedule":
-        """The same for so many runs, all arrays (run,); a pair of final widths is one (2, run)."""
-        return Schedule(
-            np.full(runs, self.initial_width),
-            {
-                name: np.stack([np.full(runs, width) for width in pair])
-                for name, pair in self.final_widths.items()
-            },
-            np.full(runs, self.initial_rate),
-            np.full(runs, self.final_rate),
-        )
+        """The same for so many runs, all arrays (run,)."""
+        return self._each(lambda number: np.full(runs, number))
 
     def of_run(self, run: int) -> "Schedule":
         """That of one of several runs, all numbers."""
-        return Schedule(
-            float(np.asarray(self.initial_width)[run]),
-            {name: np.asarray(pair)[:, run].tolist() for name, pair in self.final_widths.items()},
-            float(np.asarray(self.initial_rate)[run]),
-            float(np.asarray(self.final_rate)[run]),
-        )
+        return self._each(lambda numbers: float(np.asarray(numbers)[run]))
+
+    def _each(self, change: Callable[[Any], Any]) -> "Schedule":
+        widths = {name: [*map(change, pair)] for name, pair in self.final_widths.items()}
+        rates = change(self.initial_rate), change(self.final_rate)
+        return Schedule(change(self.initial_width), widths, *rates)
 
     @classmethod
     def of_runs(cls, schedules: Sequence["Schedule"]) -> "Schedule":

@@ -125,7 +125,7 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
     return [
         *layers_of(other, [*valid.values()]),
         from_mapping(own, its.place[:1]),
-        Placed(said, its.place, its.origin),
+        Placed(said, its.place),
     ]
 
 

@@ -1,1 +1,1 @@
-"""Faults that befall a run, tried one after the other: `python -m tests.faults`."""
+"""Faults that befall a run, tried one after the other: `make faults`."""

@@ -13,10 +13,6 @@ STUDY = "--configfile", "tests/faults/study.yaml"
 UNLIKE = {"recordings", "report", "logs"}
 
 
-class NotTried(Exception):
-    """This machine lacks what the fault needs."""
-
-
 def whole(project: Project) -> None:
     """Expect that no file is a stray."""
     strays = [path for path in project.folder.rglob(".*") if is_temporary(path.name)]
@@ -38,18 +34,17 @@ class Yard:
 
     Args:
         folder: of all copies.
-        cores: of a run.
     """
 
-    def __init__(self, folder: Path, cores: int):
-        self._folder, self._cores, self._copies = folder, cores, 0
+    def __init__(self, folder: Path):
+        self._folder, self._copies = folder, 0
 
     def bare(self, name: str = "project") -> Project:
         """A copy without results."""
         self._copies += 1
         folder = self._folder / str(self._copies) / name
         folder.mkdir(parents=True)
-        return Project(folder, "--cores", str(self._cores), *STUDY, name="faults")
+        return Project(folder, "--cores", "2", *STUDY, name="faults")
 
     def done(self) -> Project:
         """A copy with results."""

@@ -1,7 +1,6 @@
 """Updates that are kept back and made together are the updates that they would be one by one."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -47,26 +46,3 @@ def test_any_sequence_equals_immediate_updates(increments, steps, seed):
         if read_all:
             assert np.allclose(cells.all, expected, atol=1e-12)
     assert np.allclose(cells.all, expected, atol=1e-12)
-
-
-@pytest.mark.parametrize("increments", [True, False])
-def test_the_same_thing_is_learned_alone_and_beside_others(increments):
-    rng = np.random.default_rng(1)
-    beside, alone = Cells(RUNS, START, increments), Cells(1, START, increments)
-    for _ in range(3 * KEPT // 2):
-        update = draw(rng)
-        beside.update(*update)
-        alone.update(*(part[[1]] for part in update))
-        k, l = rng.integers(K, size=RUNS), rng.integers(L, size=RUNS)
-        assert np.array_equal(beside.at(k, l)[[1]], alone.at(k[[1]], l[[1]]))
-    assert np.array_equal(beside.all[[1]], alone.all)
-
-
-@pytest.mark.parametrize("increments", [True, False])
-def test_a_rate_of_zero_teaches_nothing(increments):
-    rng = np.random.default_rng(2)
-    cells = Cells(RUNS, START, increments)
-    for _ in range(3):
-        _, *rest = draw(rng)
-        cells.update(np.zeros(RUNS), *rest)
-    assert np.array_equal(cells.all, np.stack([START] * RUNS))

@@ -90,24 +90,17 @@ def test_radial_units_start_as_the_exact_identity_and_an_intact_robot_leaves_the
     assert np.array_equal(learner.command(tests), tests)
 
 
-def test_an_iteration_is_one_move():
+def test_a_radial_unit_learns_by_one_move_nothing_of_a_refused_one_and_refuses_no_number():
     moves = []
 
-    def counting(commands):
-        moves.append(commands.shape)
-        return strange_world(commands)
-
-    taught(True, True, True, poses(2, 3), counting)
-    assert moves == [(2, 1, 6)] * 3
-
-
-def test_a_radial_unit_learns_nothing_of_a_refused_move_and_refuses_what_is_no_number():
     def refusing(commands):
+        moves.append(commands.shape)
         return strange_world(commands)._replace(executed=np.array([[False], [True]]))
 
     learner = taught(False, False, True, poses(2, 3), refusing)
     changes = learner.theta["pose"].all - learner.nets.centres
     assert not changes[0].any() and changes[1].any()
+    assert moves == [(2, 1, 6)] * 3
     with pytest.raises(BadMeasurement):
         taught(False, True, True, poses(1, 1), lambda c: Outcome(np.nan * c, [[True]]))
 

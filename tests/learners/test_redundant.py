@@ -12,8 +12,7 @@ from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner
-from recalib.learners.learned import save
-from recalib.learners.loading import load
+from recalib.learners.learned import load, save
 from recalib.learners.rules import IMPROVED
 from recalib.learners.schedules import Schedule
 from recalib.loop.training import train

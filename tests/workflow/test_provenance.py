@@ -25,91 +25,18 @@ from recalib.study.studies import layers_of
 from tests.conftest import ROOT, copy_project
 from tests.rules import Rules
 
-EVIDENCE = "claims figure page"  # what is said and drawn
-TRAINED = "train ensemble_chunk benchmark_run real_twin recording study_replay"  # improved
-LONG = "train ensemble_chunk benchmark_run real_twin"  # Ritter's
-NOMINAL = "assignments scenario"  # a robot as its controller believes in it
-TABLES = "summary benchmark_table real_table"
+TABLE = yaml.safe_load((ROOT / "tests" / "provenance.yaml").read_text(encoding="utf-8"))
 
-# What runs again by itself when a leaf changes: rules, for the first pattern that fits its path.
-# What follows from these runs again, too. `all` and `ur3` are lists of what a study consists of.
-DEPENDS = {
-    "name": "all claims figure page",  # the shipped study alone is judged over universes
-    "seed": f"{NOMINAL} {TRAINED} {TABLES} {EVIDENCE} study_mapping study_visits real_run",
-    "robot": f"all {EVIDENCE} design scenario recording train ensemble_chunk summary search_sample",
-    "scenario": f"all ur3 {EVIDENCE} outcome recording summary search_sample search"
-    " study_mapping study_replay",
-    "settings": f"{TRAINED} figure page",
-    "expected": "check",
-    "robots.ur10.urdf": f"{NOMINAL} design ensemble_chunk recording",  # its meshes are drawn
-    "robots.ur10.*": f"{NOMINAL} design ensemble_chunk",
-    "robots.ur5.*": f"{NOMINAL} design real_run real_twin",
-    "robots.ur3.urdf": f"{NOMINAL} recording",
-    "robots.ur3.*": NOMINAL,
-    "robots.jaco.*": "design",
-    "robots.puma560.*": "design",
-    "robots.*": f"{NOMINAL} design",
-    "controller.*": f"{NOMINAL} design ensemble_chunk real_run real_twin",
-    "paper_damage.published.*": f"assignments design recording {EVIDENCE}",
-    "paper_damage.poses": f"{NOMINAL} design figure",
-    "paper_damage.*": "assignments design ensemble_chunk",
-    "scenarios.translation_rotation.*": "scenario design",
-    "scenarios.*": "scenario",
-    "learners.improved.iterations": f"all ur3 {TRAINED} {EVIDENCE} summary",
-    "learners.improved.*": f"{TRAINED} figure page search_sample search",
-    "learners.ritter.iterations": f"all {LONG} {EVIDENCE} summary",
-    "learners.ritter.*": f"{LONG} recording figure search_sample search",
-    "learners.ritter_double.iterations": f"all train {EVIDENCE} summary",
-    "learners.ritter_double.*": "train",
-    "experiments.scenarios": "all figure study_mapping summary",
-    "experiments.learners": f"all {EVIDENCE} recording train summary",
-    "experiments.beside": f"all train {EVIDENCE} summary",
-    "experiments.switches": "all figure summary",
-    "experiments.ladder.*": f"all {EVIDENCE} summary",
-    "experiments.evidence": "all claims",
-    "experiments.robots": "all figure summary",
-    "experiments.ensemble.improved.assignments.draws": "ensemble",  # one more chunk
-    "experiments.ensemble.*": "ensemble_chunk",
-    "experiments.draws_per_job": "ensemble_chunk",
-    "benchmark.learners": "benchmark_table",
-    "benchmark.scenarios": "benchmark_run benchmark_table",
-    "benchmark.moves": "benchmark_run page",
-    "benchmark.thresholds": "benchmark_table",
-    "benchmark.*": "benchmark_run",
-    "real.robot": "real_run real_twin figure page",
-    "real.data.*": "real_data",
-    "real.description": "real_run real_twin",
-    "real.published.*": "figure page",
-    "real.learners": "real_table",
-    "real.twin": "real_table",
-    "real.poses": "real_run real_twin page",
-    "real.subsets": "real_run real_twin",
-    "mapping.balls": "study_mapping figure",
-    "mapping.radius": "study_mapping figure",
-    "mapping.*": "study_mapping",
-    "training.seeds": "train",
-    "training.seeds_per_job": "train",
-    "training.tests": "train ensemble_chunk benchmark_run real_twin recording search figure",
-    "training.*": "train recording",
-    "universes.count": f"all design {EVIDENCE}",  # of how many setups all have to be there
-    "universes.rough_trials": "design claims figure",
-    "universes.*": "design",
-    "search.short": "page",
-    "search.searches": f"{TRAINED} figure page search_sample search",
-    "search.searches_long": f"{LONG} figure page",
-    "search.*": "search_sample search",
-}
+RULES = TABLE["rules"]
 
 
-# The report's pages, a rule for each study, say these as well.
-REPORTED = """robot scenario settings paper_damage.published.* paper_damage.poses learners.*
- experiments.scenarios experiments.learners experiments.beside experiments.switches
- experiments.ladder.* experiments.robots mapping.poses mapping.balls
- mapping.points training.tests training.measure_every search.searches*""".split()  # noqa: SIM905
+def rules_in(text: str) -> set[str]:
+    """The rules that a text names, one by one or by their group."""
+    return {rule for word in text.split() for rule in TABLE["groups"].get(word, word).split()}
 
 
 # Others are those of experiments that came later: they are shown to depend on something below.
-NAMED = {rule for texts in DEPENDS.values() for rule in texts.split()} | {"report_pages"}
+NAMED = set().union({"report_pages"}, *map(rules_in, RULES.values()))
 
 
 def leaves(tree, path=()):
@@ -297,8 +224,10 @@ def test_a_study_that_asks_for_more_searches_than_are_shipped_has_its_own(workfl
 def test_what_depends_on_a_leaf_runs_again_and_nothing_else(depending):
     wrong = {}
     for leaf, rules in depending.items():
-        expected = {*next(its for path, its in DEPENDS.items() if fnmatch(leaf, path)).split()}
-        if any(fnmatch(leaf, pattern) for pattern in REPORTED):
+        expected = rules_in(
+            next(its for path, its in TABLE["rules"].items() if fnmatch(leaf, path))
+        )
+        if any(fnmatch(leaf, pattern) for pattern in TABLE["reported"]):
             expected.add("report_pages")
         found = {re.sub(r"(report_pages)_.*", r"\1", rule) for rule in rules} & NAMED
         if found != expected:

@@ -9,7 +9,6 @@ from tests.rules import function_of
 from workflow.scripts.call import checked
 
 WILDCARDS = {
-    "batch": "0",
     "chunk": "0",
     "figure": "figure1",
     "learner": "improved",

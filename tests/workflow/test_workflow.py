@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.learners.loading import load
+from recalib.learners.learned import load
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plan.competitors import make_peer
 from recalib.study.scenarios.plants import Resolved

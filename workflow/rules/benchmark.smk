@@ -1,6 +1,5 @@
 """What should one use today? No part of the default run."""
 
-from recalib.study.plan.chunks import batches
 from recalib.study.plan.trainings import rules_unless_peer
 
 
@@ -13,13 +12,13 @@ def sample_of_competitor(wildcards):
 rule benchmark_run:
     input:
         scenarios=lambda w: [
-            f"{w.root}/scenarios/{name}.json" for name in batches(study(w))[w.batch]
+            f"{w.root}/scenarios/{name}.json" for name in study(w).benchmark.scenarios
         ],
         sample=sample_of_competitor,
     output:
-        "{root}/chunks/benchmark/{learner}.{batch}.parquet",
+        "{root}/chunks/benchmark/{learner}.parquet",
     log:
-        "{root}/logs/benchmark_run/{learner}.{batch}.log",
+        "{root}/logs/benchmark_run/{learner}.log",
     threads: 1
     resources:
         **room(mem_mb=2000, runtime=10),
@@ -38,7 +37,7 @@ rule benchmark_run:
             seed=study(w).seed,
         ),
     message:
-        "Let {wildcards.learner} work through batch {wildcards.batch} of the benchmark's scenarios"
+        "Let {wildcards.learner} work through the benchmark's scenarios"
     script:
         "../scripts/call.py"
 
@@ -46,10 +45,9 @@ rule benchmark_run:
 rule benchmark_table:
     input:
         histories=lambda w: expand(
-            "{root}/chunks/benchmark/{learner}.{batch}.parquet",
+            "{root}/chunks/benchmark/{learner}.parquet",
             root=w.root,
             learner=study(w).benchmark.learners,
-            batch=batches(study(w)),
         ),
     output:
         errors="{root}/benchmark.csv",

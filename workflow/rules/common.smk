@@ -4,7 +4,6 @@ import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.persistence import PersistenceBase
 
 ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT))
@@ -13,9 +12,6 @@ from workflow.environment import prepare
 
 prepare(ROOT)  # before NumPy is imported
 
-# Snakemake asks of every parameter whether it is a table, and brings pandas for that, which takes
-# longer than all else here. Ours are text.
-PersistenceBase._serialize_param_pandas = PersistenceBase._serialize_param_builtin
 
 from pydantic_core import to_json
 
@@ -60,11 +56,10 @@ def room(mem_mb, runtime):
 wildcard_constraints:
     root="|".join(STUDIES),
     scenario=r"\w+(-\w+)?",
-    recording=r"\w+(-\w+)?(\.today)?",
+    recording=r"\w+(-\w+)?",
     robot=r"\w+",
     learner=r"\w+",
     chunk=r"\d+",
-    batch=r"\d+",
     series=r"[a-z]+",
     figure=r"\w+",
     training=r"\w+_\d+",

@@ -17,11 +17,6 @@ def folder_of(job):
 
 
 onstart:
-    # Snakemake 9 looks at all ready jobs again every second, once for each job that has ended: in
-    # the end that takes a third of a core. Here there is nothing to limit the rate of jobs for; a
-    # cluster is not to be flooded.
-    if workflow.local_exec:
-        workflow.scheduler.job_rate_limiter = None
     jobs = list(workflow.dag.needrun_jobs())
     try:
         hold({folder_of(job) for job in jobs if job.output})

@@ -123,11 +123,8 @@ def _rungs(study: Study) -> Iterator[Mistake]:
         iterations, own = ("learners", IMPROVED, "iterations"), study.learners[IMPROVED].iterations
         times = int(LONG) if study.experiments.evidence else 1
         if rungs[-1] <= times * own:
-            why = f"so that a factor above {times} can be found"
-            most = f"below {rungs[-1] / times:g} with {dotted(path)} up to {rungs[-1]}, {why}"
-            other = unlike(iterations, own, most)
-            valid = f"one above {times * own}, {why}"
-            yield unlike(path, rungs, valid)._replace(other=other)
+            valid = f"one above {times * own}, for factors above {times} over {dotted(iterations)}"
+            yield unlike(path, rungs, valid, iterations)
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:

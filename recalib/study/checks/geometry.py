@@ -17,7 +17,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.spelling import instead, listed
 from recalib.study.configuration.damages import Assigned, describe
-from recalib.study.configuration.messages import Mistake, shown, unknown, unlike
+from recalib.study.configuration.messages import Mistake, dotted, shown, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.plan.trainings import scenario_of
 from recalib.study.scenarios.assignments import Ways
@@ -144,40 +144,23 @@ def _of_slides(robot: Robot) -> Iterator[Mistake]:
 def _of_assignment(study: Study, robots: Sequence[Robot]) -> Iterator[Mistake]:
     """Too few links or joints, or links that are too short, for the paper's damage."""
     damage = study.paper_damage
-    places = {robot.name: study.robots[robot.name].links for robot in robots}
-    joints = {robot.name: robot.joints for robot in robots}
-    for key, amounts, those in (
-        ("shorten", damage.shorten, places),
-        ("shift", damage.shift, joints),
-    ):
-        name = min(those, key=lambda robot, those=those: len(those[robot]))
-        if len(amounts) > len(those[name]):
-            few, many = f" is a list of {len(those[name])}", f" is a list of {len(amounts)}"
-            needed = f"{len(amounts)} or more, one for each length of paper_damage.shorten"
-            other = Mistake(("robots", name, "links"), f"{few}; expected: {needed}")
-            fault = f"{many}; expected: at most {len(those[name])} on the {name}"
-            yield Mistake(("paper_damage", key), fault, other if key == "shorten" else None)
-    whole = {
-        (robot.name, link): np.linalg.norm(
-            link_end(robot.arm.model, robot.arm.tool, robot.links[link])
-        )
-        for robot in robots
-        for link in places[robot.name]
-    }
-    most, (name, link) = max(damage.shorten), min(whole, key=whole.get)
-    if most >= whole[name, link]:
-        valid = f"below {100 * whole[name, link]:.2f} cm, the length of {link} on the {name}"
-        short = (
-            f"{link}, {100 * length:.2f} cm long"
-            for (its, link), length in whole.items()
-            if its == name and most >= length
-        )
-        longer = f"longer than {LENGTH.write(most)}, which paper_damage.shorten takes off"
-        other = Mistake(
-            ("robots", name, "links"), f" has {listed(short, 'and')}; expected: {longer}"
-        )
-        key = "paper_damage", "shorten", damage.shorten.index(most)
-        yield unlike(key, LENGTH.write(most), valid)._replace(other=other)
+    for robot in robots:
+        own, links = ("robots", robot.name, "links"), study.robots[robot.name].links
+        for key, amounts, other, there in (
+            ("shorten", damage.shorten, own, links),
+            ("shift", damage.shift, (*own[:2], "home"), robot.joints),
+        ):
+            if len(amounts) > len(there):
+                valid = f"at most {len(there)}, one for each of {dotted(other)}"
+                fault = f" is a list of {len(amounts)}; expected: {valid}"
+                yield Mistake(("paper_damage", key), fault, (other,))
+        arm, most = robot.arm, max(damage.shorten)
+        ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
+        lengths = {link: np.linalg.norm(end) for link, end in ends.items()}
+        if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
+            path = "paper_damage", "shorten", damage.shorten.index(most)
+            valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
+            yield unlike(path, LENGTH.write(most), valid, own)
 
 
 def _of_mapping(robot: Robot) -> Iterator[Mistake]:

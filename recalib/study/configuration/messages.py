@@ -1,12 +1,11 @@
 """Mistakes in a configuration as sentences: the key, what stood there, what would be valid."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from recalib.errors import RecalibError
 from recalib.spelling import instead
 
-EXPECTED = "; expected: "
 MOST_SHOWN = 10  # mistakes
 LONGEST = 60  # characters of a value that are shown
 
@@ -34,13 +33,13 @@ class Mistake(NamedTuple):
     Attributes:
         path: of the key.
         fault: the rest of a sentence that begins with the path.
-        other: the same from the side of another key that does not go together with this one: it is
-            told instead where that key alone was said by whom it is told to.
+        also: other keys that do not go together with this one: it is told where somebody wrote any
+            of them.
     """
 
     path: KeyPath
     fault: str
-    other: "Mistake | None" = None
+    also: tuple[KeyPath, ...] = ()
 
     def __str__(self) -> str:
         return f"{dotted(self.path) or 'the study'}{self.fault}"
@@ -52,9 +51,9 @@ def dotted(path: KeyPath) -> str:
     return "".join(parts).removeprefix(".")
 
 
-def unlike(path: KeyPath, stood: Any, valid: str) -> Mistake:
+def unlike(path: KeyPath, stood: Any, valid: str, *also: KeyPath) -> Mistake:
     """A value that is none of the valid ones."""
-    return Mistake(path, f" is {shown(stood)}{EXPECTED}{valid}")
+    return Mistake(path, f" is {shown(stood)}; expected: {valid}", also)
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
@@ -64,22 +63,13 @@ def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:
 
 
 def shown(value: Any) -> str:
-    """A value as it would be written in YAML, without its length."""
+    """A value as it would be written in YAML; of a long one, the beginning."""
     match value:
         case None:
             return "null"
         case bool():
             return str(value).lower()
-        case str():
-            return repr(value) if len(value) <= LONGEST else f"{value[:LONGEST]!r}..."
-        case Mapping():
-            return "a mapping" if value else "an empty mapping"
-        case list() | tuple():
-            scalars = not any(isinstance(part, list | tuple | Mapping) for part in value)
-            text = f"[{', '.join(map(shown, value))}]"
-            return text if value and scalars and len(text) <= LONGEST else _sized(value)
-    return str(value)
-
-
-def _sized(value: Sequence) -> str:
-    return f"a list of {len(value)}" if value else "an empty list"
+        case tuple():
+            return shown(list(value))
+    text = repr(value)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."

@@ -33,7 +33,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
-        raise _at_its_place(refusals(error, whole.plain()), whole, own) from None
+        raise _at_its_place(refusals(error), whole, own) from None
     for find in checks:
         if mistakes := list(find(study)):
             raise _at_its_place(mistakes, whole, own)
@@ -60,10 +60,8 @@ def _at_its_place(
     """
     lines = {}
     for mistake in mistakes:
-        sides = [(side, whole.at(side.path)) for side in (mistake, mistake.other) if side]
-        said = [(side, value) for side, value in sides if value.place[0] in own]
-        side, value = (said or sides)[0]
-        place = value.place if said else (own[-1],)
-        lines.setdefault((value.origin, side.fault), (place, side))
-    ordered = sorted(lines.values(), key=lambda line: line[0])
-    return InvalidConfiguration([f"{shown(place)}: {mistake}" for place, mistake in ordered])
+        places = [whole.at(path).place for path in (mistake.path, *mistake.also)]
+        place = next((place for place in places if place[0] in own), own[-1:])
+        lines.setdefault((tuple(place), mistake.fault), mistake)
+    ordered = sorted(lines.items(), key=lambda line: line[0][0])
+    return InvalidConfiguration([f"{shown(place)}: {mistake}" for (place, _), mistake in ordered])

@@ -58,48 +58,46 @@ def text() -> str:
     return json.dumps(json_schema(), indent=1) + "\n"
 
 
-class Schema:
-    """What a JSON schema says of a path: its meaning and its keys.
+def find(location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
+    """The path and the schema of a place in pydantic's errors, which name choices, too."""
+    schema, path = json_schema(), ()
+    for part in location:
+        schema = resolved(schema)
+        if "oneOf" in schema:
+            schema = json_schema()["$defs"][part]
+        else:
+            schema, path = _at(schema, part), (*path, part)
+    return path, schema
 
-    Args:
-        schema: as pydantic makes it.
-    """
 
-    def __init__(self, schema: Mapping):
-        self._root = schema
+def _at(schema: Mapping, part: str | int) -> Mapping:
+    """The schema of a key or an index; {} where there is none."""
+    if isinstance(part, int):
+        fixed = schema.get("prefixItems")
+        return fixed[part] if fixed else schema.get("items", {})
+    named = schema.get("patternProperties", {}).values()
+    whatever = next(iter(named), schema.get("additionalProperties") or {})
+    return schema.get("properties", {}).get(part, whatever)
 
-    def at(self, schema: Mapping, part: str | int) -> Mapping:
-        """The schema of a key or an index; {} where there is none."""
-        schema = self.resolved(schema)
-        if isinstance(part, int):
-            fixed = schema.get("prefixItems")
-            return fixed[part] if fixed else schema.get("items", {})
-        named = schema.get("patternProperties", {}).values()
-        whatever = next(iter(named), schema.get("additionalProperties") or {})
-        return schema.get("properties", {}).get(part, whatever)
 
-    def find(self, location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
-        """The path and the schema of a place in pydantic's errors, which name choices, too."""
-        schema, path = self._root, ()
-        for part in location:
-            schema = self.resolved(schema)
-            if "oneOf" in schema:
-                schema = self._root["$defs"][part]
-            else:
-                schema, path = self.at(schema, part), (*path, part)
-        return path, schema
+def resolved(schema: Mapping) -> Mapping:
+    """The schema itself in the place of a reference to it, or of it or null."""
+    for choice in schema.get("anyOf", ()):
+        if choice.get("type") != "null":
+            return resolved(choice)
+    reference = schema.get("$ref")
+    return json_schema()["$defs"][reference.rsplit("/")[-1]] if reference else schema
 
-    def resolved(self, schema: Mapping) -> Mapping:
-        """The schema itself in the place of a reference to it, or of it or null."""
-        for choice in schema.get("anyOf", ()):
-            if choice.get("type") != "null":
-                return self.resolved(choice)
-        reference = schema.get("$ref")
-        return self._root["$defs"][reference.rsplit("/")[-1]] if reference else schema
 
-    def keys(self, schema: Mapping) -> list[str]:
-        """The keys of a mapping."""
-        return list(self.resolved(schema).get("properties", {}))
+def keys(schema: Mapping) -> list[str]:
+    """The keys of a mapping."""
+    return list(resolved(schema).get("properties", {}))
+
+
+def meaning(schema: Mapping) -> str:
+    """What a key is, within a sentence; of a value in a list, that it is one."""
+    text = schema.get("description") or resolved(schema).get("description", "A value.")
+    return f"{text[0].lower()}{text[1:-1]}"
 
 
 if __name__ == "__main__":

@@ -5,18 +5,16 @@ Words are those of YAML 1.2: `yes`, dates and 1:30 are text.
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from recalib.study.configuration.messages import InvalidConfiguration, KeyPath, dotted
+from recalib.study.configuration.messages import InvalidConfiguration, KeyPath
 
-DIGITS = re.compile(r"\d")
 COMMAND_LINE = "the command line"
 Place = tuple[str | int, ...]  # file, line, column
 
@@ -28,12 +26,10 @@ class Placed:
     Attributes:
         content: a scalar, or a mapping or a list of values.
         place: of its key, where it has one.
-        origin: the same for all uses of an anchor.
     """
 
     content: Any
     place: Place
-    origin: Any = field(default_factory=object)
 
     def plain(self) -> Any:
         """The same without places."""
@@ -62,7 +58,7 @@ class Placed:
             key: self.content[key].under(value) if key in self.content else value
             for key, value in other.content.items()
         }
-        return Placed(self.content | laid, self.place, self.origin)
+        return Placed(self.content | laid, self.place)
 
 
 def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
@@ -98,23 +94,17 @@ def _parsed(name: str, text: str) -> Placed:
     loader, start = _Loader(text), (name, 1, 1)
     loader.name = name
     node = loader.get_single_node()
-    value = loader.value(node, start, ()) if node else Placed(None, start)
+    value = loader.value(node, start) if node else Placed(None, start)
     if not isinstance(value.content, dict) or not value.content:
         problem = f"{shown(start)}: no configuration; expected: keys with their values"
         raise InvalidConfiguration([problem])
-    if loader.wrong:
-        raise InvalidConfiguration(loader.wrong)
     return value
 
 
 def _unreadable(name: str, error: yaml.MarkedYAMLError) -> str:
     """PyYAML's reason in a sentence."""
-    place = shown(_place(name, error.problem_mark))
-    for sign, fault in (("\\t", "a tab; expected: spaces"), ("<block map", "wrong indentation")):
-        if sign in error.problem:
-            return f"{place}: {fault}"
     begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
-    return f"{place}: no YAML: {error.problem}{begun}"
+    return f"{shown(_place(name, error.problem_mark))}: no YAML: {error.problem}{begun}"
 
 
 def _place(name: str, mark: yaml.Mark) -> Place:
@@ -127,66 +117,43 @@ def shown(place: Place) -> str:
 
 
 class _Loader(yaml.SafeLoader):
-    """PyYAML's, with the words of YAML 1.2.
-
-    Attributes:
-        wrong: with keys, which PyYAML takes as they are.
-    """
+    """PyYAML's, with the words of YAML 1.2."""
 
     yaml_implicit_resolvers: dict = {}  # noqa: RUF012 as PyYAML declares it
 
-    def __init__(self, text: str):
-        super().__init__(text)
-        self.wrong: list[str] = []
-
-    def value(self, node: yaml.Node, place: Place, path: KeyPath) -> Placed:
+    def value(self, node: yaml.Node, place: Place) -> Placed:
         """What a node says."""
-        if node.tag not in (
-            self.DEFAULT_SCALAR_TAG,
-            self.resolve(type(node), node.value, (True, False)),
-        ):
-            problem = f"the tag {node.tag}"
-            raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
+        known = self.DEFAULT_SCALAR_TAG, self.resolve(type(node), node.value, (True, False))
+        if node.tag not in known:
+            _refuse(f"the tag {node.tag}", node)
         match node:
             case yaml.MappingNode():
-                content = self._mapping(node, path)
+                content = self._mapping(node)
             case yaml.SequenceNode():
                 content = [
-                    self.value(part, _place(self.name, part.start_mark), (*path, index))
-                    for index, part in enumerate(node.value)
+                    self.value(part, _place(self.name, part.start_mark)) for part in node.value
                 ]
             case _:
                 content = self.construct_object(node)
-        return Placed(content, place, node)
+        return Placed(content, place)
 
-    def _mapping(self, node: yaml.MappingNode, path: KeyPath) -> dict[str, Placed]:
-        first: dict[str, yaml.Node] = {}
+    def _mapping(self, node: yaml.MappingNode) -> dict[str, Placed]:
+        lines: dict[str, int] = {}
         for key, _ in node.value:
             if not isinstance(key, yaml.ScalarNode):
-                problem = "a key that is no text"
-                raise yaml.MarkedYAMLError(problem=problem, problem_mark=key.start_mark)
-            if key.value in first:
-                where = shown(_place(self.name, key.start_mark))
-                line = first[key.value].start_mark.line + 1
-                stands = f"{dotted((*path, key.value))} stands twice, first in line {line}"
-                self.wrong.append(f"{where}: {stands}")
-            first[key.value] = key
-        self._check_commas(node)
+                _refuse("a key that is no text", key)
+            if key.value in lines:
+                _refuse(f"{key.value} stands twice, first in line {lines[key.value]}", key)
+            lines[key.value] = key.start_mark.line + 1
         self.flatten_mapping(node)  # puts in what is merged by <<
         return {
-            key.value: self.value(part, _place(self.name, key.start_mark), (*path, key.value))
+            key.value: self.value(part, _place(self.name, key.start_mark))
             for key, part in node.value
         }
 
-    def _check_commas(self, node: yaml.MappingNode) -> None:
-        """Where a number is written with a comma, YAML sees a key behind it that says nothing."""
-        for (_, number), (key, nothing) in pairwise(node.value):
-            if nothing.value == "" and isinstance(number.value, str) and DIGITS.match(key.value):
-                where = shown(_place(self.name, number.start_mark))
-                valid = f"a point, as in {number.value}.{key.value}"
-                self.wrong.append(
-                    f"{where}: {number.value},{key.value} has a comma; expected: {valid}"
-                )
+
+def _refuse(problem: str, node: yaml.Node) -> None:
+    raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
 for kind, pattern, first in (

@@ -9,10 +9,10 @@ import numpy as np
 
 from recalib.loop import interfaces
 from recalib.study.configuration.study import Learner
-from recalib.study.experiments.poses import ResultPoses, Stream, train_for_results
+from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import MOVES, make_peer
-from recalib.study.scenarios.plants import Resolved, fleet
+from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -62,7 +62,7 @@ def compete(
     seed: int,
     sample: Path | None = None,
 ) -> "pd.DataFrame":
-    """Let a learner work through scenarios of one robot side by side.
+    """Let a learner work through scenarios, in each of them anew.
 
     Args:
         scenarios: files of the scenarios as resolved.
@@ -80,26 +80,21 @@ def compete(
     """
     import pandas as pd  # a quarter of a second: no start waits for it
 
-    runs, total = range(seeds), len(scenarios) * seeds
-    resolved = [Resolved.read(path) for path in scenarios]
-    names = [its.scenario for its in resolved]
-    controller, plants = fleet(resolved, seed, runs)
-    if rules is None:
-        iterations, moves_each = max(moves), 1
-        learner = Timed(make_peer(name, total, controller))
-    else:
-        iterations, moves_each = rules.iterations, MOVES
-        searches = [run + 1 for run in runs] * len(scenarios)
-        learner = Timed(build_tuned(rules, sample, searches))
-    poses = ResultPoses.side_by_side(
-        Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scope) for scope in names
-    )
+    runs, frames = range(seeds), []
+    iterations, moves_each = (rules.iterations, MOVES) if rules else (max(moves), 1)
     budgets = measured_at([*moves, *longer], iterations, moves_each)
-    history = train_for_results(plants, learner, poses, budgets)
-    frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
-    return frame.assign(
-        scenario=np.array(names)[frame["seed"] // len(runs)],
-        seed=frame["seed"] % len(runs),
-        learner=name,
-        seconds_per_move=learner.seconds / (total * iterations * moves_each),
-    )
+    for scenario in map(Resolved.read, scenarios):
+        controller = scenario.controller()
+        learner = Timed(
+            build_tuned(rules, sample, [run + 1 for run in runs])
+            if rules
+            else make_peer(name, seeds, controller)
+        )
+        poses = Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scenario.scenario)
+        plant = scenario.plant(controller, seed, runs)
+        history = train_for_results(plant, learner, poses, budgets)
+        frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
+        seconds = learner.seconds / (seeds * iterations * moves_each)
+        named = {"scenario": scenario.scenario, "learner": name, "seconds_per_move": seconds}
+        frames.append(frame.assign(**named))
+    return pd.concat(frames, ignore_index=True)

@@ -34,31 +34,29 @@ def recorded(study: Study) -> list[str]:
 
 
 def recordings(study: Study) -> list[str]:
-    """The names of all recordings; none of a study without a learner that is recorded."""
-    its, own = study.experiments.scenarios if recorded(study) else (), study.scenario
-    return [*its, *([f"{own}.today"] if own in its else [])]
+    """The scenarios that are recorded; none of a study without a learner that is recorded."""
+    return list(study.experiments.scenarios if recorded(study) else ())
 
 
-def recording(study: Study, name: str) -> Recording:
-    """The recording of a scenario; SCENARIO.today: of one of today's learners beside a map.
+def recording(study: Study, scenario: str) -> Recording:
+    """The recording of a scenario: of the study's own, with one of today's learners.
 
     What is published belongs to the paper's damage.
     """
     from recalib.nominal.descriptions import find_urdf
     from recalib.nominal.meshes import mesh_files
 
-    scenario, _, today = name.partition(".")
     robot = study.robots[scenario_of(study, scenario)[1]]
     assigned = any(isinstance(entry, Assigned) for entry in study.scenarios[study.scenario])
     papers = {learner: rules(study, learner) for learner in recorded(study)}
-    first = next(iter(papers))
+    is_own = scenario == study.scenario
     published = study.paper_damage.published.model_dump()
     return Recording(
         scenario=scenario,
-        learners={TODAYS: None, first: papers[first]} if today else papers,
+        learners=papers | ({TODAYS: None} if is_own else {}),
         moves=FEW,
         measuring=measuring(study),
         seed=study.seed,
-        published=published if assigned and scenario == study.scenario else {},
+        published=published if assigned and is_own else {},
         meshes_sha256=digest_of(mesh_files(find_urdf(robot.urdf))),
     )

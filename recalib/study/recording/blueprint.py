@@ -24,14 +24,12 @@ def arrange(
     watched: Mapping[str, Watched],
     sight: Sight,
     published: Mapping[str, float],
-    side_by_side: bool,
 ) -> rrb.Blueprint:
     """Tabs: the arm with the first learner, and all learners side by side where there are several.
 
     Args:
         watched: by learner.
         published: initial errors, where there are any.
-        side_by_side: which of the tabs is open.
     """
     learners = list(watched)
     arm = rrb.Horizontal(
@@ -54,9 +52,8 @@ def arrange(
         row_shares=[5, 3],
         name=" and ".join(map(label_of, learners)),
     )
-    several = len(learners) > 1
     return rrb.Blueprint(
-        rrb.Tabs(*([arm, beside] if several else [arm]), active_tab=int(several and side_by_side)),
+        rrb.Tabs(*([arm, beside] if len(learners) > 1 else [arm]), active_tab=0),
         rrb.TimePanel(
             state="collapsed",
             timeline=CLOCK,

@@ -118,9 +118,7 @@ def write_recording(
     with whole(path) as temporary:
         # without the properties that Rerun would add by itself: one is the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
-        side_by_side = not all(job.learners.values())
-        blueprint = arrange(watched, sight, job.published, side_by_side)
-        rec.save(temporary, default_blueprint=blueprint)
+        rec.save(temporary, default_blueprint=arrange(watched, sight, job.published))
         _fill(rec, path.stem, job, resolved, watched, sight)
         rec.disconnect()
         check_end(temporary)

@@ -7,7 +7,6 @@ from typing import Self
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm, apply
-from recalib.damaged.fleet import Fleet
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
@@ -85,16 +84,6 @@ class Resolved(Kept):
         rngs = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
         arm = self.arm(controller.robot)
         return Plant(controller, arm, disturbances_among(self.damages), rngs)
-
-
-def fleet(
-    scenarios: Sequence[Resolved], seed: int, runs: Sequence[int]
-) -> tuple[Controller, Fleet]:
-    """The controller and the robots of several scenarios of one robot, side by side."""
-    controller = scenarios[0].controller()
-    return controller, Fleet(
-        controller, [scenario.plant(controller, seed, runs) for scenario in scenarios]
-    )
 
 
 class Assignment(Kept):

@@ -66,32 +66,6 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
     assert [line.split(": ", 1)[1] for line in rest] == others
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("seed: 1\n\trobot: ur10\n", "2:1: a tab; expected: spaces"),
-        ("robot: ur10\n  seed: 1\n", "2:7: no YAML: mapping values are not allowed here"),
-        ("a:\n  b: 1\n   c: 1\n", "3:5: no YAML: mapping values are not allowed here"),
-        ("a:\n    b: {c: 1}\n      d: 2\n", "3:7: wrong indentation"),
-        ("a: [1, 2\nb: 3\n", "2:2: no YAML: expected ',' or ']', but got ':' in what begins in"),
-        ("seed: 1\nseed: 2\n", "2:1: seed stands twice, first in line 1"),
-        ("a: {b: {c: 1, c: 2}}\n", "1:15: a.b.c stands twice, first in line 1"),
-        ("a: *nowhere\n", "1:4: no YAML: found undefined alias 'nowhere'"),
-        ("a: !!python/name:os.getcwd x\n", "1:4: no YAML: the tag tag:yaml.org,2002:python/na"),
-        ("seed: !!int many\n", "1:7: no YAML: the tag tag:yaml.org,2002:int"),
-        ("? [a]\n: 1\n", "1:3: no YAML: a key that is no text"),
-        ("a: {<<: 3}\n", "1:9: no YAML: expected a mapping or list of mappings for merging, but"),
-        ("a: 'b\n", "2:1: no YAML: found unexpected end of stream in what begins in line 1"),
-        ("a: %b\n", "1:4: no YAML: found character '%' that cannot start any token"),
-        ("a: 1\n---\nb: 2\n", "2:1: no YAML: but found another document in what begins in line 1"),
-        ("- a\n", "1:1: no configuration; expected: keys with their values"),
-    ],
-)
-def test_what_is_no_yaml_is_told_with_its_place(here, text, said):
-    (mistake,) = mistakes_of(here, text)
-    assert mistake.startswith(f"config.yaml:{said}")
-
-
 def test_a_joint_that_slides_is_told_since_its_home_is_no_angle(here):
     arm = load_arm("tiago.urdf", "hand_tool_link")
     tiago = {"urdf": "tiago.urdf", "tool": arm.tool, "links": ["arm_2_link"]}
@@ -213,11 +187,10 @@ def test_the_editors_schema_is_that_of_the_types():
 
 def test_every_key_is_described():
     whole = schema.json_schema()
-    resolved = schema.Schema(whole).resolved
     undescribed = [
         key
         for part in (whole, *whole["$defs"].values())
         for key, value in part["properties"].items()
-        if not (value.get("description") or resolved(value).get("description"))
+        if not (value.get("description") or schema.resolved(value).get("description"))
     ]
     assert undescribed == []

@@ -82,7 +82,10 @@ def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used
     fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
     its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
     assert study_of(tmp_path, entry, **its).scenario == "fall"
-    with pytest.raises(InvalidConfiguration, match="links is a list of 1; expected: 3 or more"):
+    with pytest.raises(
+        InvalidConfiguration,
+        match="list of 3; expected: at most 1, one for each of robots.mine.links",
+    ):
         study_of(tmp_path, entry)
 
 

@@ -12,7 +12,7 @@ from recalib.numerics.randomness import generator
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
 from recalib.study.plan.trainings import Measuring, scenario_of, seeds
-from recalib.study.scenarios.plants import fleet, resolve
+from recalib.study.scenarios.plants import resolve
 from workflow.scripts.call import write
 
 
@@ -88,16 +88,6 @@ def test_initial_errors_are_means_over_random_poses(plan):
     off = position_error(achieved, desired), orientation_error(achieved, desired)
     assert resolved.initial_position_error_cm == pytest.approx(100 * np.mean(off[0]))
     assert resolved.initial_orientation_error_deg == pytest.approx(np.degrees(np.mean(off[1])))
-
-
-def test_in_a_fleet_every_scenario_has_the_luck_that_it_has_alone(plan):
-    noisy = Noise(1e-3, 1e-3), Repeatability(1e-3)
-    scenarios = [resolve(name, plan.nominal("ur10"), noisy, 2, 1) for name in ("one", "two")]
-    controller, robots = fleet(scenarios, 1, [3, 4])
-    together = robots.execute(np.zeros((4, 3, 6))).achieved
-    for its, achieved in zip(scenarios, np.split(together, 2), strict=True):
-        alone = its.plant(controller, 1, [3, 4]).execute(np.zeros((2, 3, 6))).achieved
-        assert np.array_equal(achieved, alone)
 
 
 def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):

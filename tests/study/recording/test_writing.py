@@ -149,18 +149,18 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
     assert "/errors/position_error_cm/ritter" in entities
     assert "/errors/position_error_cm/paper" not in entities
     sight = sight_of(robot.workspace, np.ones((1, 3)))
-    assert len(arrange(watched, sight, {}, False).root_container.contents) == 1
+    assert len(arrange(watched, sight, {}).root_container.contents) == 1
 
 
 def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, resolved, tmp_path):
     its = resolved(DAMAGES[:3])
-    both = {"geometric": None, "improved": job.learners["improved"]}
+    both = {"improved": job.learners["improved"], "geometric": None}
     job = job.model_copy(update={"learners": both})
     fresh = {
-        "geometric": make_peer("geometric", 1, its.controller()),
         "improved": learner("improved"),
+        "geometric": make_peer("geometric", 1, its.controller()),
     }
-    path = tmp_path / "links_encoders.today.rrd"
+    path = tmp_path / "links_encoders.rrd"
     watched = write_recording(path, job, its, fresh, {}, 0)
     few, many = watched["geometric"], watched["improved"]
     assert list(few.history.moves) == [0, 1, 2, 3, 4, 5] and few.cells is None
@@ -171,5 +171,5 @@ def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, re
     assert motion.frames[POSES * VISIT : -POSES * VISIT].tolist() == [0, 1, 2, 3, 4, 5]
     assert motion.frames[-1] == ITERATIONS + POSES * VISIT, "one clock"
     sight = sight_of(robot.workspace, np.ones((1, 3)))
-    tabs = arrange(watched, sight, {}, True).root_container
-    assert len(tabs.contents) == 2 and tabs.active_tab == 1
+    tabs = arrange(watched, sight, {}).root_container
+    assert len(tabs.contents) == 2 and tabs.active_tab == 0
