@@ -12,7 +12,6 @@ from recalib.damaged.damage import (
     apply,
 )
 from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
-from recalib.damaged.fleet import Fleet
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.damaged.plant import Plant
@@ -91,15 +90,6 @@ def test_what_a_plant_does_is_as_kept(disturbances, controller, data_regression)
         Plant(controller, controller.robot.arm, disturbances, generators(9, 10)),
     ]
     data_regression.check(plain([done(plant, 2) for plant in plants]))
-
-
-def test_what_a_fleet_does_is_as_kept(controller, data_regression):
-    plants = [
-        Plant(controller, apply(controller.robot, [EACH[name]]), DISTURBED, generators(number))
-        for number, name in enumerate(SOME)
-    ]
-    fleet = Fleet(controller, plants)
-    data_regression.check(plain([done(fleet, len(SOME)), fleet.workspace]))
 
 
 def test_what_an_instrument_adds_is_as_kept(robot, data_regression):

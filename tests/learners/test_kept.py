@@ -12,8 +12,7 @@ from recalib.learners.cells import Cells
 from recalib.learners.experience import Experience, is_due
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS, class_of, kind_of
-from recalib.learners.learned import differences, identity, join, read, save
-from recalib.learners.loading import load
+from recalib.learners.learned import differences, identity, join, load, read, save
 from recalib.learners.nets import Nets, nearest
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.radial import RadialLearner

@@ -31,7 +31,7 @@ from recalib.study.scenarios.assignments import (
     shortenings,
 )
 from recalib.study.scenarios.nominal import digest_of
-from recalib.study.scenarios.plants import fleet, nominal_controller, nominal_robot, resolve
+from recalib.study.scenarios.plants import nominal_controller, nominal_robot, resolve
 from recalib.study.studies import read_studies
 from tests.conftest import ROOT, changed
 from tests.kept import plain
@@ -259,7 +259,7 @@ def test_scenarios_as_resolved_and_their_plants_are_as_kept(plan, tmp_path, data
     ]
     again = [type(one).model_validate_json(one.model_dump_json()) for one in scenarios]
     commands = np.random.default_rng(2).uniform(-1, 1, (2, 4, 6))
-    controller, plants = fleet(again, 11, [3])
+    controller = again[0].controller()
     plant = scenarios[0].plant(controller, 11, [1, 2], "another stream")
     files = [tmp_path / name for name in ("one", "two")]
     for number, file in enumerate(files):
@@ -267,7 +267,7 @@ def test_scenarios_as_resolved_and_their_plants_are_as_kept(plan, tmp_path, data
     robot = nominal_robot(its)
     found = {
         "resolved": [[one.model_dump(exclude={"nominal"}), one.nominal.name] for one in scenarios],
-        "moves": plants.execute(commands),
+        "moves": [one.plant(controller, 11, [3]).execute(commands[:1]) for one in again],
         "other moves": plant.execute(commands),
         "robot": [robot.name, robot.home, robot.lower, robot.upper, robot.workspace, robot.joints],
         "arms": [one.arm(robot).forward(commands[0]) for one in scenarios],

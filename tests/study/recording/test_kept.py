@@ -96,11 +96,11 @@ def test_the_blueprint_is_as_kept(written, small, robot, data_regression):
     main = watched["improved"]
     sight = sight_of(robot.workspace, (main.achieved[0] - main.desired)[:, :3, 3])
     views = [
-        arrange(some, sight, published, side)
-        for some, published, side in (
-            (watched, small.published, True),
-            (watched, {}, False),
-            ({"improved": main}, {"position_error_cm": 43.0}, True),
+        arrange(some, sight, published)
+        for some, published in (
+            (watched, small.published),
+            (watched, {}),
+            ({"improved": main}, {"position_error_cm": 43.0}),
         )
     ]
     data_regression.check(plain([arranged(its) for its in views]))
