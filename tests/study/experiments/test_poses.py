@@ -23,7 +23,7 @@ from recalib.study.experiments.trials import Search, search_for
 from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.universe import universe
-from recalib.study.plan.chunks import batches, chunks, searches_per_job
+from recalib.study.plan.chunks import chunks, searches_per_job
 from recalib.study.plan.trainings import Trainings, searches, seeds, training
 from recalib.study.scenarios.plants import resolve
 from tests.conftest import ROOT
@@ -238,9 +238,8 @@ def run_all_jobs(study, rules, folder, monkeypatch):
                 ensemble.train_draws(sample(learner), **job)
     for learner in study.benchmark.learners:
         job = rules.arguments(study, "benchmark_run", learner=learner)
-        for scenarios in batches(study).values():
-            file = job["rules"] and sample(learner)
-            benchmark.compete([*map(resolved, scenarios)], **job, sample=file)
+        file = job["rules"] and sample(learner)
+        benchmark.compete([*map(resolved, study.benchmark.scenarios)], **job, sample=file)
     said = type("Said", (), {"target": np.eye(4)})
     monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
     for name in ("read_of", "calibrate_hybrid", "Plant"):
