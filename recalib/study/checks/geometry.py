@@ -142,25 +142,31 @@ def _of_slides(robot: Robot) -> Iterator[Mistake]:
 
 
 def _of_assignment(study: Study, robots: Sequence[Robot]) -> Iterator[Mistake]:
-    """Too few links or joints, or links that are too short, for the paper's damage."""
-    damage = study.paper_damage
+    """Too few links or joints of a robot, or links that are too short, for the paper's damage."""
     for robot in robots:
-        own, links = ("robots", robot.name, "links"), study.robots[robot.name].links
-        for key, amounts, other, there in (
-            ("shorten", damage.shorten, own, links),
-            ("shift", damage.shift, (*own[:2], "home"), robot.joints),
-        ):
-            if len(amounts) > len(there):
-                valid = f"at most {len(there)}, one for each of {dotted(other)}"
-                fault = f" is a list of {len(amounts)}; expected: {valid}"
-                yield Mistake(("paper_damage", key), fault, (other,))
-        arm, most = robot.arm, max(damage.shorten)
-        ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
-        lengths = {link: np.linalg.norm(end) for link, end in ends.items()}
-        if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
-            path = "paper_damage", "shorten", damage.shorten.index(most)
-            valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
-            yield unlike(path, LENGTH.write(most), valid, own)
+        if mistakes := [*_of_assignment_to(robot, study)]:
+            yield from mistakes
+            return  # the others' would say the same again
+
+
+def _of_assignment_to(robot: Robot, study: Study) -> Iterator[Mistake]:
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    own, home = ("robots", robot.name, "links"), ("robots", robot.name, "home")
+    for key, amounts, other, there in (
+        ("shorten", damage.shorten, own, links),
+        ("shift", damage.shift, home, robot.joints),
+    ):
+        if len(amounts) > len(there):
+            valid = f"at most {len(there)}, one for each of {dotted(other)}"
+            fault = f" is a list of {len(amounts)}; expected: {valid}"
+            yield Mistake(("paper_damage", key), fault, (other,))
+    arm, most = robot.arm, max(damage.shorten)
+    ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
+    lengths = {link: np.linalg.norm(end) for link, end in ends.items()}
+    if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
+        path = "paper_damage", "shorten", damage.shorten.index(most)
+        valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
+        yield unlike(path, LENGTH.write(most), valid, own)
 
 
 def _of_mapping(robot: Robot) -> Iterator[Mistake]:

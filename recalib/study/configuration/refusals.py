@@ -30,6 +30,8 @@ def refusals(error: ValidationError) -> list[Mistake]:
         *parents, last = refusal["loc"]
         path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
+            case "extra_forbidden" if last[:1].isdigit():
+                found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
             case "extra_forbidden":
                 valid = keys(find(parents)[1])
                 meant.add((*path[:-1], nearest(last, valid)))
