@@ -196,9 +196,9 @@ def test_what_is_identified_from_each_kind_of_rows_is_as_kept(kind, arm, panda, 
         "calibration": of_calibration(calibration, observations),
         "by other weights": coarse(identify(model, observations, weights=weights).noise, 3),
         "unidentifiable": [
-            replace(one, partners=sorted(one.partners) if kind == "targets" else one.partners)
+            replace(one, partners=sorted(one.partners))
             for one in unidentifiable_parameters(calibration, observations)
-        ],  # in which order several targets are named, rounding decides
+        ],  # rounding decides their order where several are as strong
         "gains": coarse(information_gains(calibration, observations.joints)),
         "telling": [best for best, _ in most_informative(calibration, observations.joints, 4)],
         "told": [

@@ -9,8 +9,11 @@ import pytest
 from recalib.study.evidence import checks, report
 from recalib.study.evidence.benchmark import seconds
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.reasons import integral_ratios
+from recalib.study.evidence.deviations import REMOVED, unnamed
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.pages import PAGES
+from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.inference import hierarchy, intervals
 from recalib.study.multiverse import power
 from tests.conftest import ROOT
@@ -57,7 +60,11 @@ def results(few, tmp_path_factory):
 
 def test_what_is_measured_for_each_claim_and_its_verdict(results, data_regression):
     judged = json.loads(results.path("claims.json").read_text(encoding="utf-8"))
-    data_regression.check({claim["id"]: plain(claim) for claim in judged})
+    assert [claim["id"] for claim in judged] == [claim.id for claim in CLAIMS]
+    reasons = {claim.id: claim.reason for claim in CLAIMS}
+    data_regression.check(
+        {claim["id"]: plain(claim) | {"reason": reasons[claim["id"]]} for claim in judged}
+    )
 
 
 @pytest.mark.parametrize("name", [name for name in PAGES if name != "article.typ"])
@@ -70,6 +77,33 @@ def test_what_a_page_may_say(name, results, data_regression):
 def test_what_the_report_may_say(results, data_regression):
     said = plain(report.context(results.evidence(report.NEEDS)))
     data_regression.check({key: said[key] for key in said.keys() - SAID})
+
+
+def test_integrals_of_section_5_by_scale(results, data_regression):
+    table = pd.read_parquet(results.path("mapping/propagation.parquet"))
+    table.loc[4, "updated"] = np.nan
+    data_regression.check(plain(integral_ratios(table).to_frame().reset_index()))
+
+
+def test_iterations_that_errors_need(data_regression):
+    rungs, errors = np.array([10, 30, 90]), np.array([[5.0, 3.0], [2.0, 2.5], [0.7, 0.4]])
+    found = {
+        number: [
+            float(iterations_needed(rungs[:number], errors[:number], np.array(target)))
+            for target in ([6.0, 4.0], [3.0, 2.9], [1.0, 1.0], [0.1, 0.1])
+        ]
+        for number in (1, 2, 3)
+    }
+    data_regression.check(plain(found))
+
+
+def test_digests_that_the_page_of_deviations_does_not_name():
+    told = {
+        "registered": {"kept": "a", "changed": "b", "gone": "c", "removed": "d"},
+        "deviations": [{"digests": {"removed": REMOVED, "later": "e"}}, {}],
+    }
+    today = {"kept": "a", "changed": "x", "later": "e", "new": "y"}
+    assert unnamed(told, today) == {"changed": "x", "new": "y", "gone": REMOVED}
 
 
 def test_the_tables_of_results(results, data_regression):
