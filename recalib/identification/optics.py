@@ -1,0 +1,59 @@
+"""Poses that were measured by a camera: how sure they are, and how they depend on its optics.
+
+What lens and board are beside what they were taken for moves all poses together: these are
+parameters of the fit, like those of the arm.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# By name, with its unit, the size of that in what parameters are in, and the standard deviation
+# before any picture is seen, in that unit. A printer scales by a thousandth.
+BOARD = (("print scale along x", "%", 0.01, 0.1), ("print scale along y", "%", 0.01, 0.1))
+OPTICS = (
+    *BOARD,
+    *((f"focal length along {axis}", "px", 1.0, 100.0) for axis in "xy"),
+    *((f"principal point along {axis}", "px", 1.0, 100.0) for axis in "xy"),
+    *((f"distortion {name}", "", 1.0, 1.0) for name in ("k1", "k2", "p1", "p2")),
+)
+
+
+@dataclass(frozen=True)
+class Optics:
+    """What a camera's poses are worth, row by row. A displacement is (6,) [m, rad].
+
+    Attributes:
+        whitening: (n, 6, 6) to displacements whose components are independent, and as large as
+            those of a typical row: in its first three m, then rad.
+        slopes: (n, 6, o) by which measured poses move with the optics.
+        information: (n, o, o) that the pictures have of the optics, whatever the poses are.
+        pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
+    """
+
+    whitening: np.ndarray
+    slopes: np.ndarray
+    information: np.ndarray
+    pixels: np.ndarray
+
+    @classmethod
+    def of(
+        cls, spread: np.ndarray, slopes: np.ndarray, information: np.ndarray, pixels: np.ndarray
+    ) -> "Optics":
+        """By the covariances (n, 6, 6) of displacements."""
+        typical = np.sqrt(np.median(np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3), (0, 2)))
+        roots = np.linalg.cholesky(np.linalg.inv(spread)).swapaxes(1, 2)
+        return cls(np.repeat(typical, 3)[:, None] * roots, slopes, information, pixels)
+
+    def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
+        return Optics(*(its[rows] for its in vars(self).values()))
+
+    @property
+    def count(self) -> int:
+        """How many parameters it has: the first of `OPTICS`."""
+        return self.slopes.shape[-1]
+
+    @property
+    def deviations(self) -> np.ndarray:
+        """Standard deviations (o,) of them, before any picture is seen."""
+        return np.array([size * deviation for _, _, size, deviation in OPTICS[: self.count]])
