@@ -108,6 +108,10 @@ def identify(
             known, stretch = _distances(model, parameters, observations)
             precision += known
             gradient += stretch
+        if observations.optics is not None:
+            known = _optics(model, observations)
+            precision += known
+            gradient -= known @ parameters
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
@@ -199,6 +203,16 @@ def _distances(
         information += np.outer(slope, slope) / deviation**2
         gradient += slope * (length - apart) / deviation**2
     return information, gradient
+
+
+def _optics(model: ErrorModel, observations: Observations) -> np.ndarray:
+    """What pictures say of the optics (P, P), whatever the poses are: that they are as measured."""
+    information, columns = np.zeros((len(model.deviations),) * 2), model.optics_columns
+    scale = model.deviations[columns]
+    assert observations.optics is not None
+    own = observations.optics.information.sum(axis=0)
+    information[columns, columns] = own * np.outer(scale, scale)
+    return information
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:
