@@ -6,8 +6,7 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.numerics.covariance import Covariance
-from recalib.numerics.regression import Process, is_time_to_search
+from recalib.numerics.regression import Process, _loss, is_time_to_search
 
 EPS = np.finfo(float).eps
 GENERATOR = np.random.default_rng(1)
@@ -27,16 +26,33 @@ def test_noise_is_no_gain():
         assert Process(INPUTS[:20], GENERATOR.standard_normal((20, 1))).gain < 0
 
 
-def test_the_gain_is_over_white_noise_less_what_hyperparameters_gain_by_chance():
-    """By scikit-learn's own kernels and its own likelihood, and by SciPy's of white noise."""
-    process = Process(INPUTS, SMOOTH)
-    trend, smooth, *lengths, noise = np.exp(process.hyperparameters)
+def by_scikit_learn(inputs, outputs, hyperparameters) -> GaussianProcessRegressor:
+    """The same process, of kernels that others wrote."""
+    trend, smooth, *lengths, noise = np.exp(hyperparameters)
     kernel = ConstantKernel(trend) * DotProduct(1, "fixed") + ConstantKernel(smooth) * RBF(lengths)
-    outputs = (SMOOTH - SMOOTH.mean(axis=0)) / SMOOTH.std(axis=0)
-    regressor = GaussianProcessRegressor(kernel + WhiteKernel(noise), optimizer=None)
-    found = regressor.fit(INPUTS - INPUTS.mean(axis=0), outputs).log_marginal_likelihood_value_
-    schwarz = 6 / 2 * np.log(2 * 60)
-    assert process.gain == pytest.approx(found - norm.logpdf(outputs).sum() - schwarz)
+    return GaussianProcessRegressor(kernel + WhiteKernel(noise), optimizer=None).fit(
+        inputs, outputs
+    )
+
+
+def test_predictions_and_the_gain_over_white_noise_are_those_of_scikit_learn():
+    process, asked = Process(INPUTS, SMOOTH), INPUTS[:5] + 0.1
+    mean, scale, centre = SMOOTH.mean(axis=0), SMOOTH.std(axis=0), INPUTS.mean(axis=0)
+    outputs = (SMOOTH - mean) / scale
+    other = by_scikit_learn(INPUTS - centre, outputs, process.hyperparameters)
+    predicted = mean + scale * other.predict(asked - centre)
+    assert process.predict(asked) == pytest.approx(predicted, abs=1e-9)
+    schwarz = 6 / 2 * np.log(2 * 60)  # what so many hyperparameters gain by chance
+    white = norm.logpdf(outputs).sum()
+    assert process.gain == pytest.approx(other.log_marginal_likelihood_value_ - white - schwarz)
+
+
+def test_a_search_goes_by_the_likelihood_and_its_slopes():
+    theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
+    other = by_scikit_learn(INPUTS, SMOOTH, theta)
+    likelihood, slopes = other.log_marginal_likelihood(theta, eval_gradient=True)
+    loss, by_theta = _loss(theta, INPUTS, SMOOTH)
+    assert loss == pytest.approx(-likelihood) and by_theta == pytest.approx(-slopes)
 
 
 def test_hyperparameters_are_sought_when_the_points_have_doubled_up_to_where_they_tell_little():
@@ -68,23 +84,6 @@ def test_few_points_constant_inputs_and_exact_data_warn_of_nothing(count):
         warnings.simplefilter("error")
         predicted = Process(inputs, SMOOTH[:count]).predict(INPUTS)
     assert np.all(np.isfinite(predicted))
-
-
-def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
-    theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
-    parts = (
-        ConstantKernel(0.5) * DotProduct(1, "fixed")
-        + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0])
-        + WhiteKernel(0.01)
-    )
-    assert np.allclose(parts.theta, theta)
-    ours = Covariance(theta)
-    for own, theirs in zip(
-        ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True
-    ):
-        assert np.allclose(own, theirs, atol=1e-12)
-    assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
-    assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)
 
 
 def test_an_output_that_deviates_by_rounding_alone_is_constant():

@@ -1,16 +1,14 @@
-"""Gaussian process regression, by scikit-learn, for several outputs with one covariance.
+"""Gaussian process regression for several outputs with one covariance.
 
-The covariance is that of a linear trend, a smooth function with a length along each input, and
-white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
-the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
+After Rasmussen and Williams (2006, algorithms 2.1 and 5.1). The covariance is that of a linear
+trend, a smooth function with a length along each input, and white noise. The outputs are scaled to
+a deviation of one. The hyperparameters are the logarithms of the trend's variance, of the smooth
+function's, of its lengths and of the noise's variance.
 """
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-
-if TYPE_CHECKING:
-    from sklearn.gaussian_process import GaussianProcessRegressor
+from scipy.linalg import cho_solve, cholesky
+from scipy.spatial.distance import cdist
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
@@ -20,6 +18,7 @@ FEWEST = 6  # points to judge hyperparameters by
 # Points to judge hyperparameters by: the time grows with their cube, and more tell little more.
 MOST = 128
 STEPS = 50  # of a search
+JITTER = 1e-10  # added to the variances of outputs, for a factor to exist
 ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
 
 
@@ -57,17 +56,18 @@ class Process:
                 else _start(inputs.shape[1])
             )
         self.hyperparameters = hyperparameters
-        self._regressor = _regressor(inputs, outputs, hyperparameters)
+        self._centred = inputs
+        covariances = sum(_covariances(inputs, inputs, hyperparameters))
+        _, self._weights, likelihood = _condition(covariances, outputs, hyperparameters)
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
         chance = len(hyperparameters) / 2 * np.log(outputs.size)
-        self.gain = self._regressor.log_marginal_likelihood_value_ - white - chance
+        self.gain = likelihood - white - chance
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        # The regressor's own `predict` checks and copies for longer than it computes.
-        regressor = self._regressor
-        expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
-        return self._mean + expected * self._scale
+        inputs = inputs - self._centre
+        covariances = sum(_covariances(inputs, self._centred, self.hyperparameters))
+        return self._mean + covariances @ self._weights * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
         """The arguments that make it again, as named arrays."""
@@ -82,17 +82,48 @@ def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
     return np.log([1.0, 1.0, *[FIRST_LENGTH] * dimensions, noise])
 
 
-def _regressor(
-    inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
-) -> "GaussianProcessRegressor":
-    # Most of a second to import, with pandas: who does not regress need not wait for it.
-    from sklearn.gaussian_process import GaussianProcessRegressor
+def _covariances(
+    points: np.ndarray, others: np.ndarray, hyperparameters: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Of points (n, d) with others (m, d): those of the trend and of the smooth function (n, m)."""
+    trend, smooth, *lengths, _ = np.exp(hyperparameters)
+    linear = trend * (1 + points @ others.T)
+    squares = cdist(points / np.array(lengths), others / np.array(lengths), "sqeuclidean")
+    return linear, smooth * np.exp(-squares / 2)
 
-    from recalib.numerics.covariance import Covariance
 
-    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(
-        inputs, outputs
-    )
+def _condition(
+    covariances: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Outputs (n, k) with covariances (n, n), to which those of the noise are added.
+
+    Returns the Cholesky factor, weights (n, k) of the covariances in predictions, and the logarithm
+    of the marginal likelihood. Raises LinAlgError: no positive definite matrix.
+    """
+    count = len(outputs)
+    noisy = covariances + np.exp(hyperparameters[-1]) * np.eye(count)
+    noisy[np.diag_indices(count)] += JITTER
+    factor = cholesky(noisy, lower=True, check_finite=False)
+    weights = cho_solve((factor, True), outputs, check_finite=False)
+    likelihoods = -np.einsum("ik,ik->k", outputs, weights) / 2 - np.log(np.diag(factor)).sum()
+    return factor, weights, float(np.sum(likelihoods - count / 2 * np.log(2 * np.pi)))
+
+
+def _loss(
+    hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
+) -> tuple[float, np.ndarray]:
+    """The negative logarithm of the marginal likelihood, and its slopes (d + 3,)."""
+    linear, bell = _covariances(inputs, inputs, hyperparameters)
+    try:
+        factor, weights, likelihood = _condition(linear + bell, outputs, hyperparameters)
+    except np.linalg.LinAlgError:  # where rounding leaves no factor: a place to leave
+        return np.inf, np.zeros_like(hyperparameters)
+    _, _, *lengths, noise = np.exp(hyperparameters)
+    by_length = bell[..., None] * np.square((inputs[:, None] - inputs) / lengths)
+    slopes = np.dstack([linear, bell, by_length, noise * np.eye(len(inputs))])
+    inverse = cho_solve((factor, True), np.eye(len(inputs)), check_finite=False)
+    inner = np.einsum("ik,jk->ijk", weights, weights) - inverse[..., None]
+    return -likelihood, -np.einsum("ijl,jik->kl", inner, slopes).sum(axis=-1) / 2
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
@@ -100,21 +131,11 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
     """
-    from scipy.optimize import minimize  # comes with scikit-learn, and as late
+    from scipy.optimize import minimize  # a fifth of a second: who predicts need not wait for it
 
     dimensions = inputs.shape[1]
-    starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
-    regressor = _regressor(inputs, outputs, starts[0])
-
-    def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:
-        value, slope = regressor.log_marginal_likelihood(
-            hyperparameters, eval_gradient=True, clone_kernel=False
-        )
-        return -value, -slope
-
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
-    found = [
-        minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS})
-        for start in starts
-    ]
+    options = {"jac": True, "bounds": bounds, "options": {"maxiter": STEPS}}
+    starts = (_start(dimensions, noise) for noise in FIRST_NOISES)
+    found = [minimize(_loss, start, args=(inputs, outputs), **options) for start in starts]
     return min(found, key=lambda result: result.fun).x
