@@ -20,6 +20,7 @@ STUDY = """
 """.split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
+    "laboratory/drawings.py": {"matplotlib"},
     "laboratory/page.py": {"jinja2"},
     "laboratory/watching.py": {"rerun"},
     "laboratory/viewing.py": {"rerun"},
@@ -52,6 +53,7 @@ BRINGS = {
     "recalib recalib.laboratory.command_line recalib.damaged.kinds": set(),
     "recalib.laboratory.files recalib.laboratory.page recalib.numerics.regression": {
         "jinja2",
+        "matplotlib",
         "pinocchio",
         "scipy.optimize",
         "scipy.spatial",

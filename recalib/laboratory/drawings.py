@@ -1,45 +1,72 @@
 """The drawings of the page of a calibration, as SVG."""
 
+from io import StringIO
+from typing import Any
+
 import numpy as np
+from matplotlib import rc_context
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.panels import Axis, Panel, drawing
 from recalib.laboratory.summary import UNITS
 
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
-WIDTH = 960  # of a drawing, in units; a page has about as many
+WIDTH = 9.6  # inches
 COLUMNS = 3
 LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
 LEAST = 1e-4  # mm or deg: below that nobody measures
+STYLE: dict[Any, Any] = {
+    "axes.grid": True,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "font.size": 9,
+    "grid.color": "#e5e5e5",
+    "savefig.dpi": 150,  # of points and arrows: thousands are too much for a browser
+    "svg.fonttype": "none",
+    "svg.hashsalt": "recalib",  # the same drawing gives the same text
+}
 
 
 def draw_errors(result: Calibrated) -> str:
     """What part of the rows has at most which error, before and after."""
-    kinds, panels = result.calibration.estimate.noise.size, []
-    for kind, (scale, unit) in enumerate(UNITS[:kinds]):
-        errors = _errors(result, kind, scale)
-        label = f"error on rows that were not learned from [{unit}]"
-        axes = Axis(label, [*errors.values()], LEAST), Axis("part of the rows", [0, 1])
-        panel = Panel((WIDTH / kinds, 280), axes)
-        for name, numbers in errors.items():
-            parts = np.linspace(0, 1, len(numbers) + 1)
-            panel.line(np.sort(numbers).repeat(2), parts.repeat(2)[1:-1], COLOURS[name], 2)
-        panels.append(panel)
-    return drawing(panels, kinds)
+    kinds = result.calibration.estimate.noise.size
+    with rc_context(STYLE):
+        figure, panels = _figure(2.8, 1, kinds)
+        for kind, (panel, (scale, unit)) in enumerate(zip(panels.flat, UNITS, strict=False)):
+            panel.set(xlabel=f"cross-validated error [{unit}]", xscale="log")
+            _plain(panel.xaxis)
+            for name, numbers in _errors(result, kind, scale).items():
+                panel.ecdf(np.maximum(numbers, LEAST), color=COLOURS[name], linewidth=1.5)
+        panels[0, 0].set_ylabel("part of the rows")
+        return _svg(figure)
 
 
 def draw_over_joints(result: Calibrated) -> str:
     """Position errors over each joint's coordinate, before and after."""
-    joints, arm, panels = result.observations.joints[result.counted], result.arm, []
-    errors = _errors(result, 0, 1e3)
-    up = Axis("position error [mm]", [*errors.values()], LEAST)
-    for joint, slides, column in zip(arm.joints, arm.slides, joints.T, strict=True):
-        scale, unit = UNITS[0] if slides else UNITS[1]
-        panel = Panel((WIDTH / COLUMNS, 220), [Axis(f"{joint} [{unit}]", scale * column), up])
-        for name, numbers in errors.items():
-            panel.dots(scale * column, numbers, COLOURS[name], 4)
-        panels.append(panel)
-    return drawing(panels, COLUMNS)
+    joints, arm = result.observations.joints[result.counted], result.arm
+    rows = -(-len(arm.joints) // COLUMNS)
+    with rc_context(STYLE):
+        figure, panels = _figure(2.2 * rows, rows, COLUMNS, sharey=True)
+        for panel in panels.flat[len(arm.joints) :]:
+            panel.remove()
+        for panel in panels[:, 0]:
+            panel.set(ylabel="position error [mm]", yscale="log")
+            _plain(panel.yaxis)
+        for index, (joint, slides) in enumerate(zip(arm.joints, arm.slides, strict=True)):
+            (scale, unit), panel = UNITS[0 if slides else 1], panels.flat[index]
+            panel.set_xlabel(f"{joint} [{unit}]")
+            for name, numbers in _errors(result, 0, 1e3).items():
+                panel.scatter(
+                    scale * joints[:, index],
+                    np.maximum(numbers, LEAST),
+                    s=6,
+                    color=COLOURS[name],
+                    linewidth=0,
+                    rasterized=True,
+                )
+        return _svg(figure)
 
 
 def draw_arm(result: Calibrated) -> tuple[str, float]:
@@ -54,18 +81,21 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     reach = np.linalg.norm(skeleton, axis=1).max()
     longer = LONGEST * reach / np.linalg.norm(residuals["before"], axis=1).max()
     longer = float(f"{longer:.0e}")  # a round number
-    ends = {name: positions + longer * its for name, its in residuals.items()}
-    drawn, panels = np.concatenate([skeleton, *ends.values()]), []
-    for title, sides in (("from the side", (0, 2)), ("from above", (0, 1))):
-        axes = [Axis(f"{'xyz'[side]} [m]", drawn[:, side]) for side in sides]
-        panel = Panel((WIDTH / 2, 420), axes, title, alike=True)
-        across, up = skeleton[:, sides].T
-        panel.line(across, up, GREY, 5)
-        panel.dots(across, up, GREY, 10)
-        for name, end in ends.items():
-            panel.spikes(positions[:, sides], end[:, sides], COLOURS[name])
-        panels.append(panel)
-    return drawing(panels, 2), longer
+    with rc_context(STYLE):
+        figure, panels = _figure(4.2, 1, 2)
+        views = ("from the side", [0, 2]), ("from above", [0, 1])
+        for panel, (title, axes) in zip(panels.flat, views, strict=True):
+            across, up = ("xyz"[axis] for axis in axes)
+            panel.set(title=title, xlabel=f"{across} [m]", ylabel=f"{up} [m]")
+            panel.set_aspect("equal", "datalim")
+            panel.plot(*skeleton[:, axes].T, "o-", color=GREY, linewidth=3)
+            for name, its in residuals.items():
+                start, step = positions[:, axes].T, longer * its[:, axes].T
+                scales = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.003}
+                panel.quiver(*start, *step, color=COLOURS[name], rasterized=True, **scales)
+                panel.update_datalim((start + step).T)
+            panel.autoscale_view()
+        return _svg(figure), longer
 
 
 def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:
@@ -74,3 +104,25 @@ def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray
     return {
         name: scale * np.linalg.norm(its[:, part], axis=1) for name, its in result.residuals.items()
     }
+
+
+def _figure(
+    height: float, rows: int, columns: int, sharey: bool = False
+) -> tuple[Figure, np.ndarray]:
+    """A figure so high [inches], and its panels (rows, columns)."""
+    figure = Figure((WIDTH, height))
+    figure.subplots_adjust(0.07, 0.5 / height, 0.99, 1 - 0.3 / height, hspace=0.35)
+    return figure, figure.subplots(rows, columns, sharey=sharey, squeeze=False)
+
+
+def _plain(axis: Axis) -> None:
+    """Whole powers of ten as numbers: all else takes a second to draw."""
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(NullLocator())
+
+
+def _svg(figure: Figure) -> str:
+    """An element for a page of HTML."""
+    text, metadata = StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
+    figure.savefig(text, format="svg", metadata=metadata)
+    return text.getvalue()[text.getvalue().index("<svg") :]

@@ -57,8 +57,8 @@ class Process:
             )
         self.hyperparameters = hyperparameters
         self._centred = inputs
-        covariances = sum(_covariances(inputs, inputs, hyperparameters))
-        _, self._weights, likelihood = _condition(covariances, outputs, hyperparameters)
+        linear, bell = _covariances(inputs, inputs, hyperparameters)
+        _, self._weights, likelihood = _condition(linear + bell, outputs, hyperparameters)
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
         chance = len(hyperparameters) / 2 * np.log(outputs.size)
         self.gain = likelihood - white - chance
@@ -66,8 +66,8 @@ class Process:
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
         inputs = inputs - self._centre
-        covariances = sum(_covariances(inputs, self._centred, self.hyperparameters))
-        return self._mean + covariances @ self._weights * self._scale
+        linear, bell = _covariances(inputs, self._centred, self.hyperparameters)
+        return self._mean + (linear + bell) @ self._weights * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
         """The arguments that make it again, as named arrays."""
