@@ -41,7 +41,9 @@ class Optics:
         cls, spread: np.ndarray, slopes: np.ndarray, information: np.ndarray, pixels: np.ndarray
     ) -> "Optics":
         """By the covariances (n, 6, 6) of displacements."""
-        typical = np.sqrt(np.median(np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3), (0, 2)))
+        typical = np.sqrt(
+            np.median(np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3), (0, 2))
+        )
         roots = np.linalg.cholesky(np.linalg.inv(spread)).swapaxes(1, 2)
         return cls(np.repeat(typical, 3)[:, None] * roots, slopes, information, pixels)
 

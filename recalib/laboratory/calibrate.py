@@ -20,7 +20,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Val
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, checked_frames
-from recalib.laboratory.measurements import Measurements, read_measurements
+from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
 from recalib.laboratory.nominal_checks import Fit, check_nominal
 from recalib.laboratory.places import Place, found_places
 from recalib.laboratory.urdf import corrected_urdf
@@ -40,6 +40,7 @@ class Calibrated:
         table: the file with the measurements.
         observations: what it says.
         targets, sockets: their names, in the order of their numbers.
+        instrument: its name.
         beside: frames between the nominal positions and the nominal kinematics, if they differ.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
@@ -55,6 +56,7 @@ class Calibrated:
     beside: Fit | None
     frames: Frames
     validation: Validation
+    instrument: str = "the instrument"
 
     @property
     def arm(self) -> Arm:
@@ -81,8 +83,9 @@ class Calibrated:
         """Where instrument, targets and sockets are, of those that were not given."""
         names = self.targets, self.sockets
         if not self.worthwhile:
-            return found_places(self.calibration, [], *names, self.arm.tool)
-        return found_places(self.geometry, self.unidentifiable, *names, self.corrected[1])
+            return found_places(self.calibration, [], *names, self.arm.tool, self.instrument)
+        tool = self.corrected[1]
+        return found_places(self.geometry, self.unidentifiable, *names, tool, self.instrument)
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
@@ -149,7 +152,7 @@ def calibrate_arm(
 
     Args:
         urdf: a path, or a name that `recalib.nominal.arms.find_urdf` knows.
-        table: see docs/own_arm.md.
+        table: see docs/own_arm.md; or the folder that `recalib observe` wrote.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
         on_progress: is told what is being done, in a line each.
@@ -164,6 +167,8 @@ def calibrate_arm(
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
     given = description or Description()
+    pictures = Path(table) if Path(table).is_dir() else None
+    table = Path(table) if pictures is None else pictures / OBSERVED
     rows = read_measurements(table, arm, given)
     on_progress(its := origin(urdf, source))
     on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
@@ -172,13 +177,31 @@ def calibrate_arm(
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
         point = None if given.target is None else given.target[:3, 3]
         beside = check_nominal(arm, rows.joints, rows.nominal, stand, point)
-    observations, targets, sockets = _observations(rows, given, Path(table))
+    observations, targets, sockets = _observations(rows, given, table)
+    instrument = "the instrument"
+    if pictures is not None:  # OpenCV is imported only for these
+        from recalib.laboratory.observed import with_pixels
+
+        observations, instrument, targets = with_pixels(observations, pictures)
     on_progress("where instrument and target are, about")
-    frames = checked_frames(arm, observations, given.instrument, given.target)
+    poses = replace(observations, optics=None)
+    frames = checked_frames(arm, poses, given.instrument, given.target)
+    if observations.optics is not None:
+        frames = replace(frames, optics_deviations=observations.optics.deviations)
     check_distances(arm, observations, frames, sockets)
     validation = validate(arm, observations, frames, on_progress)
     return Calibrated(
-        path, source, its, Path(table), observations, targets, sockets, beside, frames, validation
+        path,
+        source,
+        its,
+        table,
+        observations,
+        targets,
+        sockets,
+        beside,
+        frames,
+        validation,
+        instrument,
     )
 
 

@@ -21,6 +21,7 @@ MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place 
 QUATERNION = "qx", "qy", "qz", "qw"
 ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
 VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
+OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wrote
 LABELS, TIMES = ("target", "socket"), "time"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]

@@ -10,7 +10,7 @@ from matplotlib.path import Path as Outline
 from recalib.vision.boards import Board
 
 PAPERS = {"A4": (297, 210), "A3": (420, 297), "A2": (594, 420), "A1": (841, 594), "A0": (1189, 841)}
-MARGIN, FOOT = 8.0, 14.0  # mm about the board, and below it for the bar
+MARGIN, FOOT = 8.0, 13.0  # mm about the board, and below it for the bar
 BAR = 100.0  # mm
 INCH = 25.4  # mm
 
@@ -21,7 +21,7 @@ def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
     Returns width and height of the paper [mm]: the smallest sheet in landscape that is wide enough.
     """
     size = 1e3 * board.size
-    least = size + [2 * MARGIN, 2 * MARGIN + FOOT]
+    least = np.add(size, (2 * MARGIN, 2 * MARGIN + FOOT))
     sheets = (sheet for sheet in PAPERS.values() if (least <= sheet).all())
     paper = next(sheets, (float(least[0]), float(least[1])))
     figure = Figure(figsize=(paper[0] / INCH, paper[1] / INCH))
@@ -29,10 +29,10 @@ def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
     page.set_axis_off()
     left = (paper[0] - size[0]) / 2
     # one outline: between shapes that touch, viewers would show a seam
-    outline = _outline(board.modules, size) + [left, MARGIN]
+    outline = np.add(_outline(board.modules, size), (left, MARGIN))
     page.add_patch(PathPatch(_closed(outline), color="black", linewidth=0))
     foot = MARGIN + size[1] + FOOT / 2
-    bar = np.array([[0, 0], [BAR, 0], [BAR, 2], [0, 2]]) + [left, foot]
+    bar = np.add([[0, 0], [BAR, 0], [BAR, 2], [0, 2]], (left, foot))
     page.add_patch(PathPatch(_closed(bar[None]), color="black", linewidth=0))
     text = (
         f"This bar is {BAR:g} mm long, or the printer scales. {board.kind}"

@@ -83,10 +83,16 @@ def optics_of(
         left = by_optics + by_pose @ slopes[-1]
         information.append(left.T @ left / noise**2)
         roots.append(np.linalg.qr(by_pose / np.sqrt(len(by_pose) / 2)).R)
-    spread = [np.linalg.inv(root.T @ root) * 2 / len(by_pose)
-              for root, (by_pose, _) in zip(roots, blocks, strict=True)]
-    optics = Optics.of(noise**2 * np.array(spread) + SHORTEST**2 * np.eye(6),
-                       np.array(slopes), np.array(information), np.array(roots))
+    spread = [
+        np.linalg.inv(root.T @ root) * 2 / len(by_pose)
+        for root, (by_pose, _) in zip(roots, blocks, strict=True)
+    ]
+    optics = Optics.of(
+        noise**2 * np.array(spread) + SHORTEST**2 * np.eye(6),
+        np.array(slopes),
+        np.array(information),
+        np.array(roots),
+    )
     return np.array(poses), optics
 
 

@@ -83,7 +83,7 @@ class Cell:
             for its, pose in zip(joints, self.seen(joints), strict=True):
                 corners = pose[:3, :3] @ self.board.points.T + pose[:3, 3:]
                 facing = -(pose[:3, 2] @ pose[:3, 3]) / np.linalg.norm(pose[:3, 3])
-                near = 0.3 < corners[2].min() and corners[2].max() < 1.4
+                near = corners[2].min() > 0.3 and corners[2].max() < 1.4
                 if near and facing < -0.55:
                     pixels = self.project(pose)
                     if (pixels > 30).all() and (pixels < np.subtract(self.lens.size, 30)).all():
@@ -103,8 +103,10 @@ class Cell:
             noise: of 255.
         """
         left, top, right, bottom = self._about(pose)
-        x, y = ((np.arange(FINE * (end - at)) + 0.5) / FINE - 0.5 + at
-                for at, end in ((left, right), (top, bottom)))
+        x, y = (
+            (np.arange(FINE * (end - at)) + 0.5) / FINE - 0.5 + at
+            for at, end in ((left, right), (top, bottom))
+        )
         grid = np.stack(np.meshgrid(x, y), axis=-1)
         rays = cv2.undistortPoints(grid.reshape(-1, 1, 2), self.lens.matrix, self.lens.distortion)
         plane = np.linalg.inv(pose[:3, [0, 1, 3]])  # of a ray where the board is
