@@ -4,7 +4,7 @@ What lens and board are beside what they were taken for moves all poses together
 parameters of the fit, like those of the arm.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,28 +24,30 @@ class Optics:
     """What a camera's poses are worth, row by row. A displacement is (6,) [m, rad].
 
     Attributes:
-        whitening: (n, 6, 6) to displacements whose components are independent, and as large as
-            those of a typical row: in its first three m, then rad.
+        spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
         slopes: (n, 6, o) by which measured poses move with the optics.
         information: (n, o, o) that the pictures have of the optics, whatever the poses are.
         pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
+        whitening: (n, 6, 6) to displacements whose components are independent, and as large as
+            those of a typical row: in its first three m, then rad.
     """
 
-    whitening: np.ndarray
+    spread: np.ndarray
     slopes: np.ndarray
     information: np.ndarray
     pixels: np.ndarray
+    whitening: np.ndarray
 
     @classmethod
     def of(
         cls, spread: np.ndarray, slopes: np.ndarray, information: np.ndarray, pixels: np.ndarray
     ) -> "Optics":
-        """By the covariances (n, 6, 6) of displacements."""
-        typical = np.sqrt(
-            np.median(np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3), (0, 2))
-        )
-        roots = np.linalg.cholesky(np.linalg.inv(spread)).swapaxes(1, 2)
-        return cls(np.repeat(typical, 3)[:, None] * roots, slopes, information, pixels)
+        """Those of an arm that returns to a posture without any error."""
+        return cls(spread, slopes, information, pixels, _whitening(spread))
+
+    def with_noise(self, covariance: np.ndarray) -> "Optics":
+        """The same, where displacements have further noise of a covariance (6, 6)."""
+        return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
         return Optics(*(its[rows] for its in vars(self).values()))
@@ -59,3 +61,10 @@ class Optics:
     def deviations(self) -> np.ndarray:
         """Standard deviations (o,) of them, before any picture is seen."""
         return np.array([size * deviation for _, _, size, deviation in OPTICS[: self.count]])
+
+
+def _whitening(spread: np.ndarray) -> np.ndarray:
+    variances = np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3)
+    typical = np.sqrt(np.median(variances, axis=(0, 2)))
+    roots = np.linalg.cholesky(np.linalg.inv(spread)).swapaxes(1, 2)
+    return np.repeat(typical, 3)[:, None] * roots

@@ -11,10 +11,12 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
 from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.observations import Distance, Observations
+from recalib.identification.repeatability import weigh
 from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
@@ -188,6 +190,7 @@ def calibrate_arm(
     frames = checked_frames(arm, poses, given.instrument, given.target)
     if observations.optics is not None:
         frames = replace(frames, optics_deviations=observations.optics.deviations)
+        observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
     check_distances(arm, observations, frames, sockets)
     validation = validate(arm, observations, frames, on_progress)
     return Calibrated(

@@ -22,9 +22,9 @@ def pixel_error(result: Calibrated, way: str, kind: str) -> float:
 
 def static_transform(place: Place) -> str:
     """The command of ROS 2 that publishes a place."""
-    x, y, z, *turn = (*place.pose[:3, 3], *Rotation.from_matrix(place.pose[:3, :3]).as_quat())
+    turn = Rotation.from_matrix(place.pose[:3, :3]).as_quat()
     names = "x", "y", "z", "qx", "qy", "qz", "qw"
-    numbers = zip(names, (x, y, z, *turn), strict=True)
+    numbers = zip(names, np.concatenate([place.pose[:3, 3], turn]), strict=True)
     given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
     child = place.name.removeprefix("the ").replace(" ", "_")
     frames = f"--frame-id {place.link} --child-frame-id {child}"

@@ -4,6 +4,7 @@ import csv
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from os import PathLike
 from pathlib import Path
 
@@ -129,7 +130,8 @@ def observe(
 
     Raises RecalibError: a file that cannot be used, or too few pictures that can.
     """
-    sheet, given, table = read_board(board), lens and read_lens(lens), read_table(joints)
+    given = None if lens is None else read_lens(lens)
+    sheet, table = read_board(board), read_table(joints)
     if PICTURE not in table:
         raise InvalidFile(table.path, f"column {PICTURE!r} is missing: the name of each row's file")
     names = table.cells[PICTURE]
@@ -185,34 +187,37 @@ def _read(folder: Path, row: int, name: str) -> Picture:
 
 def _found(pictures: Sequence[Picture], board: Board, size: tuple[int, int]) -> list[Picture]:
     """With their corners, or the reason why not."""
-    done, seen = [], {}
-    for its in pictures:
-        if its.pixels is not None:
-            content = its.pixels.tobytes()
-            if its.pixels.shape[::-1] != size:
-                found, valid = (f"{wide} x {high}" for wide, high in (its.pixels.shape[::-1], size))
-                its = its.refused(f"it has {found} pixels; expected: {valid}")
-            elif content in seen:
-                its = its.refused(f"it is the same picture as {seen[content]}")
-            else:
-                try:
-                    its = replace(its, corners=find_corners(board, its.pixels))
-                except Unusable as error:
-                    its = its.refused(str(error))
-            seen.setdefault(content, its.name)
-        done.append(its)
-    softness = [its.corners.softness for its in done if its.corners is not None]
-    most = SOFTER * np.median(softness) if softness else 0.0
+    names: dict[bytes, str] = {}
+    done = [_searched(its, board, size, names) for its in pictures]
+    most = SOFTER * np.median([its.corners.softness for its in done if its.corners] or [np.inf])
     return [
         its.refused(f"it is blurred by {its.corners.softness:.1f} px, twice as much as others")
-        if its.corners is not None and its.corners.softness > most
+        if its.corners and its.corners.softness > most
         else its
         for its in done
     ]
 
 
+def _searched(
+    picture: Picture, board: Board, size: tuple[int, int], names: dict[bytes, str]
+) -> Picture:
+    """With its corners. The names are those of pictures that were searched, by their content."""
+    if picture.pixels is None:
+        return picture
+    if (own := picture.pixels.shape[::-1]) != size:
+        found, valid = (f"{wide} x {high}" for wide, high in (own, size))
+        return picture.refused(f"it has {found} pixels; expected: {valid}")
+    first = names.setdefault(sha256(picture.pixels.tobytes()).digest(), picture.name)
+    if first != picture.name:
+        return picture.refused(f"it is the same picture as {first}")
+    try:
+        return replace(picture, corners=find_corners(board, picture.pixels))
+    except Unusable as error:
+        return picture.refused(str(error))
+
+
 def _seen(
-    pictures: Sequence[Picture], board: Board, size: tuple[int, int], lens: Lens | None
+    pictures: list[Picture], board: Board, size: tuple[int, int], lens: Lens | None
 ) -> tuple[Lens, list[Picture]]:
     """The lens, and the pictures with their poses; those that fit badly are refused, twice over."""
     for _ in range(3):
@@ -247,7 +252,7 @@ def _posed(picture: Picture, board: Board, lens: Lens) -> Picture:
     return replace(picture, corners=corners, pose=pose, error=float(np.sqrt(squares.mean())))
 
 
-def _measurements(result: Observed) -> tuple[list[str], list[list[object]]]:
+def _measurements(result: Observed) -> tuple[list[str], list[list[str]]]:
     """The table of joints without pictures, with poses of the board, or of the camera in it."""
     table, rows = result.table, []
     joints = [name for name in table.cells if name != PICTURE]

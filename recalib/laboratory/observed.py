@@ -10,11 +10,12 @@ from recalib.errors import InvalidFile
 from recalib.files.quantities import Quantity
 from recalib.files.storage import read_file
 from recalib.identification.observations import Observations
+from recalib.identification.optics import BOARD, OPTICS
 from recalib.laboratory.columns import NUMBER, Table, read_table
 from recalib.laboratory.observe import CAMERAS, CORNERS, IN_HAND, LENS, SETUP
 from recalib.vision.boards import MOST, read_board
 from recalib.vision.detection import FEWEST, Corners
-from recalib.vision.lenses import read_lens
+from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import optics_of
 
 PIXEL = Quantity("a pixel", {"px": 1.0})
@@ -38,6 +39,17 @@ def with_pixels(observations: Observations, folder: Path) -> tuple[Observations,
     poses, optics = optics_of(board, read_lens(folder / LENS), views, fitted, in_hand)
     names = ("the board", "the camera") if in_hand else ("the camera", "the board")
     return replace(observations, measured=poses, optics=optics), names[0], names[1:]
+
+
+def fitted_lens(folder: Path, optics: np.ndarray) -> Lens:
+    """The lens in a folder, with what a calibration found of the optics (o,) beside it."""
+    lens = read_lens(folder / LENS)
+    beside = np.zeros(len(OPTICS))
+    beside[: len(optics)] = optics
+    fx, fy, cx, cy, *distortion = beside[len(BOARD) :]
+    matrix = lens.matrix + np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 0]])
+    lens.distortion[:4] += distortion
+    return Lens(lens.size, matrix, lens.distortion)
 
 
 def _views(table: Table, points: int, count: int) -> list[Corners]:

@@ -32,7 +32,7 @@ def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
     outline = np.add(_outline(board.modules, size), (left, MARGIN))
     page.add_patch(PathPatch(_closed(outline), color="black", linewidth=0))
     foot = MARGIN + size[1] + FOOT / 2
-    bar = np.add([[0, 0], [BAR, 0], [BAR, 2], [0, 2]], (left, foot))
+    bar = np.array([[0, 0], [BAR, 0], [BAR, 2], [0, 2]]) + np.array([left, foot])
     page.add_patch(PathPatch(_closed(bar[None]), color="black", linewidth=0))
     text = (
         f"This bar is {BAR:g} mm long, or the printer scales. {board.kind}"

@@ -18,7 +18,6 @@ from recalib.vision.lenses import Lens
 
 FEWEST = 6  # pictures, to know a lens by
 POSE, LENS = slice(0, 6), slice(6, 14)  # of OpenCV's derivatives: a lens without k3
-SHORTEST = 3e-5  # m or rad: no arm returns better, so no pose tells more of one
 FAR = 4.0  # standard deviations: a corner farther out is no part of the board
 CONVERGED = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 100, 1e-12)
 
@@ -88,7 +87,7 @@ def optics_of(
         for root, (by_pose, _) in zip(roots, blocks, strict=True)
     ]
     optics = Optics.of(
-        noise**2 * np.array(spread) + SHORTEST**2 * np.eye(6),
+        noise**2 * np.array(spread),
         np.array(slopes),
         np.array(information),
         np.array(roots),

@@ -57,9 +57,15 @@ class Cell:
             self.eye = self.eye @ off
             self.sheet = frame([0, 0, 0], [0, 0, 0.05]) @ off @ middle
 
+    def tool(self, joints: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) [m] of the real arm's tool in its base."""
+        real = self.real
+        poses = np.linalg.inv(real.base) @ real.poses(joints, noise=(0, 0))
+        return poses @ np.linalg.inv(real.targets[0])
+
     def seen(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) [m] of the board in the camera, in the real arm."""
-        tool = self.real._arm.forward(joints + self.real._offsets)
+        tool = self.tool(joints)
         if self.in_hand:
             return np.linalg.inv(tool @ self.eye) @ self.sheet
         return np.linalg.inv(self.eye) @ tool @ self.sheet
