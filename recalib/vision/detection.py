@@ -10,7 +10,7 @@ from recalib.vision.boards import CHARUCO, Board
 
 FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
 MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
-OTHERS = "4X4_1000", "5X5_1000", "6X6_1000", "7X7_1000", "ARUCO_ORIGINAL", "APRILTAG_36H11"
+OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
 HALF = 0.5  # px: this refinement counts from the corner of a picture, not from its first pixel
 MANY = 3  # markers of another dictionary that are no chance
 AROUND = 15  # px about an edge: where it is dark, bright and steepest

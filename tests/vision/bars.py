@@ -42,9 +42,9 @@ class Draw:
         self.cell = Cell(self.seed, self.in_hand)
         self.joints, self.fresh = np.split(self.cell.postures(PICTURES + FRESH), [PICTURES])
         off = np.radians(self.returns) * self.cell.random.standard_normal(self.joints.shape)
-        views = [self._view(pose) for pose in self.cell.seen(self.joints + off)]
-        lens = find_lens(self.cell.board, views, self.cell.lens.size)
-        measured, optics = optics_of(self.cell.board, lens, views, True, self.in_hand)
+        self.views = views = [self._view(pose) for pose in self.cell.seen(self.joints + off)]
+        self.lens = find_lens(self.cell.board, views, self.cell.lens.size)
+        measured, optics = optics_of(self.cell.board, self.lens, views, True, self.in_hand)
         self.poses = Observations(self.joints, measured)
         self.pixels = replace(self.poses, optics=optics)
 

@@ -18,7 +18,7 @@ LENS = Lens(
     np.array([-0.21, 0.08, 4e-4, -3e-4, 0.0]),
 )
 BLACK, GREY, WHITE = 20, 110, 235
-DETAIL, FINE, PAPER = 12, 3, 0.03  # texture px a module; rays a pixel; m of white about the board
+DETAIL, FINE, PAPER = 12, 2, 0.03  # texture px a module; rays a pixel; m of white about the board
 
 
 def frame(turn: list[float], place: list[float]) -> np.ndarray:
