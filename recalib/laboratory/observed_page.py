@@ -12,7 +12,7 @@ from recalib.laboratory.observe import Observed, Picture
 from recalib.laboratory.page import environment
 
 WIDE = 300  # px, of a picture on the page
-DOT, COLOUR = 4, (178, 114, 0)  # px, and blue as OpenCV has it
+DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it
 QUALITY = 70  # of JPEG
 
 

@@ -94,7 +94,7 @@ def errors(in_hand: bool, draws: int) -> np.ndarray:
 
 def main(draws: int = 40) -> None:
     """Print a row for each place of the camera."""
-    print("| camera | nominal | poses | pixels | worst pixels | pixels better | place within 3 |")
+    print("| camera | nominal | by poses | by pixels | largest by pixels | pixels better | place |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for name, in_hand in (("fixed", False), ("on the hand", True)):
         rows = errors(in_hand, draws)
