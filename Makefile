@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster vision lint test test-all dist elsewhere lowest slurm faults verify mutants laboratory peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster vision lint test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -84,9 +84,6 @@ verify: setup ## whether all results are as they were written; what is not is re
 mutants: setup ## plant small errors that nobody chose, and say what no test notices: docs/mutants.md
 	$(PIP) --no-build-isolation --editable .[mutants]
 	.venv/bin/python -m tests.mutants --count $(COUNT)
-
-laboratory: setup ## what the identification of any arm has to show, in half an hour; RECORDED=FOLDER: on a real UR5, too
-	.venv/bin/python -m tests.identification.bars $(addprefix --recording ,$(RECORDED))
 
 peers: setup ## our calibration beside figaroh's and robotkinecal's, each in an environment of its own: docs/peers.md
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))

@@ -20,7 +20,7 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 
-def most_telling(
+def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int
 ) -> Iterator[tuple[int, np.ndarray]]:
     """The postures of the largest gains, each given those before it.

@@ -38,7 +38,7 @@ def check_estimate(estimate: Estimate) -> None:
         found = [f"{1e3 * noise[0]:.1f} mm", *(f"{np.degrees(turn):.1f} deg" for turn in noise[1:])]
         rows = np.argsort(estimate.weights, kind="stable")[:NAMED] + 1
         raise Untrustworthy(
-            f"the best arm still misses by {' and '.join(found)} along each axis, most of all in"
+            f"residuals of the best fit are {' and '.join(found)} along each axis, the largest in"
             f" rows {', '.join(map(str, rows))} (the first is 1); expected: up to"
             f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg"
         )

@@ -55,7 +55,7 @@ def initial_frames(
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
-            f"{len(observations)} rows leave open where instrument and target are;"
+            f"{len(observations)} rows are too few to estimate where instrument and target are;"
             f" expected: at least {fewest(observations)}"
         )
     rng = generator(0, "first guess")

@@ -75,7 +75,7 @@ def _names(
             yield f"{motion} {where}", *_unit(slides=motion.startswith("shift"))
     for socket in sockets or range(len(frames.sockets)):
         for axis in "xyz":
-            yield f"{axis} of socket {socket}, from its first guess", "mm", 1e3
+            yield f"{axis} of socket {socket}, from its initial estimate", "mm", 1e3
     for name, unit, size, _ in OPTICS[: len(frames.optics_deviations)]:
         yield name, unit, 1 / size
     for term in model.names:

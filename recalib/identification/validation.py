@@ -121,7 +121,7 @@ def validate(
         (terms,) = candidates[kind]
         model = ErrorModel(arm, terms, frames)
         full[kind] = Calibration(model, identify(model, observations, weights=weights))
-    on_progress("what is no geometry")
+    on_progress("errors beyond geometry")
     hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
     if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
         hybrid = calibrate(arm, candidates[HYBRID], observations, frames, hybrid, weights)

@@ -23,7 +23,7 @@ from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
-from recalib.laboratory.nominal_checks import Fit, check_nominal
+from recalib.laboratory.nominal_checks import check_nominal
 from recalib.laboratory.places import Place, found_places
 from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
@@ -43,7 +43,7 @@ class Calibrated:
         observations: what it says.
         targets, sockets: their names, in the order of their numbers.
         instrument: its name.
-        beside: frames between the nominal positions and the nominal kinematics, if they differ.
+        between: what is between nominal positions and the nominal kinematics, in words.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
     """
@@ -55,7 +55,7 @@ class Calibrated:
     observations: Observations
     targets: tuple[str, ...]
     sockets: tuple[str, ...]
-    beside: Fit | None
+    between: str | None
     frames: Frames
     validation: Validation
     instrument: str = "the instrument"
@@ -116,7 +116,7 @@ class Calibrated:
 
     @property
     def doubted(self) -> np.ndarray:
-        """Numbers (from 1) of the rows that did not fit to the others and hardly counted."""
+        """Numbers (from 1) of the rows that are outliers: they have almost no weight."""
         unlikely = self.geometry.estimate.weights < DOUBTFUL
         return np.flatnonzero(unlikely | ~self.validation.counted) + 1
 
@@ -174,18 +174,17 @@ def calibrate_arm(
     rows = read_measurements(table, arm, given)
     on_progress(its := origin(urdf, source))
     on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
-    beside = None
+    between = None
     if rows.nominal is not None:
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
-        point = None if given.target is None else given.target[:3, 3]
-        beside = check_nominal(arm, rows.joints, rows.nominal, stand, point)
+        between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
     observations, targets, sockets = _observations(rows, given, table)
     instrument = "the instrument"
     if pictures is not None:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels
 
         observations, instrument, targets = with_pixels(observations, pictures)
-    on_progress("where instrument and target are, about")
+    on_progress("initial estimate of instrument and target")
     poses = replace(observations, optics=None)
     frames = checked_frames(arm, poses, given.instrument, given.target)
     if observations.optics is not None:
@@ -201,7 +200,7 @@ def calibrate_arm(
         observations,
         targets,
         sockets,
-        beside,
+        between,
         frames,
         validation,
         instrument,

@@ -76,7 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     own.add_argument("--out", default="commands.csv", help="a new file (%(default)s)")
 
-    own = add("next", _next, "the postures that would teach most, and whether they are worth it")
+    own = add("next", _next, "the most informative postures to measure next")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
     own.add_argument("candidates", type=Path, nargs="?", help="to choose from (CSV)")
     own.add_argument("--count", type=_positive, default=10, help="how many (%(default)s)")
@@ -134,7 +134,7 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correct import correct, untold
+    from recalib.laboratory.correct import correct, unidentifiable_ends
     from recalib.laboratory.correction import load_correction
     from recalib.laboratory.files import CORRECTION, write_postures
     from recalib.laboratory.measurements import read_desired
@@ -143,19 +143,19 @@ def _correct(given: argparse.Namespace) -> int:
     in_instrument = given.frame == "instrument"
     commands = correct(correction, read_desired(given.desired, correction.arm), in_instrument)
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
-    ends = untold(correction)
+    ends = unidentifiable_ends(correction)
     if ends and not in_instrument:
         _warn(
-            f"{ends} could not be told from errors of the arm: in the base, commands are off by"
-            " those. To the instrument they are right. Try: --frame instrument, or say in the"
-            " description where both are"
+            f"errors of {ends} are not identifiable from the measurements, so commands in the base"
+            " have them. In the instrument's frame commands are right. Try: --frame instrument, or"
+            " a description with [instrument] and [target]"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
         names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
         _warn(
             f"{len(rows)} of {len(commands.joints)} commands, first in row {rows[0] + 1}, leave the"
-            f" range that was learned from: {', '.join(names)}"
+            f" measured range: {', '.join(names)}"
         )
     print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
@@ -175,7 +175,7 @@ def _next(given: argparse.Namespace) -> int:
         given.out, correction.arm, proposal.joints, correction.arm.forward(proposal.joints)
     )
     before, after = 1e3 * proposal.uncertainty[[0, -1]]
-    print(f"{len(proposal.joints)} postures in {given.out}, the most telling first.")
+    print(f"{len(proposal.joints)} postures in {given.out}, the most informative first.")
     print(
         f"They would make the uncertainty of predicted positions fall from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")

@@ -70,8 +70,8 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     return Commands(found, correction.arm.forward(found), beyond)
 
 
-def untold(correction: Correction) -> str | None:
-    """The ends of the arm that were not told, in words: commands in the base are off by them."""
+def unidentifiable_ends(correction: Correction) -> str | None:
+    """The ends of the arm whose errors are unknown, in words: commands in the base have these."""
     frames = correction.calibration.frames
     ends = {
         "the arm's base": frames.base_unknown or len(frames.sockets),

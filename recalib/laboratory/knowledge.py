@@ -66,7 +66,7 @@ def checked_frames(
     parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
     where = " and ".join(_gap(told[name], there[name]) for name in wrong)
     raise WrongKnowledge(
-        f"the description's {parts} {where}; what is left out of the description is found"
+        f"the description's {parts} {where}; try: a description without it, for it to be estimated"
     )
 
 

@@ -178,7 +178,7 @@ def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
         return positions
     if nominal is None or positions is not None:
         raise InvalidFile(
-            table.path, f"{', '.join(MISSED)} stand beside {', '.join(NOMINAL)} and no x, y, z"
+            table.path, f"{', '.join(MISSED)} need {', '.join(NOMINAL)}, and no x, y, z"
         )
     return nominal + error
 

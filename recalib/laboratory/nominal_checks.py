@@ -6,7 +6,6 @@ tried, alone and then in pairs; the one that explains the difference is named.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 
@@ -15,6 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 from recalib.identification.closed_forms import solutions
+from recalib.identification.frames import Frames
 from recalib.identification.observations import Observations
 from recalib.nominal.kinematics import Arm
 
@@ -43,78 +43,44 @@ class WrongNominal(RecalibError):
         )
 
 
-@dataclass(frozen=True)
-class Fit:
-    """Frames that bring nominal kinematics to nominal positions as well as frames can.
-
-    Attributes:
-        base: (4, 4) m, the arm's base in the frame of the positions.
-        target: (3,) m in the tool link's frame.
-        gaps: (n,) m that are left.
-    """
-
-    base: np.ndarray
-    target: np.ndarray
-    gaps: np.ndarray
-
-    @property
-    def rms(self) -> float:
-        """Of the gaps [m]."""
-        return float(np.sqrt(np.mean(self.gaps**2)))
-
-    def __str__(self) -> str:
-        turn = Rotation.from_matrix(self.base[:3, :3])
-        words = []
-        if turn.magnitude() > UNTURNED:
-            axis = turn.as_rotvec() / turn.magnitude()
-            about = ", ".join(f"{round(number, 2) + 0.0:g}" for number in axis)
-            words.append(
-                f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})"
-            )
-        if np.linalg.norm(self.base[:3, 3]) > MOVED:
-            words.append(f"the base moved by {_millimetres(self.base[:3, 3])}")
-        if np.linalg.norm(self.target) > MOVED:
-            words.append(f"a tool point at {_millimetres(self.target)} of the tool link")
-        return " and ".join(words)
-
-
 def check_nominal(
     arm: Arm,
     coordinates: np.ndarray,
     nominal: np.ndarray,
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
-) -> Fit | None:
+) -> str | None:
     """Compare nominal positions with the nominal kinematics.
 
     Args:
         coordinates: (n, joints) rad, or m where a joint slides.
         nominal: (n, 3) m.
         base: (4, 4) m, the arm's base in the frame of the positions, where it is known.
-        target: (3,) m in the tool link's frame, where it is known.
+        target: (4, 4) m in the tool link's frame, where it is known.
 
-    Returns the frames between them where these are unknown and not those of the URDF: they are to
-    be identified anyway. Raises WrongNominal.
+    Returns what lies between them, in words, if that is a base or a target that is unknown: they
+    are to be identified anyway. Raises WrongNominal.
     """
     known = np.eye(4) if base is None else base
-    point = np.zeros(3) if target is None else target
-    gaps = _gaps(arm.forward(coordinates), nominal, known, point)
+    place = np.eye(4) if target is None else target
+    gaps = _gaps(arm.forward(coordinates), nominal, known, place)
     if gaps.max() <= ALIKE:
         return None
     rows = np.unique(np.linspace(0, len(nominal) - 1, ENOUGH).astype(int))
     poses, positions = arm.forward(coordinates[rows]), nominal[rows]
-    fit = _fit(poses, positions, base, target)
-    if fit.gaps.max() <= ALIKE:
-        return fit
-    fit = _fit(poses, positions)
-    if fit.gaps.max() <= ALIKE:
-        beside = Fit(fit.base @ np.linalg.inv(known), fit.target - point, fit.gaps)
-        raise WrongNominal(gaps.max(), f"{beside}, which nobody said")
-    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], positions, fit))
+    frames, remaining = _fit(poses, positions, base, target)
+    if remaining.max() <= ALIKE:
+        return _words(frames.base, frames.targets[0, :3, 3])
+    frames, remaining = _fit(poses, positions)
+    if remaining.max() <= ALIKE:
+        point = frames.targets[0, :3, 3] - place[:3, 3]
+        words = _words(frames.base @ np.linalg.inv(known), point)
+        raise WrongNominal(gaps.max(), f"{words}, which the description does not say")
+    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], positions, _rms(remaining)))
 
 
-def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: Fit) -> str | None:
-    """The mistake that explains the most, of one step and then of two."""
+def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: float) -> str | None:
+    """The mistake that explains the most of a difference [m], of one step and then of two."""
     steps = list(_steps(arm))
     for count in (1, 2):
         fits = []
@@ -122,10 +88,10 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: Fit)
             undone = coordinates, nominal
             for _, change in chosen:
                 undone = change(*undone)
-            words = " and ".join(name for name, _ in chosen)
-            fits.append((_fit(arm.forward(undone[0]), undone[1]), words))
-        fit, words = min(fits, key=lambda one: one[0].rms)
-        if fit.gaps.max() <= ALIKE and fit.rms < EXPLAINED * plain.rms:
+            _, gaps = _fit(arm.forward(undone[0]), undone[1])
+            fits.append((_rms(gaps), gaps.max(), " and ".join(name for name, _ in chosen)))
+        rms, largest, words = min(fits, key=lambda one: one[0])
+        if largest <= ALIKE and rms < EXPLAINED * plain:
             return words
     return None
 
@@ -159,10 +125,14 @@ def _of_joints(change: Callable[[np.ndarray], np.ndarray]) -> Try:
 
 
 def _gaps(
-    poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, point: np.ndarray
+    poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, target: np.ndarray
 ) -> np.ndarray:
-    reached = base @ poses @ np.array([*point, 1.0])
-    return np.linalg.norm(reached[:, :3] - nominal, axis=1)
+    """Distances (n,) [m] between nominal positions and where frames (4, 4) put the target."""
+    return np.linalg.norm((base @ poses @ target)[:, :3, 3] - nominal, axis=1)
+
+
+def _rms(gaps: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(gaps**2)))
 
 
 def _fit(
@@ -170,17 +140,28 @@ def _fit(
     nominal: np.ndarray,
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
-) -> Fit:
-    """The frames that explain nominal positions best; base and target, where they are known."""
-    rows, place = Observations(np.empty((len(nominal), 0)), nominal), None
-    if target is not None:
-        place = np.eye(4)
-        place[:3, 3] = target
-    fits = []
-    for frames in solutions(poses, rows, base, place):
-        point = frames.targets[0, :3, 3]
-        fits.append(Fit(frames.base, point, _gaps(poses, nominal, frames.base, point)))
-    return min(fits, key=lambda fit: fit.rms)
+) -> tuple[Frames, np.ndarray]:
+    """The frames that explain nominal positions best, as far as unknown, and the gaps (n,) [m]."""
+    rows = Observations(np.empty((len(nominal), 0)), nominal)
+    fits = [
+        (frames, _gaps(poses, nominal, frames.base, frames.targets[0]))
+        for frames in solutions(poses, rows, base, target)
+    ]
+    return min(fits, key=lambda fit: _rms(fit[1]))
+
+
+def _words(base: np.ndarray, point: np.ndarray) -> str:
+    """A pose (4, 4) of the base and a point (3,) of the tool [m], as far as they are not zero."""
+    turn, words = Rotation.from_matrix(base[:3, :3]), []
+    if turn.magnitude() > UNTURNED:
+        axis = turn.as_rotvec() / turn.magnitude()
+        about = ", ".join(f"{round(number, 2) + 0.0:g}" for number in axis)
+        words.append(f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})")
+    if np.linalg.norm(base[:3, 3]) > MOVED:
+        words.append(f"the base moved by {_millimetres(base[:3, 3])}")
+    if np.linalg.norm(point) > MOVED:
+        words.append(f"a tool point at {_millimetres(point)} of the tool link")
+    return " and ".join(words)
 
 
 def _millimetres(vector: np.ndarray) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.identification.design import most_telling
+from recalib.identification.design import most_informative
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
@@ -25,7 +25,7 @@ ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth meas
 
 @dataclass(frozen=True)
 class Proposal:
-    """Postures to measure, the most telling first.
+    """Postures to measure, the most informative first.
 
     Attributes:
         joints: (n, joints) rad, or m where a joint slides.
@@ -65,7 +65,7 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
     probes = _drawn(correction)[:PROBES]
     _, jacobians = model.linearise(estimate.parameters, probes, model.terms(probes))
     chosen, uncertainty = [], [_uncertainty(jacobians, estimate.covariance)]
-    for best, covariance in most_telling(calibration, postures, count):
+    for best, covariance in most_informative(calibration, postures, count):
         chosen.append(best)
         uncertainty.append(_uncertainty(jacobians, covariance))
     return Proposal(postures[chosen], np.array(uncertainty))

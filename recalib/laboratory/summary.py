@@ -89,8 +89,8 @@ def _lines(result: Calibrated) -> Iterator[str]:
         what = row["what"] + (" *" if row["chosen"] else "")
         numbers = "".join(f"{row[name]:9.3f}" for name in NUMBERS)
         yield f"{row['folds']:<12}{what:<34}{numbers} {row['unit']}"
-    yield "* used. Each row was predicted by a calibration that had not seen it; blocks of joint"
-    yield "space tell of poses beside those that were measured."
+    yield "* used. Each row was predicted by a calibration without it: at random among postures"
+    yield "like it, or in blocks of joint space, away from all postures that were measured."
     yield ""
     yield from _notes(result)
 
@@ -100,8 +100,8 @@ def _notes(result: Calibrated) -> Iterator[str]:
     postures = result.validation.postures
     rows = f"{len(result.observations)} rows of {result.table.name}"
     yield rows if len(postures) == len(result.observations) else f"{len(postures)} postures, {rows}"
-    if result.beside is not None:
-        yield f"nominal positions are those of the URDF, with {result.beside}"
+    if result.between is not None:
+        yield f"nominal positions are those of the URDF, with {result.between}"
     if arm.massless:
         yield "the URDF has no masses: what gravity does to the arm is not part of the model"
     _, unseen = with_own_meshes(result.source, result.urdf)
@@ -111,7 +111,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
             f" recording, as {unseen[0]}"
         )
     used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
-    yield f"noise of a measurement along an axis, as estimated with {used}: {noise}"
+    yield f"noise of a measurement along an axis: {noise} (what is corrected: {used})"
     yield from _places(result)
     if result.observations.optics is not None:
         kinds = result.validation.chosen, NOTHING
@@ -123,13 +123,13 @@ def _notes(result: Calibrated) -> Iterator[str]:
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
     if result.validation.full[HYBRID].pattern is not None:
-        yield "chosen once, by all rows: how smooth the pattern in what is left is"
+        yield "length scales of the Gaussian process come from all rows, also those held out"
     if result.validation.unsettled:
-        yield "more than geometry was found, and left out: its identification did not converge"
+        yield "errors beyond geometry are not corrected: their identification did not converge"
     if len(result.doubted):
         more = ", ..." if len(result.doubted) > MOST else ""
         listed = ", ".join(map(str, result.doubted[:MOST]))
-        yield f"rows that do not fit the others and hardly counted: {listed}{more}"
+        yield f"outliers, rows with almost no weight: {listed}{more}"
     covered = 100 * result.validation.coverage(BLOCKWISE)
     yield (
         f"95 % of positions should lie within {1e3 * result.validation.radius:.3g} mm, also in"
@@ -152,7 +152,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
         if still:
             yield f"{joint} stood still at {low:.1f} {unit}: nothing is known of its own errors"
         else:
-            yield f"{joint} was seen from {low:.1f} to {high:.1f} {unit}"
+            yield f"{joint} was measured from {low:.1f} to {high:.1f} {unit}"
 
 
 def _places(result: Calibrated) -> Iterator[str]:
@@ -167,7 +167,7 @@ def _places(result: Calibrated) -> Iterator[str]:
         known, real = (
             _in_units(its[:kinds], 2) for its in (place.deviations, place.real_deviations)
         )
-        yield f"{words}, deviation {known}; beside the machine's own {place.link}, {real}"
+        yield f"{words}, deviation {known}; relative to the real {place.link}, {real}"
 
 
 def _in_units(numbers: Sequence[float] | np.ndarray, digits: int) -> str:

@@ -70,13 +70,10 @@ def other_half(arm, seed: int) -> float:
 def few_poses(arm, seed: int) -> float:
     """The part of fresh positions within the radius that 16 poses tell, which exceeds the mean."""
     real = Real(arm, seed)
-    joints = real.postures(16)
-    known = Observations(joints, real.poses(joints))
+    known = real.seen(16)
     found = validate(arm, known, initial_frames(arm, known))
     assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
-    fresh = real.postures(HELD_BACK)
-    errors = distances(found.calibration, Observations(fresh, real.poses(fresh)))
-    return float(np.mean(errors <= found.radius))
+    return float(np.mean(distances(found.calibration, real.seen(HELD_BACK)) <= found.radius))
 
 
 class Session:

@@ -1,10 +1,18 @@
 """An arm as it is, with an instrument somewhere and targets somewhere on its tool."""
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.frames import nearest_rotation
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
 
+ARMS = {"UR10": ("ur10_robot.urdf", "tool0"), "Panda": ("panda.urdf", "panda_link8")}
 NOISE = 2e-4, np.radians(0.02)  # m, rad
 
 
@@ -13,6 +21,12 @@ def anywhere(random, reach):
     frame[:3, :3] = Rotation.random(rng=random).as_matrix()
     frame[:3, 3] = random.uniform(-reach, reach, 3)
     return frame
+
+
+def geometry_of(arm, observations: Observations) -> Calibration:
+    """An arm of which nothing but geometry is identified, with frames that nobody knows."""
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
+    return Calibration(model, identify(model, observations))
 
 
 class Real:
@@ -79,3 +93,22 @@ class Real:
         observations[:, :3, :3] = Rotation.from_rotvec(turns).as_matrix() @ observations[:, :3, :3]
         observations[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))
         return observations
+
+    def seen(self, count: int, positions: bool = False, targets=None) -> Observations:
+        """What the instrument sees in other postures; the first target unless given (count,)."""
+        joints = self.postures(count)
+        poses = self.poses(joints, 0 if targets is None else targets)
+        return Observations(joints, poses[:, :3, 3] if positions else poses, targets)
+
+    def missed(self, predict: Callable[[np.ndarray], np.ndarray]) -> float:
+        """Mean error of position [m] in 200 fresh postures."""
+        fresh = self.postures(200)
+        gaps = predict(fresh) - self.poses(fresh, noise=(0, 0))
+        return float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
+
+
+def aligned(points: np.ndarray, goals: np.ndarray) -> float:
+    """The mean distance between points and goals (n, 3) after the best rigid motion."""
+    points, goals = points - points.mean(axis=0), goals - goals.mean(axis=0)
+    turned = points @ nearest_rotation(goals.T @ points).T
+    return float(np.linalg.norm(goals - turned, axis=1).mean())

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.design import information_gains, most_telling
+from recalib.identification.design import information_gains, most_informative
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
@@ -32,7 +32,7 @@ def test_a_pose_that_was_measured_teaches_less_than_a_new_one(calibration, angle
 
 def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):
     left, known = {*range(len(angles))}, calibration
-    for number, covariance in most_telling(calibration, angles, 20):
+    for number, covariance in most_informative(calibration, angles, 20):
         gains = information_gains(known, angles)
         assert number == max(left, key=gains.__getitem__)
         left.remove(number)

@@ -5,8 +5,8 @@ import pytest
 
 from recalib.identification.sequence import DRIFT, JUMP, LAG
 from recalib.nominal.arms import load_arm
-from tests.identification.bars import ARMS
 from tests.identification.honesty import Session, few_poses, other_half, three_targets
+from tests.identification.real import ARMS
 
 
 @pytest.mark.slow

@@ -1,21 +1,11 @@
 import numpy as np
 import pytest
 
-from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
 from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
-from recalib.nominal.arms import load_arm
-from tests.identification.real import Real
+from tests.identification.real import Real, geometry_of
 
 BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters
-
-
-@pytest.fixture(scope="module")
-def panda():
-    return load_arm("panda.urdf", "panda_link8")
 
 
 def found(arm, hold=None, positions=False):
@@ -25,10 +15,7 @@ def found(arm, hold=None, positions=False):
         joints[:, hold] = joints[0, hold]
     poses = real.poses(joints)
     observations = Observations(joints, poses[:, :3, 3] if positions else poses)
-    model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
-    return unidentifiable_parameters(
-        Calibration(model, identify(model, observations)), observations
-    )
+    return unidentifiable_parameters(geometry_of(arm, observations), observations)
 
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
@@ -63,8 +50,5 @@ def test_what_a_ball_in_sockets_leaves_open_no_other_postures_in_them_tell(panda
     observations = Observations(
         joints, sockets=np.repeat([0, 1], 80), distances=[Distance(0, 1, 0.3)]
     )
-    model = ErrorModel(panda, OFFSETS, initial_frames(panda, observations))
-    open_ones = unidentifiable_parameters(
-        Calibration(model, identify(model, observations)), observations
-    )
+    open_ones = unidentifiable_parameters(geometry_of(panda, observations), observations)
     assert open_ones and all(one.lasting for one in open_ones)

@@ -1,3 +1,5 @@
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -10,9 +12,7 @@ from recalib.identification.initial_estimate import NoInitialEstimate, fewest, i
 from recalib.identification.observations import Distance, Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import SCARA
-from tests.identification.real import Real
-
-ARMS = {"ur10": ("ur10_robot.urdf", "tool0"), "panda": ("panda.urdf", "panda_link8")}
+from tests.identification.real import ARMS, Real, geometry_of
 
 
 @pytest.fixture(scope="module", params=ARMS)
@@ -20,48 +20,25 @@ def arm(request):
     return load_arm(*ARMS[request.param])
 
 
-@pytest.fixture(scope="module")
-def panda():
-    return load_arm(*ARMS["panda"])
-
-
-def seen_of(real, count, what="positions", targets=None):
-    joints = real.postures(count)
-    poses = real.poses(joints, 0 if targets is None else targets)
-    return Observations(joints, poses if what == "poses" else poses[:, :3, 3], targets)
-
-
-def missed(model, observations, real):
-    """The mean error [m] in fresh postures, of the first target, after identification."""
-    parameters, fresh = identify(model, observations).parameters, real.postures(50)
-    gaps = model.predict(parameters, fresh) - real.poses(fresh, noise=(0, 0))
-    return np.linalg.norm(gaps[:, :3, 3], axis=1).mean()
-
-
-def missed_from(nominal, observations, real):
-    frames = initial_frames(nominal, observations)
-    return missed(ErrorModel(nominal, OFFSETS, frames), observations, real)
-
-
 @pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("what", ["poses", "positions"])
-def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(what, seed, arm):
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(positions, seed, arm):
     real = Real(arm, seed)
-    observations = seen_of(real, 30 if what == "positions" else 20, what)
+    observations = real.seen(30 if positions else 20, positions)
     bad = 3 * (seed % 2)
     observations.measured[:bad] = observations.measured[bad : 2 * bad]
-    assert missed_from(arm, observations, real) < 5e-4
+    assert real.missed(geometry_of(arm, observations).predict) < 5e-4
 
 
 def test_several_targets_sit_anywhere_on_one_tool(panda):
     real = Real(panda, 6, targets=3)
-    observations = seen_of(real, 48, targets=np.arange(48) % 3)
-    assert missed_from(panda, observations, real) < 5e-4
+    observations = real.seen(48, True, np.arange(48) % 3)
+    assert real.missed(geometry_of(panda, observations).predict) < 5e-4
 
 
 def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(load):
     real = Real(nominal := load(SCARA), 7)
-    assert missed_from(nominal, seen_of(real, 30, "poses"), real) < 5e-4
+    assert real.missed(geometry_of(nominal, real.seen(30)).predict) < 5e-4
 
 
 def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
@@ -74,12 +51,12 @@ def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
     assert np.linalg.norm((reached - observations.measured[-3:])[:, :3, 3], axis=1).max() < 0.05
 
 
-@pytest.mark.parametrize("what", ["poses", "positions"])
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 @pytest.mark.parametrize("known", ["base", "target"])
-def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):
+def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
     """What is found of the other one is right, far beyond what an arm's own errors may be."""
     real = Real(arm, 8)
-    observations = seen_of(real, 30, what)
+    observations = real.seen(30, positions)
     observations.measured[:3] = observations.measured[3:6]  # outliers
     frame = real.base if known == "base" else real.targets[0]
     frames = initial_frames(arm, observations, **{known: frame})
@@ -90,8 +67,8 @@ def test_a_frame_that_is_known_stays_as_it_is(known, what, arm):
         assert np.array_equal(frames.targets[0], frame) and not frames.targets_unknown
         assert np.abs(frames.base - real.base).max() < 0.05
     model, joints = ErrorModel(arm, OFFSETS, frames), observations.joints
-    assert missed(model, observations, real) < 5e-4
     parameters = identify(model, observations).parameters
+    assert real.missed(partial(model.predict, parameters)) < 5e-4
     found = model.found(parameters)
     assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
     standing = model.standing(parameters, joints, model.terms(joints))
@@ -117,7 +94,7 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda observations: observations[np.arange(2)], "2 rows leave open .* at least 6"),
+        (lambda observations: observations[np.arange(2)], "2 rows are too few .* at least 6"),
         (lambda observations: observations[np.zeros(20, dtype=int)], "along a line"),
         (
             lambda observations: Observations(observations.joints[::-1], observations.measured),
@@ -127,14 +104,14 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
     ids=["too few", "one posture", "rows mixed up"],
 )
 def test_frames_that_nothing_tells_are_refused(change, said, panda):
-    observations = seen_of(Real(panda, 8), 30)
+    observations = Real(panda, 8).seen(30, True)
     with pytest.raises(NoInitialEstimate, match=said):
         initial_frames(panda, change(observations))
 
 
 def test_positions_in_a_plane_tell_how_the_instrument_stands():
     """Those of a UR10 whose parallel axes alone move: the plane's two sides differ for the arm."""
-    arm = load_arm(*ARMS["ur10"])
+    arm = load_arm(*ARMS["UR10"])
     real = Real(arm, 9)
     joints = real.postures(40)
     joints[:, [0, 4, 5]] = joints[0, [0, 4, 5]]

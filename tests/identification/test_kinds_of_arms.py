@@ -1,5 +1,7 @@
 """Arms of any joints are identified, by instruments or without one."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -10,8 +12,9 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import GANTRY, SCARA, urdf
-from tests.identification.bars import BALL, SOCKETS, aligned, missed
-from tests.identification.real import Real
+from tests.identification.real import Real, aligned, geometry_of
+
+BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.45, 0.15, 0.1]])
 
 
 @pytest.mark.parametrize("text", [SCARA, GANTRY], ids=["SCARA", "gantry"])
@@ -19,16 +22,13 @@ from tests.identification.real import Real
 def test_joints_that_slide_are_identified(text, what, load):
     arm = load(text)
     real = Real(arm, 1)
-    joints = real.postures(30)
-    poses = real.poses(joints)
-    observations = Observations(joints, poses if what == "poses" else poses[:, :3, 3])
+    observations = real.seen(30, what == "positions")
     model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
     found = identify(model, observations)
     assert found.converged
     nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
     after, before = (
-        missed(real, lambda fresh, its=its: model.predict(its.parameters, fresh))
-        for its in (found, nominal)
+        real.missed(partial(model.predict, its.parameters)) for its in (found, nominal)
     )
     assert after < 4e-4 and before > 3 * after
 
@@ -63,9 +63,8 @@ def balls():
     tool, true = arm.forward(fresh), real.ball(BALL, fresh)
 
     def after(observations):
-        model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
-        found = identify(model, observations)
-        return aligned(model.predict(found.parameters, fresh)[:, :3, 3], true), model, found
+        found = geometry_of(arm, observations)
+        return aligned(found.predict(fresh)[:, :3, 3], true), found
 
     before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)
     return joints, np.repeat([0, 1], 40), before, after
@@ -73,14 +72,14 @@ def balls():
 
 def test_a_ball_in_two_sockets_identifies_an_arm_without_any_instrument(balls):
     joints, sockets, before, after = balls
-    left, model, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
+    left, found = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.3)]))
     assert before > 20 * left
-    one, other = model.sockets(found.parameters)
+    one, other = found.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=2e-4)
-    assert found.noise == pytest.approx([1e-4], rel=0.3)
+    assert found.estimate.noise == pytest.approx([1e-4], rel=0.3)
 
 
 def test_the_known_distance_sets_the_scale(balls):
     joints, sockets, _, after = balls
-    left, *_ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
+    left, _ = after(Observations(joints, None, None, sockets, [Distance(0, 1, 0.303)]))
     assert left > 1e-3

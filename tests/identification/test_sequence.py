@@ -3,19 +3,9 @@
 import numpy as np
 import pytest
 
-from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.sequence import DRIFT, JUMP, LAG, faults
-from recalib.nominal.arms import load_arm
 from tests.identification.honesty import ROWS, Session, with_targets
-from tests.identification.real import Real
-
-
-@pytest.fixture(scope="module")
-def arm():
-    return load_arm("ur10_robot.urdf", "tool0")
+from tests.identification.real import Real, geometry_of
 
 
 @pytest.mark.parametrize("positions", [True, False], ids=["positions", "poses"])
@@ -25,8 +15,8 @@ def arm():
     [(LAG, 0.05, 0.1), (LAG, -0.02, 0.1), (JUMP, 1e-3, 0.2)],
     ids=["behind", "ahead", "jump"],
 )
-def test_a_fault_is_named_by_its_size_and_its_row(kind, size, near, on_a_path, positions, arm):
-    fault, *_ = Session(arm, 1, kind, size, positions, on_a_path).named()
+def test_a_fault_is_named_by_its_size_and_its_row(kind, size, near, on_a_path, positions, ur10):
+    fault, *_ = Session(ur10, 1, kind, size, positions, on_a_path).named()
     assert fault.kind == kind and fault.size == pytest.approx(size, rel=near)
     assert kind != JUMP or abs(fault.row - 2 * ROWS // 5) <= 1
 
@@ -40,30 +30,29 @@ TIMES = np.cumsum(np.random.default_rng(5).uniform(0.1, 3, ROWS))
     ids=["lag", "drift by rows", "drift"],
 )
 def test_where_rows_carry_times_a_lag_is_in_seconds_and_a_drift_follows_the_clock(
-    kind, size, on_a_path, times, arm
+    kind, size, on_a_path, times, ur10
 ):
-    fault, *_ = Session(arm, 5, kind, size, on_a_path=on_a_path, times=times).named()
+    fault, *_ = Session(ur10, 5, kind, size, on_a_path=on_a_path, times=times).named()
     assert fault.kind == kind and fault.size == pytest.approx(size, rel=0.2)
 
 
-def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(arm):
-    assert [fault.kind for fault in Session(arm, 4, LAG, 0.05, rows=10).named()] == [LAG]
-    assert Session(arm, 4, rows=10).named() == []
+def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(ur10):
+    assert [fault.kind for fault in Session(ur10, 4, LAG, 0.05, rows=10).named()] == [LAG]
+    assert Session(ur10, 4, rows=10).named() == []
 
 
-def test_what_several_targets_of_a_posture_share_is_no_fault(arm):
+def test_what_several_targets_of_a_posture_share_is_no_fault(ur10):
     """Gears that no model holds move all targets of a posture: rows of it are one."""
-    seen = with_targets(Real(arm, 2, targets=3, gears=np.radians(0.03)), 40)
-    model = ErrorModel(arm, OFFSETS, initial_frames(arm, seen))
-    estimate = identify(model, seen)
-    assert faults(Calibration(model, estimate), seen, estimate.weights > 0.1) == []
+    seen = with_targets(Real(ur10, 2, targets=3, gears=np.radians(0.03)), 40)
+    geometry = geometry_of(ur10, seen)
+    assert faults(geometry, seen, geometry.estimate.weights > 0.1) == []
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("on_a_path", [True, False], ids=["path", "random"])
-def test_of_a_hundred_clean_arms_at_most_one_is_doubted(on_a_path, arm):
+def test_of_a_hundred_clean_arms_at_most_one_is_doubted(on_a_path, ur10):
     sessions = (
-        Session(arm, 1000 + seed, "", 0.0, bool(seed % 2), on_a_path, [30, 60, ROWS][seed % 3])
+        Session(ur10, 1000 + seed, "", 0.0, bool(seed % 2), on_a_path, [30, 60, ROWS][seed % 3])
         for seed in range(100)
     )
     assert sum(bool(session.named()) for session in sessions) <= 1

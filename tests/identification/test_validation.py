@@ -20,33 +20,22 @@ from recalib.identification.validation import (
     WAYS,
     validate,
 )
-from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 
 ROWS = 40
 
 
 @pytest.fixture(scope="module")
-def arm():
-    return load_arm("ur10_robot.urdf", "tool0")
-
-
-def seen_of(real, count):
-    joints = real.postures(count)
-    return Observations(joints, real.poses(joints))
+def real(ur10):
+    return Real(ur10, 1)
 
 
 @pytest.fixture(scope="module")
-def real(arm):
-    return Real(arm, 1)
-
-
-@pytest.fixture(scope="module")
-def validation(arm, real):
+def validation(ur10, real):
     """With an outlier in row 7."""
-    observations = seen_of(real, ROWS)
+    observations = real.seen(ROWS)
     observations.measured[7, 2, 3] += 0.02
-    return validate(arm, observations, initial_frames(arm, observations))
+    return validate(ur10, observations, initial_frames(ur10, observations))
 
 
 def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
@@ -75,12 +64,12 @@ def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
         assert kinds[HYBRID] is kinds[GEOMETRIC]
 
 
-def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
-    real = Real(arm, 7)
+def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
+    real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
-    frames = initial_frames(arm, observations)
-    found = validate(arm, observations, frames)
+    frames = initial_frames(ur10, observations)
+    found = validate(ur10, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
     def stopped(*arguments, **options):
@@ -88,7 +77,7 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(arm, monkeypatch):
         return replace(calibration, estimate=replace(calibration.estimate, converged=False))
 
     monkeypatch.setattr(module, "calibrate", stopped)
-    found = validate(arm, observations, frames)
+    found = validate(ur10, observations, frames)
     assert found.chosen == GEOMETRIC and found.unsettled
 
 
@@ -150,51 +139,51 @@ def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
 
 
 @pytest.mark.parametrize("count", [16, 30])
-def test_a_third_of_the_rows_may_be_grossly_wrong(arm, count):
-    real = Real(arm, count)
-    observations = seen_of(real, count)
+def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
+    real = Real(ur10, count)
+    observations = real.seen(count)
     bad = np.arange(count // 3) * 3
     observations.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
-    found = validate(arm, observations, initial_frames(arm, observations))
+    found = validate(ur10, observations, initial_frames(ur10, observations))
     assert np.array_equal(np.flatnonzero(~found.counted), bad)
     fresh = real.postures(50)
     residuals = found.calibration.predict(fresh) - real.poses(fresh, noise=(0, 0))
     assert np.linalg.norm(residuals[:, :3, 3], axis=1).mean() < 1e-3
 
 
-def test_an_arm_without_errors_is_left_alone(arm):
+def test_an_arm_without_errors_is_left_alone(ur10):
     random = np.random.default_rng(4)
     joints = random.uniform(-1, 1, (30, 6))
-    measured = arm.forward(joints)[:, :3, 3] + random.normal(scale=1e-3, size=(30, 3))
-    found = validate(arm, Observations(joints, measured), Frames())
+    measured = ur10.forward(joints)[:, :3, 3] + random.normal(scale=1e-3, size=(30, 3))
+    found = validate(ur10, Observations(joints, measured), Frames())
     assert found.chosen == NOTHING
-    assert np.allclose(found.calibration.forward(joints), arm.forward(joints), atol=1e-6)
+    assert np.allclose(found.calibration.forward(joints), ur10.forward(joints), atol=1e-6)
 
 
 @pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
-def test_a_joint_may_stand_still_at_any_angle(arm, angle):
-    real = Real(arm, 8)
+def test_a_joint_may_stand_still_at_any_angle(ur10, angle):
+    real = Real(ur10, 8)
     joints = real.postures(ROWS)
     joints[:, 0] = angle
     observations = Observations(joints, real.poses(joints))
-    found = validate(arm, observations, initial_frames(arm, observations))
+    found = validate(ur10, observations, initial_frames(ur10, observations))
     assert found.postures.still.tolist() == [True, False, False, False, False, False]
     offsets = found.calibration.model.coefficients(found.calibration.estimate.parameters)["offset"]
     assert abs(offsets[0]) < 1e-9 < np.abs(offsets[1:]).min()
     assert found.errors(RANDOM, found.chosen)[:, 0].mean() < 5e-4
 
 
-def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(arm):
-    real = Real(arm, 5)
-    observations = seen_of(real, 30)
+def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
+    real = Real(ur10, 5)
+    observations = real.seen(30)
     observations.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
-    with pytest.raises(Untrustworthy, match=r"still misses by [0-9.]+ mm .*rows ([0-9]+, ){4}"):
-        validate(arm, observations, initial_frames(arm, observations))
+    with pytest.raises(Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows ([0-9]+, ){4}"):
+        validate(ur10, observations, initial_frames(ur10, observations))
 
 
-def test_few_rows_are_refused(arm):
+def test_few_rows_are_refused(ur10):
     with pytest.raises(Untrustworthy, match="9 rows of 9 postures; expected: at least 10"):
-        validate(arm, seen_of(Real(arm, 6), 9))
+        validate(ur10, Real(ur10, 6).seen(9))
 
 
 def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
@@ -205,10 +194,10 @@ def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
     assert HeldOut(residuals[:, :3], held.folds).losses == pytest.approx([0.005, 0])
 
 
-def test_rows_of_one_posture_are_refused_as_such(arm):
-    observations = seen_of(Real(arm, 6), 12)
+def test_rows_of_one_posture_are_refused_as_such(ur10):
+    observations = Real(ur10, 6).seen(12)
     with pytest.raises(Untrustworthy, match="12 rows of 1 posture; expected: at least 10 postures"):
-        validate(arm, observations[np.zeros(12, dtype=int)])
+        validate(ur10, observations[np.zeros(12, dtype=int)])
 
 
 @pytest.mark.parametrize(("rows", "rank"), [(12, 12), (19, 19), (40, 39), (99, 95), (100, 96)])

@@ -68,7 +68,7 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis} [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
-    assert "leave the range" not in capsys.readouterr().err
+    assert "leave the measured range" not in capsys.readouterr().err
 
 
 def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
@@ -84,12 +84,12 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
-    assert "could not be told" not in capsys.readouterr().err
+    assert "not identifiable" not in capsys.readouterr().err
     write(folder / "base.csv", {"x [m]": [0.6], "y [m]": [0.0], "z [m]": [0.4]})
     other = folder / "base_commands.csv"
     main(["correct", str(calibrated), str(folder / "base.csv"), f"--out={other}"])
     told = capsys.readouterr().err
-    assert "warning: the arm's base and the tool link could not be told from errors" in told
+    assert "warning: errors of the arm's base and the tool link are not identifiable" in told
 
 
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
@@ -98,7 +98,7 @@ def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     out = folder / "wide_commands.csv"
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
-    assert "1 of 2 commands, first in row 2, leave the range that was learned from: swing" in told
+    assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
 
 
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):

@@ -1,10 +1,11 @@
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from recalib.laboratory.nominal_checks import WrongNominal, check_nominal
 from recalib.nominal.arms import load_arm
 
-TOOL_POINT = 0.0, 0.02, 0.12  # m
+TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +22,7 @@ def joints():
 @pytest.fixture(scope="module")
 def nominal(arm, joints):
     """Where a tool point of the nominal arm is, in its base."""
-    return (arm.forward(joints) @ [*TOOL_POINT, 1])[:, :3]
+    return (arm.forward(joints) @ TOOL_POINT)[:, :3, 3]
 
 
 def turned(degrees: float) -> np.ndarray:
@@ -32,16 +33,14 @@ def turned(degrees: float) -> np.ndarray:
 
 
 def test_positions_of_the_nominal_arm_pass(arm, joints, nominal):
-    assert check_nominal(arm, joints, nominal, np.eye(4), np.array(TOOL_POINT)) is None
+    assert check_nominal(arm, joints, nominal, np.eye(4), TOOL_POINT) is None
     assert check_nominal(arm, joints, arm.forward(joints)[:, :3, 3]) is None
 
 
 def test_frames_that_nobody_knows_are_told_not_refused(arm, joints, nominal):
-    fit = check_nominal(arm, joints, nominal @ turned(180)[:3, :3].T)
-    assert np.allclose(fit.base, turned(180), atol=1e-6)
-    assert np.allclose(fit.target, TOOL_POINT, atol=1e-6)
-    told = str(fit)
-    assert "turned by 180.0 deg" in told and "a tool point at (0, 20, 120) mm" in told
+    told = check_nominal(arm, joints, nominal @ turned(170)[:3, :3].T)
+    point = "a tool point at (0, 20, 120) mm of the tool link"
+    assert told == f"the base turned by 170.0 deg about (0, 0, 1) and {point}"
 
 
 def changed(joints: np.ndarray, column: int, value) -> np.ndarray:
@@ -80,13 +79,13 @@ MISTAKES = {
 @pytest.mark.parametrize(("spoil", "words"), MISTAKES.values(), ids=MISTAKES)
 def test_the_likely_mistake_is_named(spoil, words, arm, joints, nominal):
     with pytest.raises(WrongNominal) as refused:
-        check_nominal(arm, *spoil(joints, nominal), np.eye(4), np.array(TOOL_POINT))
+        check_nominal(arm, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
     assert f"likely: {words}" in str(refused.value)
 
 
 def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):
     with pytest.raises(WrongNominal, match="likely: a tool point at"):
-        check_nominal(arm, joints, nominal, np.eye(4), np.zeros(3))
+        check_nominal(arm, joints, nominal, np.eye(4), np.eye(4))
 
 
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):

@@ -21,8 +21,7 @@ from recalib.laboratory.measurements import POSITION
 from recalib.laboratory.places import found_places
 from recalib.laboratory.summary import summary
 from recalib.nominal.arms import load_arm
-from tests.identification.bars import ARMS
-from tests.identification.real import Real
+from tests.identification.real import ARMS, Real
 from tests.laboratory.conftest import write
 
 URDF, TOOL = ARMS["UR10"]
@@ -122,4 +121,6 @@ def test_the_summary_says_postures_and_places(calibrated):
     assert "the instrument in world of arm.urdf: (" in told
     assert "target right in tool0 of arm.urdf: (" in told
     angles = np.degrees(calibrated[0].observations.joints[:, 0])
-    assert f"shoulder_pan_joint was seen from {angles.min():.1f} to {angles.max():.1f} deg" in told
+    assert (
+        f"shoulder_pan_joint was measured from {angles.min():.1f} to {angles.max():.1f} deg" in told
+    )

@@ -4,8 +4,10 @@ import numpy as np
 
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.linearisation import Linearisation
+from recalib.identification.observations import Observations
 from recalib.identification.validation import GEOMETRIC, validate
-from tests.identification.bars import least_squares
+from tests.identification.real import NOISE
 from tests.peers.tasks import Task
 
 NOMINAL, PLAIN, GEOMETRY, OURS = "nominal", "plain least squares", "recalib, geometry", "recalib"
@@ -25,3 +27,15 @@ def predict_all(task: Task) -> dict[str, np.ndarray]:
     found = {who: task.predicted(its) for who, its in poses.items()}
     nominal = task.nominal()
     return found if nominal is None else {NOMINAL: nominal} | found
+
+
+def least_squares(model: ErrorModel, observations: Observations) -> np.ndarray:
+    """Parameters without a prior: of all that fit best, the smallest. It starts at nominal."""
+    parameters, terms = np.zeros_like(model.deviations), model.terms(observations.joints)
+    for _ in range(10):
+        linear = Linearisation(model, parameters, observations, terms)
+        scales = np.array(NOISE)[: observations.kinds, None, None]
+        rows = (linear.jacobians / scales[..., None]).reshape(-1, len(parameters))
+        goal = (linear.residuals / scales).ravel()
+        parameters = parameters + np.linalg.lstsq(rows, goal, rcond=1e-7)[0]
+    return parameters * model.deviations

@@ -13,8 +13,7 @@ from recalib.laboratory.measurements import read_measurements
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm
-from tests.identification.bars import ARMS
-from tests.identification.real import NOISE, Real
+from tests.identification.real import ARMS, NOISE, Real
 
 UR5 = Path(__file__).parents[2] / "workflow" / "real" / "ur5.toml"
 POSES, FRESH = 30, 200

@@ -8,8 +8,7 @@ import scipy.linalg
 from recalib.identification.observations import Observations
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
-from tests.identification.bars import ARMS
-from tests.identification.real import Real, anywhere
+from tests.identification.real import ARMS, Real, anywhere
 from tests.peers.__main__ import PEERS
 from tests.peers.page import HERE, PAGE, WHO, context, render
 from tests.peers.tasks import POSES, SHORTENED, SUBSETS, Shortened, Task, recorded, simulated

@@ -74,7 +74,7 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
             path, f"it lacks {', '.join(NOMINAL)} or what was measured; expected: both"
         )
     base = np.linalg.inv(description.instrument)
-    check_nominal(arm, rows.coordinates, rows.nominal, base, np.zeros(3))
+    check_nominal(arm, rows.coordinates, rows.nominal, base, np.eye(4))
     turn, place = description.instrument[:3, :3], description.instrument[:3, 3]
     return Measurements(
         rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
