@@ -26,6 +26,7 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.input_checks import check_observations
 from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
+from recalib.identification.optics import Optics
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority
@@ -109,9 +110,9 @@ def identify(
             precision += known
             gradient += stretch
         if observations.optics is not None:
-            known = _optics(model, observations)
+            known, offset = _optics(model, observations.optics)
             precision += known
-            gradient -= known @ parameters
+            gradient += offset - known @ parameters
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
@@ -205,14 +206,14 @@ def _distances(
     return information, gradient
 
 
-def _optics(model: ErrorModel, observations: Observations) -> np.ndarray:
-    """What pictures say of the optics (P, P), whatever the poses are: that they are as measured."""
-    information, columns = np.zeros((len(model.deviations),) * 2), model.optics_columns
+def _optics(model: ErrorModel, optics: Optics) -> tuple[np.ndarray, np.ndarray]:
+    """The information (P, P) of pictures on their optics, with poses free; its gradient (P,)."""
+    information, gradient = np.zeros((len(model.deviations),) * 2), np.zeros(len(model.deviations))
+    columns = model.optics_columns
     scale = model.deviations[columns]
-    assert observations.optics is not None
-    own = observations.optics.information.sum(axis=0)
-    information[columns, columns] = own * np.outer(scale, scale)
-    return information
+    information[columns, columns] = optics.information.sum(axis=0) * np.outer(scale, scale)
+    gradient[columns] = optics.gradient.sum(axis=0) * scale
+    return information, gradient
 
 
 def _squares(residuals: np.ndarray, noise: np.ndarray) -> np.ndarray:

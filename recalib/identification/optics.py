@@ -27,6 +27,7 @@ class Optics:
         spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
         slopes: (n, 6, o) by which measured poses move with the optics.
         information: (n, o, o) that the pictures have of the optics, whatever the poses are.
+        gradient: (n, o) that goes with it: its sum is zero for the best optics of the pictures.
         pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
         whitening: (n, 6, 6) to displacements whose components are independent, and as large as
             those of a typical row: in its first three m, then rad.
@@ -35,15 +36,13 @@ class Optics:
     spread: np.ndarray
     slopes: np.ndarray
     information: np.ndarray
+    gradient: np.ndarray
     pixels: np.ndarray
-    whitening: np.ndarray
+    whitening: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
 
-    @classmethod
-    def of(
-        cls, spread: np.ndarray, slopes: np.ndarray, information: np.ndarray, pixels: np.ndarray
-    ) -> "Optics":
-        """Those of an arm that returns to a posture without any error."""
-        return cls(spread, slopes, information, pixels, _whitening(spread))
+    def __post_init__(self) -> None:
+        if self.whitening is None:  # of an arm that returns to a posture without any error
+            object.__setattr__(self, "whitening", _whitening(self.spread))
 
     def with_noise(self, covariance: np.ndarray) -> "Optics":
         """The same, where displacements have further noise of a covariance (6, 6)."""

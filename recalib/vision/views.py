@@ -17,7 +17,8 @@ from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 
 FEWEST = 6  # pictures, to know a lens by
-POSE, LENS = slice(0, 6), slice(6, 14)  # of OpenCV's derivatives: a lens without k3
+LENS_SIZE = len(OPTICS) - len(BOARD)  # parameters of a lens
+LENS = slice(6, 6 + LENS_SIZE)  # among OpenCV's derivatives, behind those of the pose
 FAR = 4.0  # standard deviations: a corner farther out is no part of the board
 CONVERGED = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 100, 1e-12)
 
@@ -66,33 +67,33 @@ def optics_of(
         in_hand: whether poses are those of the camera in the board; those of the board in the
             camera otherwise.
     """
-    poses, blocks, squares, free = [], [], 0.0, -8.0 * fitted
+    count, parts, poses, squares, free = len(OPTICS) if fitted else len(BOARD), [], [], 0.0, 0.0
     for view in views:
         pose = board_pose(board, lens, view)
-        residuals = reprojection(board, lens, view, pose)
-        squares, free = squares + np.sum(residuals**2), free + residuals.size - 6
-        blocks.append(_derivatives(board.points[view.numbers], lens, pose, in_hand))
+        residuals = reprojection(board, lens, view, pose).ravel()
+        by_pose, by_optics = _derivatives(board.points[view.numbers], lens, pose, in_hand)
+        parts.append(_marginal(by_pose, by_optics[:, :count], residuals))
         poses.append(np.linalg.inv(pose) if in_hand else pose)
-    noise, count = float(np.sqrt(squares / free)), len(OPTICS) if fitted else len(BOARD)
-    roots, slopes, information = [], [], []
-    for by_pose, by_optics in blocks:
-        by_optics = by_optics[:, :count]
-        back = np.linalg.pinv(by_pose)
-        slopes.append(-back @ by_optics)  # the pose that makes up for a change of optics
-        left = by_optics + by_pose @ slopes[-1]
-        information.append(left.T @ left / noise**2)
-        roots.append(np.linalg.qr(by_pose / np.sqrt(len(by_pose) / 2)).R)
-    spread = [
-        np.linalg.inv(root.T @ root) * 2 / len(by_pose)
-        for root, (by_pose, _) in zip(roots, blocks, strict=True)
-    ]
-    optics = Optics.of(
-        noise**2 * np.array(spread),
-        np.array(slopes),
-        np.array(information),
-        np.array(roots),
-    )
-    return np.array(poses), optics
+        squares, free = squares + residuals @ residuals, free + len(residuals) - 6
+    variance = squares / (free - LENS_SIZE * fitted)
+    spread, slopes, information, gradient, pixels = map(np.array, zip(*parts, strict=True))
+    knowledge = information / variance, gradient / variance
+    return np.array(poses), Optics(variance * spread, slopes, *knowledge, pixels)
+
+
+def _marginal(
+    by_pose: np.ndarray, by_optics: np.ndarray, residuals: np.ndarray
+) -> tuple[np.ndarray, ...]:
+    """What corners with a noise of 1 px say, by their derivatives (2 c, 6) and (2 c, o).
+
+    Returns the covariance (6, 6) of the pose, how it makes up for a change of optics (6, o), what
+    is known of the optics with the pose free, (o, o) and (o,), and `pixels` (6, 6) of `Optics`.
+    """
+    root = np.linalg.qr(by_pose).R
+    slopes = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
+    left = by_optics + by_pose @ slopes
+    covariance, pixels = np.linalg.inv(root.T @ root), root * np.sqrt(2 / len(by_pose))
+    return covariance, slopes, left.T @ left, left.T @ residuals, pixels
 
 
 def _derivatives(
