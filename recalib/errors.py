@@ -15,7 +15,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """A name that is not among the valid ones; tells the nearest of them."""
+    """A name that is not among the valid ones; the message has the nearest of them."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)

@@ -20,7 +20,7 @@ Arrays = Mapping[str, Any]  # by name, in groups of groups
 
 @contextmanager
 def refused(path: str | PathLike[str], writer: str) -> Iterator[None]:
-    """Take whatever is raised while a file is read for its fault: it may hold anything.
+    """Blame the file for whatever is raised while it is read: it may hold anything.
 
     Raises InvalidFile, or what was raised on purpose.
     """

@@ -8,7 +8,7 @@ from recalib.identification.calibration import Calibration
 
 
 def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
-    """What a measurement at each of several postures would tell of the arm, (n,) in nats.
+    """The information gained by a measurement at each of several postures, (n,) in nats.
 
     It is the logarithm of the factor by which the volume of the parameters' uncertainty would
     shrink: what D-optimal designs maximise.
@@ -37,8 +37,8 @@ def most_informative(
         spreads = _spreads(rows, covariance)
         best = int(np.where(unused, _gains(spreads), -np.inf).argmax())
         unused[best] = False
-        told = rows[best] @ covariance
-        covariance = covariance - told.T @ np.linalg.solve(spreads[best], told)  # Woodbury
+        across = rows[best] @ covariance
+        covariance = covariance - across.T @ np.linalg.solve(spreads[best], across)  # Woodbury
         yield best, covariance
 
 

@@ -52,7 +52,7 @@ class HeldOut:
     def radius(self) -> float:
         """Within how much [m] of their predictions 95 % of measured positions lie, in each part.
 
-        A covariance knows of noise and of what data left open, not of what no parameter can hold:
+        A covariance counts noise and what the data leave open, but not what no parameter describes:
         that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
         apart, that differs from one to the next, and a new place may be as bad as the worst.
         """
@@ -107,8 +107,8 @@ def _divided(
 ) -> np.ndarray:
     """The part (n,) of each row, by what divides postures (their numbers) into parts.
 
-    A target or a socket of which all would be in one part is divided by itself: without any row,
-    nobody knows where it is.
+    A target or a socket whose rows would all be in one part is divided by itself: without any row
+    its place is unknown.
     """
     parts, groups = divide(np.arange(len(postures))), observations.groups
     for group in range(groups.max() + 1):

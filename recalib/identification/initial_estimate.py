@@ -28,7 +28,7 @@ THIN = 5e-3  # m: the standard deviation across a line of points that are on it
 
 
 class NoInitialEstimate(RecalibError):
-    """Where the instrument stands, or where a target sits, cannot be told from the measurements."""
+    """The place of the instrument or of a target is not identifiable."""
 
 
 def fewest(observations: Observations) -> int:

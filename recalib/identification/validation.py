@@ -101,7 +101,7 @@ def validate(
 
     Args:
         frames: at both ends; see `initial_frames` for those that are unknown.
-        on_progress: is told what is being done.
+        on_progress: called with what is being done.
 
     Raises BadMeasurement and Untrustworthy.
     """

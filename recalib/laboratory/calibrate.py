@@ -91,7 +91,7 @@ class Calibrated:
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
-        """The parameters of geometry that were not told apart."""
+        """The parameters of geometry that are not identifiable."""
         return unidentifiable_parameters(self.geometry, self.observations)
 
     @cached_property
@@ -157,11 +157,11 @@ def calibrate_arm(
         table: see docs/own_arm.md; or the folder that `recalib observe` wrote.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
-        on_progress: is told what is being done, in a line each.
+        on_progress: called with what is being done, in a line each.
 
     Raises RecalibError: an arm, a table or a description that cannot be used; nominal positions of
-    another arm; frames that cannot be told, or that are not where the description has them; a fit
-    that did not work out.
+    another arm; frames that are not identifiable, or not where the description has them; a fit that
+    did not work out.
     """
     path = find_urdf(urdf)
     source = read_file(path, MOST)

@@ -15,7 +15,7 @@ EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better t
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command, and return its exit code. Mistakes are told in a sentence on stderr."""
+    """Run a command, and return its exit code. A mistake is one sentence on stderr."""
     given = _parser().parse_args(arguments)
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
@@ -26,18 +26,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         check_new(given.out, given.makes_folder)
         return given.command(given)
     except RecalibError as error:
-        told = str(error)
+        message = str(error)
     except OSError as error:
-        told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
-        told = f"{package} is missing; try: pip install 'recalib[laboratory,vision]'"
+        message = f"{package} is missing; try: pip install 'recalib[laboratory,vision]'"
     except MemoryError:
-        told = "there is not enough memory for this; try: fewer rows"
+        message = "there is not enough memory for this; try: fewer rows"
     except KeyboardInterrupt:
         there = is_taken(given.out, given.makes_folder)
-        told = f"interrupted; {given.out} is {'there, and whole' if there else 'not written'}"
-    print(f"recalib: {told}", file=sys.stderr)
+        message = f"interrupted; {given.out} is {'there, and whole' if there else 'not written'}"
+    print(f"recalib: {message}", file=sys.stderr)
     return REFUSED
 
 

@@ -21,7 +21,7 @@ FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
 
 @dataclass(frozen=True)
 class Correction:
-    """An identified arm, and where it was looked at.
+    """An identified arm, and the postures in which it was measured.
 
     Attributes:
         urdf: of the nominal arm, as the user gave it.

@@ -16,7 +16,7 @@ COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
 WIDTH = 9.6  # inches
 COLUMNS = 3
 LONGEST = 0.12  # of the arm's reach: so long is the largest error drawn
-LEAST = 1e-4  # mm or deg: below that nobody measures
+LEAST = 1e-4  # mm or deg: no instrument measures less
 STYLE: dict[Any, Any] = {
     "axes.grid": True,
     "axes.spines.right": False,

@@ -45,8 +45,8 @@ def checked_frames(
     NoInitialEstimate: nothing explains them.
     """
     described = {"base": instrument, "target": target}
-    told = {name: pose for name, pose in described.items() if pose is not None}
-    given = {name: np.linalg.inv(pose) if name == "base" else pose for name, pose in told.items()}
+    stated = {name: pose for name, pose in described.items() if pose is not None}
+    given = {name: np.linalg.inv(pose) if name == "base" else pose for name, pose in stated.items()}
     try:
         return initial_frames(arm, observations, **given)
     except NoInitialEstimate as error:
@@ -64,7 +64,7 @@ def checked_frames(
     found = without[wrong]
     there = {"base": np.linalg.inv(found.base), "target": found.targets[0]}
     parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
-    where = " and ".join(_gap(told[name], there[name]) for name in wrong)
+    where = " and ".join(_gap(stated[name], there[name]) for name in wrong)
     raise WrongKnowledge(
         f"the description's {parts} {where}; try: a description without it, for it to be estimated"
     )

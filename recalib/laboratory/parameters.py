@@ -17,7 +17,7 @@ class Decided(Parameter):
     """A parameter of geometry.
 
     Attributes:
-        decided_by: data, or prior where these do not tell it from others.
+        decided_by: data, or the prior where they do not determine it.
     """
 
     decided_by: str
@@ -25,7 +25,7 @@ class Decided(Parameter):
 
 def described(result: Calibrated) -> list[Decided]:
     """All parameters of geometry, in the order of the error model."""
-    # a small deviation tells nothing: of what explains nothing, the prior becomes narrow
+    # not by a small deviation: the prior of what explains nothing becomes narrow
     by_prior = result.geometry.model.deviations <= HELD
     by_prior[[one.parameter for one in result.unidentifiable]] = True
     optics = result.geometry.model.optics_columns
@@ -38,7 +38,7 @@ def described(result: Calibrated) -> list[Decided]:
 
 
 def unidentifiable_directions(result: Calibrated) -> list[tuple[str, bool]]:
-    """What measurements leave open, in words, and whether any other postures could tell it.
+    """Directions that are not identifiable, in words, and whether they are from other postures.
 
     Each is a parameter and those that would explain the same.
     """

@@ -13,7 +13,7 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import ErrorModel
-from recalib.identification.frames import HELD
+from recalib.identification.frames import HELD, Frames
 from recalib.identification.identifiability import Unidentifiable
 from recalib.identification.linearisation import displacements
 
@@ -29,8 +29,8 @@ class Place:
         link: in whose frame it is.
         turned: whether its rotation is known.
         pose: (4, 4) m.
-        deviations: m and rad, along the worst axis, beside the calibrated arm.
-        real_deviations: likewise, beside the real one.
+        deviations: m and rad, along the worst axis, relative to the calibrated arm.
+        real_deviations: likewise, relative to the real one.
     """
 
     name: str
@@ -60,7 +60,7 @@ def found_places(
     model, estimate = calibration.model, calibration.estimate
     frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
     turned = frames.target_deviations[1] > HELD
-    what = [(instrument, base, True)] * frames.base_unknown
+    what = [(instrument, base, True)] * _has_instrument(frames)
     ends = targets if len(targets) == 1 else [f"target {name}" for name in targets]
     what += [(name, tool, turned) for name in ends] * frames.targets_unknown
     what += [(f"socket {name}", base, False) for name in sockets]
@@ -80,10 +80,15 @@ def found_places(
     ]
 
 
+def _has_instrument(frames: Frames) -> bool:
+    """Whether the instrument is to be found; a ball in sockets has none."""
+    return frames.base_unknown and not len(frames.sockets)
+
+
 def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
     """Poses (place, 4, 4) [m] of all that was not given."""
     frames = model.found(parameters)
-    poses = [np.linalg.inv(frames.base)] * frames.base_unknown
+    poses = [np.linalg.inv(frames.base)] * _has_instrument(frames)
     poses += [*frames.targets] * frames.targets_unknown
     for centre in frames.sockets:
         poses.append(np.eye(4))

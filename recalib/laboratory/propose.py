@@ -17,7 +17,7 @@ from recalib.laboratory.measurements import Measurements
 from recalib.numerics.randomness import generator
 
 DRAWN = 400  # candidates
-BEYOND = 0.1  # of the range that was looked at, on either side
+BEYOND = 0.1  # of the measured range, on either side
 OUTERMOST = 0.05  # of a joint's range at either end, a tenth in all: there arms behave otherwise
 PROBES = 200  # postures whose predictions are judged
 ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth measuring

@@ -31,17 +31,17 @@ def kinematics_yaml(calibration: Calibration) -> str | None:
     if pattern is None:
         return None
     frames = _frames(nominal.model)
-    # by how much the pattern's frames are beside the joints' own, with the base first
-    beside = [
+    # poses of the pattern's frames relative to the joints' own, with the base first
+    relative = [
         pattern[0],
         *(np.linalg.inv(own) @ its for own, its in zip(frames, pattern[1:], strict=True)),
     ]
     corrected = calibration.model.own_arm(calibration.estimate.parameters).model
     origins = {
-        link: np.linalg.inv(beside[index])
+        link: np.linalg.inv(relative[index])
         @ corrected.jointPlacements[index + 1].homogeneous
         @ offset
-        @ beside[index + 1]
+        @ relative[index + 1]
         for index, (link, offset) in enumerate(zip(LINKS, offset_poses(calibration), strict=True))
     }
     lines = ["kinematics:"]
@@ -96,8 +96,8 @@ def _pattern(arm: Arm) -> list[np.ndarray] | None:
 def _on_one_axis(frame: np.ndarray, axis: np.ndarray, its: np.ndarray) -> bool:
     """Whether a joint of this frame and axis turns about the z axis of the other frame."""
     direction, between = frame[:3, :3] @ axis, its[:3, 3] - frame[:3, 3]
-    beside = np.abs(np.cross(direction, between)).max()
-    return bool(max(np.abs(direction - its[:3, 2]).max(), beside) < ALIKE)
+    apart = np.abs(np.cross(direction, between)).max()
+    return bool(max(np.abs(direction - its[:3, 2]).max(), apart) < ALIKE)
 
 
 def _pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, roll: float = 0.0) -> np.ndarray:

@@ -33,7 +33,7 @@ def write_recording(path: Path, result: Calibrated) -> None:
                 colors=COLOURS[name],
                 radii=THICK / 3,
             )
-            rec.log(f"misses/{name}", arrows, static=True)
+            rec.log(f"residuals/{name}", arrows, static=True)
             lines = rr.SeriesLines(colors=COLOURS[name], names=name)
             rec.log(f"errors/{name}", lines, static=True)
             errors = 1e3 * np.linalg.norm(its[:, :3], axis=1)

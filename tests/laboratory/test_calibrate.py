@@ -104,7 +104,9 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     one, other = result.calibration.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
     assert result.worthwhile and result.sockets == ("left", "right")
-    assert "a ball in sockets shows errors there" in summary(result)
+    text = summary(result)
+    assert "a ball in sockets shows errors there" in text and "the instrument" not in text
+    assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
     names = [row.name for row in described(result)]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
