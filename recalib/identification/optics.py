@@ -57,6 +57,11 @@ class Optics:
         return self.slopes.shape[-1]
 
     @property
+    def length(self) -> float:
+        """m, the root mean square of what the noise of a picture moves its position."""
+        return float(np.sqrt(np.trace(self.spread[:, :3, :3], axis1=1, axis2=2).mean()))
+
+    @property
     def deviations(self) -> np.ndarray:
         """Standard deviations (o,) of them, before any picture is seen."""
         return np.array([size * deviation for _, _, size, deviation in OPTICS[: self.count]])
