@@ -13,20 +13,20 @@ import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.columns import Table, read_table
-from recalib.laboratory.measurements import OBSERVED
+from recalib.laboratory.measurements import OBSERVED, PICTURE
 from recalib.laboratory.outputs import new
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import Corners, Unusable, find_corners
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import FEWEST, board_pose, find_lens, good_corners, reprojection
 
-PICTURE = "picture"  # the column with their names
 CORNERS, SETUP, LENS = "corners.csv", "setup.toml", "lens.yaml"
 FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 ENOUGH = 10  # pictures
 SOFTER = 2.0  # times the median blur: so much more is a picture that moved or is out of focus
 WORSE = 4.0  # times the median reprojection error
 LEAST = 0.5  # px: a reprojection error as small is never a reason
+WIDE = 300  # px, of a picture on the page
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,9 @@ class Picture:
     Attributes:
         row: in the table, from 1.
         name: of its file.
-        pixels: (height, width), grey; None where it cannot be read.
+        size: width and height [px]; None where it cannot be read.
+        small: the same on the page, grey; None likewise.
+        digest: of its pixels.
         corners: None where it is refused.
         reason: why it is refused; empty where it is not.
         error: px, the root mean square of its corners' reprojection errors.
@@ -45,7 +47,9 @@ class Picture:
 
     row: int
     name: str
-    pixels: np.ndarray | None = None
+    size: tuple[int, int] | None = None
+    small: np.ndarray | None = None
+    digest: str = ""
     corners: Corners | None = None
     reason: str = ""
     error: float = np.nan
@@ -138,14 +142,15 @@ def observe(
     if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
     on_progress(f"the board in {len(names)} pictures")
-    pictures = [_read(Path(folder), row, name) for row, name in enumerate(names, 1)]
-    sizes = [its.pixels.shape[::-1] for its in pictures if its.pixels is not None]
+    pictures = [
+        _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)
+    ]
+    sizes = [its.size for its in pictures if its.size]
     if not sizes:
         raise InvalidFile(folder, f"none of the pictures in {table.path.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
-    pictures = _found(pictures, sheet, size)
     on_progress("the lens" if given is None else "poses")
-    found, pictures = _seen(pictures, sheet, size, given)
+    found, pictures = _posed(_compared(pictures, size), sheet, size, given)
     files = sorted(path.name for path in Path(folder).iterdir() if path.is_file())
     strangers = [name for name in files if name not in names and name != table.path.name]
     return Observed(table, sheet, found, given is None, in_hand, pictures, strangers)
@@ -177,18 +182,34 @@ def write_observed(
         write_page(made / "page.html", result)
 
 
-def _read(folder: Path, row: int, name: str) -> Picture:
-    path = folder / name
+def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
+    """A picture with its corners, or the reason why not."""
     if not path.is_file():
         return Picture(row, name, reason="there is no such file")
-    pixels = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
-    return Picture(row, name, pixels, reason="" if pixels is not None else "it is no picture")
+    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    if grey is None:
+        return Picture(row, name, reason="it is no picture")
+    high, wide = grey.shape
+    small = cv2.resize(grey, (WIDE, WIDE * high // wide), interpolation=cv2.INTER_AREA)
+    picture = Picture(row, name, (wide, high), small, sha256(grey.tobytes()).hexdigest())
+    try:
+        return replace(picture, corners=find_corners(board, grey))
+    except Unusable as error:
+        return picture.refused(str(error))
 
 
-def _found(pictures: Sequence[Picture], board: Board, size: tuple[int, int]) -> list[Picture]:
-    """With their corners, or the reason why not."""
-    names: dict[bytes, str] = {}
-    done = [_searched(its, board, size, names) for its in pictures]
+def _compared(pictures: Sequence[Picture], size: tuple[int, int]) -> list[Picture]:
+    """Without those of another size, those that are there twice, and those that are blurred."""
+    first: dict[str, str] = {}
+    done = []
+    for its in pictures:
+        other = first.setdefault(its.digest, its.name) if its.size else its.name
+        if its.size not in (size, None):
+            found, valid = (f"{wide} x {high}" for wide, high in (its.size, size))
+            its = its.refused(f"it has {found} pixels; expected: {valid}")
+        elif other != its.name:
+            its = its.refused(f"it is the same picture as {other}")
+        done.append(its)
     most = SOFTER * np.median([its.corners.softness for its in done if its.corners] or [np.inf])
     return [
         its.refused(f"it is blurred by {its.corners.softness:.1f} px, twice as much as others")
@@ -198,25 +219,7 @@ def _found(pictures: Sequence[Picture], board: Board, size: tuple[int, int]) -> 
     ]
 
 
-def _searched(
-    picture: Picture, board: Board, size: tuple[int, int], names: dict[bytes, str]
-) -> Picture:
-    """With its corners. The names are those of pictures that were searched, by their content."""
-    if picture.pixels is None:
-        return picture
-    if (own := picture.pixels.shape[::-1]) != size:
-        found, valid = (f"{wide} x {high}" for wide, high in (own, size))
-        return picture.refused(f"it has {found} pixels; expected: {valid}")
-    first = names.setdefault(sha256(picture.pixels.tobytes()).digest(), picture.name)
-    if first != picture.name:
-        return picture.refused(f"it is the same picture as {first}")
-    try:
-        return replace(picture, corners=find_corners(board, picture.pixels))
-    except Unusable as error:
-        return picture.refused(str(error))
-
-
-def _seen(
+def _posed(
     pictures: list[Picture], board: Board, size: tuple[int, int], lens: Lens | None
 ) -> tuple[Lens, list[Picture]]:
     """The lens, and the pictures with their poses; those that fit badly are refused, twice over."""
@@ -229,7 +232,7 @@ def _seen(
                 f" {ENOUGH}{first}"
             )
         found = lens or find_lens(board, views, size)
-        pictures = [_posed(its, board, found) for its in pictures]
+        pictures = [_measured(its, board, found) for its in pictures]
         most = max(WORSE * np.nanmedian([its.error for its in pictures]), LEAST)
         bad = [its.error > most for its in pictures]
         pictures = [
@@ -243,7 +246,7 @@ def _seen(
     return found, pictures
 
 
-def _posed(picture: Picture, board: Board, lens: Lens) -> Picture:
+def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:
     if picture.corners is None:
         return picture
     corners = good_corners(board, lens, picture.corners)
@@ -253,17 +256,22 @@ def _posed(picture: Picture, board: Board, lens: Lens) -> Picture:
 
 
 def _measurements(result: Observed) -> tuple[list[str], list[list[str]]]:
-    """The table of joints without pictures, with poses of the board, or of the camera in it."""
+    """The table of pictures and joints, with poses of the board, or of the camera in it."""
     table, rows = result.table, []
     joints = [name for name in table.cells if name != PICTURE]
     units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
-    header = [*units, *(f"{axis} [mm]" for axis in "xyz"), *(f"r{axis} [deg]" for axis in "xyz")]
+    header = [
+        PICTURE,
+        *units,
+        *(f"{axis} [mm]" for axis in "xyz"),
+        *(f"r{axis} [deg]" for axis in "xyz"),
+    ]
     for its in result.used:
         assert its.pose is not None
         pose = np.linalg.inv(its.pose) if result.in_hand else its.pose
         turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
         numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
-        rows.append([*(table.cells[name][its.row - 1] for name in joints), *numbers])
+        rows.append([its.name, *(table.cells[name][its.row - 1] for name in joints), *numbers])
     return header, rows
 
 

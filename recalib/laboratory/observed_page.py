@@ -8,10 +8,9 @@ import numpy as np
 from matplotlib import rc_context
 
 from recalib.laboratory.drawings import COLOURS, STYLE, figure_of, svg_of
-from recalib.laboratory.observe import Observed, Picture
+from recalib.laboratory.observe import WIDE, Observed, Picture
 from recalib.laboratory.page import environment
 
-WIDE = 300  # px, of a picture on the page
 DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it
 QUALITY = 70  # of JPEG
 
@@ -32,11 +31,9 @@ def write_observed_page(path: Path, result: Observed) -> None:
 
 def _small(picture: Picture) -> str:
     """JPEG in base64, with its corners; empty where there is no picture."""
-    if picture.pixels is None:
+    if picture.small is None or picture.size is None:
         return ""
-    scale = WIDE / picture.pixels.shape[1]
-    small = cv2.resize(picture.pixels, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
-    small = cv2.cvtColor(small, cv2.COLOR_GRAY2BGR)
+    small, scale = cv2.cvtColor(picture.small, cv2.COLOR_GRAY2BGR), WIDE / picture.size[0]
     for u, v in () if picture.corners is None else picture.corners.pixels * scale:
         cv2.circle(small, (round(u), round(v)), DOT, COLOUR, 1, cv2.LINE_AA)
     _, content = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])

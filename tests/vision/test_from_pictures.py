@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import DONE, REFUSED, main
+from recalib.laboratory.observe import Observed, Picture, write_observed
 from recalib.nominal.arms import load_arm
 from recalib.vision.lenses import read_lens
+from recalib.vision.views import board_pose
 from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell
 
@@ -95,15 +98,11 @@ def test_what_was_found_in_each_picture_is_told(session):
 @pytest.fixture(scope="module")
 def observed(tmp_path_factory):
     """A folder as observe writes it, of corners that nobody had to look for."""
-    from recalib.laboratory.columns import read_table
-    from recalib.laboratory.observe import Observed, Picture, write_observed
-    from recalib.vision.views import board_pose
-
     folder, draw = tmp_path_factory.mktemp("corners"), Draw(4, in_hand=False)
     write_joints(folder / "joints.csv", draw.cell, draw.joints)
     board, table = draw.cell.board, read_table(folder / "joints.csv")
     pictures = [
-        Picture(row, name, None, view, "", 0.2, board_pose(board, draw.lens, view))
+        Picture(row, name, corners=view, error=0.2, pose=board_pose(board, draw.lens, view))
         for row, (name, view) in enumerate(zip(table.cells["picture"], draw.views, strict=True), 1)
     ]
     result = Observed(table, board, draw.lens, True, False, pictures, [])
