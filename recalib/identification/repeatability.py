@@ -15,6 +15,8 @@ from recalib.identification.estimation import identify
 from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
 
+# Of displacements [m, rad], for a rad by which joints do not return.
+COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
 RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 
 
@@ -24,9 +26,9 @@ def weigh(model: ErrorModel, observations: Observations) -> Observations:
     Raises BadMeasurement, as `identify`.
     """
     assert observations.optics is not None
-    unit, tried = np.diag([LEVER**2] * 3 + [1.0] * 3), []
+    tried = []
     for returns in RETURNS:
-        optics = observations.optics.with_noise(returns**2 * unit)
+        optics = observations.optics.with_noise(returns**2 * COVARIANCE)
         weighed = replace(observations, optics=optics)
         # a density of residuals before they were whitened
         volume = np.linalg.slogdet(optics.whitening).logabsdet.sum()

@@ -10,6 +10,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
+from recalib.identification.board_scale import board_scale
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import DOUBTFUL
@@ -43,6 +44,7 @@ class Calibrated:
         observations: what it says.
         targets, sockets: their names, in the order of their numbers.
         instrument: its name.
+        board_scale: the size of the board, by links as they are described, over its description.
         between: what is between nominal positions and the nominal kinematics, in words.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
@@ -59,6 +61,7 @@ class Calibrated:
     frames: Frames
     validation: Validation
     instrument: str = "the instrument"
+    board_scale: float = 1.0
 
     @property
     def arm(self) -> Arm:
@@ -179,7 +182,7 @@ def calibrate_arm(
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
         between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
     observations, targets, sockets = _observations(rows, given, table)
-    instrument = "the instrument"
+    instrument, scale = "the instrument", 1.0
     if pictures is not None:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels
 
@@ -189,6 +192,7 @@ def calibrate_arm(
     frames = checked_frames(arm, poses, given.instrument, given.target)
     if observations.optics is not None:
         frames = replace(frames, optics_deviations=observations.optics.deviations)
+        scale = board_scale(arm, observations, frames)
         observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
     check_distances(arm, observations, frames, sockets)
     validation = validate(arm, observations, frames, on_progress)
@@ -204,6 +208,7 @@ def calibrate_arm(
         frames,
         validation,
         instrument,
+        scale,
     )
 
 

@@ -13,6 +13,7 @@ from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.observe import Observed, Picture, write_observed
+from recalib.laboratory.summary import verdict
 from recalib.nominal.arms import load_arm
 from recalib.vision.lenses import read_lens
 from recalib.vision.views import board_pose
@@ -114,6 +115,7 @@ def test_pixels_are_read_and_weighed(observed):
     folder, draw = observed
     result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
     assert result.observations.optics is not None and result.instrument == "the camera"
+    assert abs(result.board_scale - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
     poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
     assert poses.observations.optics is None
@@ -136,6 +138,17 @@ def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_
     arguments = [str(tmp_path), "--tool=panda_link8", f"--out={tmp_path / 'new'}"]
     assert main(["calibrate", "panda.urdf", *arguments]) == REFUSED
     assert said in capsys.readouterr().err
+
+
+def test_a_board_of_another_size_is_doubted(observed, tmp_path):
+    for path in observed[0].iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    text = (tmp_path / "setup.toml").read_text()
+    text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
+    (tmp_path / "setup.toml").write_text(text)
+    result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
+    assert result.board_scale == pytest.approx(36 / 33, abs=0.01)
+    assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
 
 
 @pytest.mark.parametrize(
