@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster vision lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -42,6 +42,9 @@ setup: .venv/installed ## the environment, from the lock file
 
 cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
 	$(PIP) --no-build-isolation --editable .[cluster]
+
+vision: setup ## install OpenCV for pictures of a board, not pinned; see docs/pictures.md
+	$(PIP) --no-build-isolation --editable .[vision]
 
 test: lint ## the linters and all tests except whole workflows, examples, sites and environments
 	.venv/bin/python -m pytest -m "not slow"

@@ -84,7 +84,11 @@ class Calibration:
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
         predicted = self.predict(observations.joints, observations.targets)
-        return displacements(predicted, observations.reached(self.frames.sockets))
+        residuals = displacements(predicted, observations.reached(self.frames.sockets))
+        if observations.optics is None:
+            return residuals
+        found = self.estimate.parameters[self.model.optics_columns]
+        return residuals + observations.optics.slopes @ found
 
     @property
     def parameters(self) -> dict[str, Parameter]:

@@ -7,6 +7,7 @@ The parameters are small and zero for the nominal arm. In their order:
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
   is the only target where frames are known.
 - centres (socket, 3): displacements [m] of the sockets from their initial estimate.
+- optics (o,): of the camera that measured; see `recalib.identification.optics`.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -75,7 +76,7 @@ class ErrorModel:
         frames: as given.
         names: of the joint terms.
         deviations: (P,) standard deviations of the parameters under the prior, whose mean is zero.
-        free: (P,) whether a parameter is of frames that are unknown: it need not be zero.
+        free: (P,) whether a parameter is of unknown frames or of optics: it need not be zero.
     """
 
     def __init__(self, arm: Arm, terms: JointTerms, frames: Frames | None = None):
@@ -84,17 +85,23 @@ class ErrorModel:
         targets, sockets = self.frames.targets, self.frames.sockets
         self._joints = arm.model.nv
         self._twists = 6 * (self._joints + len(targets))  # how many parameters are those of twists
-        self._geometry = self._twists + sockets.size
+        self._optics = self._twists + sockets.size
+        self._geometry = self._optics + len(self.frames.optics_deviations)
         links = [LINK] * (self._joints - 1)
         ends = [self.frames.target_deviations] * len(targets)
         twists = np.repeat([self.frames.base_deviations, *links, *ends], 3, axis=1).ravel()
         self.deviations = np.concatenate(
-            [twists, np.full(sockets.size, UNKNOWN[0]), self._coefficient_deviations().ravel()]
+            [
+                twists,
+                np.full(sockets.size, UNKNOWN[0]),
+                self.frames.optics_deviations,
+                self._coefficient_deviations().ravel(),
+            ]
         )
         self.free = np.zeros(len(self.deviations), dtype=bool)
         self.free[:6] = self.frames.base_unknown
         self.free[6 * self._joints : self._twists] = self.frames.targets_unknown
-        self.free[self.socket_columns] = True
+        self.free[self._twists : self._geometry] = True
         if not terms:
             self.deviations[~self.free] = HELD
         self._base = pin.SE3(self.frames.base)
@@ -132,7 +139,12 @@ class ErrorModel:
     @property
     def socket_columns(self) -> slice:
         """Which parameters are those of the sockets' centres."""
-        return slice(self._twists, self._geometry)
+        return slice(self._twists, self._optics)
+
+    @property
+    def optics_columns(self) -> slice:
+        """Which parameters are those of a camera's optics."""
+        return slice(self._optics, self._geometry)
 
     @property
     def offset_columns(self) -> slice:

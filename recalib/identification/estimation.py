@@ -26,6 +26,7 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.input_checks import check_observations
 from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
+from recalib.identification.optics import Optics
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority
@@ -108,6 +109,10 @@ def identify(
             known, stretch = _distances(model, parameters, observations)
             precision += known
             gradient += stretch
+        if observations.optics is not None:
+            known, offset = _optics(model, observations.optics)
+            precision += known
+            gradient += offset - known @ parameters
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)
@@ -198,6 +203,16 @@ def _distances(
         slope *= model.deviations
         information += np.outer(slope, slope) / deviation**2
         gradient += slope * (length - apart) / deviation**2
+    return information, gradient
+
+
+def _optics(model: ErrorModel, optics: Optics) -> tuple[np.ndarray, np.ndarray]:
+    """The information (P, P) of pictures on their optics, with poses free; its gradient (P,)."""
+    information, gradient = np.zeros((len(model.deviations),) * 2), np.zeros(len(model.deviations))
+    columns = model.optics_columns
+    scale = model.deviations[columns]
+    information[columns, columns] = optics.information.sum(axis=0) * np.outer(scale, scale)
+    gradient[columns] = optics.gradient.sum(axis=0) * scale
     return information, gradient
 
 

@@ -28,6 +28,7 @@ class Frames:
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
         base_unknown, targets_unknown: whether they are estimates.
+        optics_deviations: (o,) of the optics of a camera, of which there are none unless given.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -37,6 +38,7 @@ class Frames:
     target_deviations: tuple[float, float] = LINK
     base_unknown: bool = False
     targets_unknown: bool = False
+    optics_deviations: np.ndarray = field(default_factory=lambda: np.empty(0))
 
 
 def nearest_rotation(matrix: np.ndarray) -> np.ndarray:

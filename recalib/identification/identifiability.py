@@ -63,7 +63,7 @@ def _order(model: ErrorModel) -> np.ndarray:
     """Numbers of the parameters of geometry that are not held: frames, offsets, links."""
     numbers = np.arange(len(model.deviations))
     offsets = numbers[model.offset_columns]
-    geometry = numbers[: model.offset_columns.start]
+    geometry = numbers[: model.optics_columns.start]
     order = np.concatenate([geometry[model.free[geometry]], offsets])
     order = np.concatenate([order, np.setdiff1d(geometry, order)])
     return order[model.deviations[order] > HELD]

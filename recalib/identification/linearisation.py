@@ -2,7 +2,8 @@
 
 A residual is what takes the predicted pose to the measured one: translation [m] and rotation [rad]
 along the instrument's axes, or the translation alone where no orientation was measured; a ball in a
-socket was measured to be at the socket's centre, which is a parameter itself.
+socket was measured to be at the socket's centre, which is a parameter itself. What a camera
+measured is weighed by its optics.
 """
 
 from collections.abc import Iterator
@@ -66,6 +67,11 @@ class Linearisation:
                 by_centre[np.arange(len(its)), :, its.sockets] = -np.eye(3)
                 jacobians[:, :3, model.socket_columns] = by_centre.reshape(len(its), 3, -1)
             residuals = displacements(poses, its.reached(model.sockets(parameters)))
+            if its.optics is not None:  # measured poses move with them: the other way
+                columns = model.optics_columns
+                residuals += its.optics.slopes @ parameters[columns]
+                jacobians[:, :, columns] = -its.optics.slopes
+                residuals, jacobians = its.whitened(residuals), its.whitened(jacobians)
             for kind in range(observations.kinds):
                 part = slice(3 * kind, 3 * kind + 3)
                 self.residuals[kind, block] = residuals[:, part]

@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from recalib.identification.optics import Optics
+
 
 class Distance(NamedTuple):
     """How far apart [m] two sockets are, by their numbers, and its standard deviation [m]."""
@@ -33,6 +35,7 @@ class Observations:
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
         times: (n,) s, which do not decrease; None where nobody wrote them down.
+        optics: what poses are worth that a camera measured; None where all are worth the same.
     """
 
     joints: np.ndarray
@@ -41,6 +44,7 @@ class Observations:
     sockets: np.ndarray | None = None
     distances: Sequence[Distance] = field(default=())
     times: np.ndarray | None = None
+    optics: Optics | None = None
 
     def __post_init__(self) -> None:
         if self.targets is None:
@@ -62,7 +66,14 @@ class Observations:
             targets=self.targets[rows],
             sockets=some(self.sockets),
             times=some(self.times),
+            optics=None if self.optics is None else self.optics[rows],
         )
+
+    def whitened(self, columns: np.ndarray) -> np.ndarray:
+        """Displacements (n, 6, ...) of poses as their optics weigh them, or as they are."""
+        if self.optics is None:
+            return columns
+        return np.einsum("nij,nj...->ni...", self.optics.whitening, columns)
 
     @property
     def positions(self) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 
 from recalib.identification.error_model import ErrorModel
 from recalib.identification.estimation import Estimate
+from recalib.identification.optics import OPTICS
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 CLEAR = 2.0  # standard errors: a parameter that is so far from zero is listed
@@ -75,6 +76,8 @@ def _names(
     for socket in sockets or range(len(frames.sockets)):
         for axis in "xyz":
             yield f"{axis} of socket {socket}, from its initial estimate", "mm", 1e3
+    for name, unit, size, _ in OPTICS[: len(frames.optics_deviations)]:
+        yield name, unit, 1 / size
     for term in model.names:
         for joint, slides in zip(arm.joints, arm.slides, strict=True):
             unit, scale = _unit(slides)

@@ -59,8 +59,9 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     residuals = np.concatenate([*linear.residuals], axis=1) * weights
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     times = np.arange(len(observations)) if observations.times is None else observations.times
-    late = _late(geometry, observations, times)[..., None] * weights[..., None]
-    moved = _moved(geometry, observations) * weights[..., None]
+    late = observations.whitened(_late(geometry, observations, times))[..., None]
+    late = late * weights[..., None]
+    moved = observations.whitened(_moved(geometry, observations)) * weights[..., None]
     drifted = moved * ((times - times[0]) / np.ptp(times))[:, None, None]
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])

@@ -10,17 +10,20 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
+from recalib.identification.board_scale import board_scale
 from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
 from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.observations import Distance, Observations
+from recalib.identification.repeatability import weigh
 from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.knowledge import check_distances, checked_frames
-from recalib.laboratory.measurements import Measurements, read_measurements
+from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
 from recalib.laboratory.places import Place, found_places
 from recalib.laboratory.urdf import corrected_urdf
@@ -40,6 +43,8 @@ class Calibrated:
         table: the file with the measurements.
         observations: what it says.
         targets, sockets: their names, in the order of their numbers.
+        instrument: its name.
+        board_scale: the size of the board, by links as they are described, over its description.
         between: what is between nominal positions and the nominal kinematics, in words.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
@@ -55,6 +60,8 @@ class Calibrated:
     between: str | None
     frames: Frames
     validation: Validation
+    instrument: str = "the instrument"
+    board_scale: float = 1.0
 
     @property
     def arm(self) -> Arm:
@@ -81,8 +88,9 @@ class Calibrated:
         """Where instrument, targets and sockets are, of those that were not given."""
         names = self.targets, self.sockets
         if not self.worthwhile:
-            return found_places(self.calibration, [], *names, self.arm.tool)
-        return found_places(self.geometry, self.unidentifiable, *names, self.corrected[1])
+            return found_places(self.calibration, [], *names, self.arm.tool, self.instrument)
+        tool = self.corrected[1]
+        return found_places(self.geometry, self.unidentifiable, *names, tool, self.instrument)
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
@@ -149,7 +157,7 @@ def calibrate_arm(
 
     Args:
         urdf: a path, or a name that `recalib.nominal.arms.find_urdf` knows.
-        table: see docs/own_arm.md.
+        table: see docs/own_arm.md; or the folder that `recalib observe` wrote.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
         on_progress: called with what is being done, in a line each.
@@ -164,6 +172,8 @@ def calibrate_arm(
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
     given = description or Description()
+    pictures = Path(table) if Path(table).is_dir() else None
+    table = Path(table) if pictures is None else pictures / OBSERVED
     rows = read_measurements(table, arm, given)
     on_progress(its := origin(urdf, source))
     on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
@@ -171,13 +181,34 @@ def calibrate_arm(
     if rows.nominal is not None:
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
         between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
-    observations, targets, sockets = _observations(rows, given, Path(table))
+    observations, targets, sockets = _observations(rows, given, table)
+    instrument, scale = "the instrument", 1.0
+    if pictures is not None:  # OpenCV is imported only for these
+        from recalib.laboratory.observed import with_pixels
+
+        observations, instrument, targets = with_pixels(observations, pictures)
     on_progress("initial estimate of instrument and target")
-    frames = checked_frames(arm, observations, given.instrument, given.target)
+    poses = replace(observations, optics=None)
+    frames = checked_frames(arm, poses, given.instrument, given.target)
+    if observations.optics is not None:
+        frames = replace(frames, optics_deviations=observations.optics.deviations)
+        scale = board_scale(arm, observations, frames)
+        observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
     check_distances(arm, observations, frames, sockets)
     validation = validate(arm, observations, frames, on_progress)
     return Calibrated(
-        path, source, its, Path(table), observations, targets, sockets, between, frames, validation
+        path,
+        source,
+        its,
+        table,
+        observations,
+        targets,
+        sockets,
+        between,
+        frames,
+        validation,
+        instrument,
+        scale,
     )
 
 

@@ -1,4 +1,4 @@
-"""The command line: `recalib calibrate`, `correct`, `next` and `urdf`; docs/own_arm.md."""
+"""The command line: `recalib calibrate` and others; docs/own_arm.md, docs/pictures.md."""
 
 import argparse
 import io
@@ -29,6 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         message = str(error)
     except OSError as error:
         message = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        message = f"{package} is missing; try: pip install 'recalib[laboratory,vision]'"
     except MemoryError:
         message = "there is not enough memory for this; try: fewer rows"
     except KeyboardInterrupt:
@@ -48,12 +51,15 @@ def _parser() -> argparse.ArgumentParser:
         name: str, command: Callable[[argparse.Namespace], int], text: str
     ) -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
-        own.set_defaults(command=command, makes_folder=command is _calibrate)
+        folder = command in (_board, _observe, _calibrate)
+        own.set_defaults(command=command, makes_folder=folder)
         return own
 
     own = add("calibrate", _calibrate, "identify an arm from measurements")
     own.add_argument("urdf", help="a file, or the name of one of example-robot-data")
-    own.add_argument("measurements", type=Path, help="a table (CSV)")
+    own.add_argument(
+        "measurements", type=Path, help="a table (CSV), or the folder that observe wrote"
+    )
     own.add_argument("--out", default="calibration", help="a new folder (%(default)s)")
     own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
     own.add_argument("--base", help="link in whose frame poses are; the root unless given")
@@ -80,6 +86,21 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("links", type=Path, help="a table (CSV): joint, a, alpha, d, theta, kind")
     own.add_argument("--convention", default="standard", help="or modified (%(default)s)")
     own.add_argument("--out", default="arm.urdf", help="a new file (%(default)s)")
+
+    own = add("board", _board, "a board to print and to measure by pictures")
+    own.add_argument("--kind", default="charuco", help="or apriltag (%(default)s)")
+    own.add_argument("--columns", type=_positive, default=7, help="(%(default)s)")
+    own.add_argument("--rows", type=_positive, default=5, help="(%(default)s)")
+    own.add_argument("--square", default="36 mm", help="from one to the next (%(default)s)")
+    own.add_argument("--out", default="board", help="a new folder (%(default)s)")
+
+    own = add("observe", _observe, "find a board in pictures, and calibrate the lens")
+    own.add_argument("pictures", type=Path, help="a folder")
+    own.add_argument("joints", type=Path, help="a table (CSV) of joints, with a column picture")
+    own.add_argument("--board", type=Path, default="board/board.toml", help="(%(default)s)")
+    own.add_argument("--lens", type=Path, help="its calibration (YAML); from pictures unless given")
+    own.add_argument("--camera", choices=("fixed", "hand"), default="fixed", help="(%(default)s)")
+    own.add_argument("--out", default="observed", help="a new folder (%(default)s)")
     return parser
 
 
@@ -170,6 +191,32 @@ def _urdf(given: argparse.Namespace) -> int:
     with new(given.out) as made:
         made.write_text(urdf_of(arm), encoding="utf-8")
     print(f"{given.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
+    return DONE
+
+
+def _board(given: argparse.Namespace) -> int:
+    from recalib.files.quantities import LENGTH
+    from recalib.vision.boards import printable
+    from recalib.vision.printing import BAR, draw_board
+
+    board = printable(given.kind, given.columns, given.rows, LENGTH.read(given.square))
+    with new(given.out, folder=True) as made:
+        wide, high = draw_board(board, made / "board.pdf", made / "board.svg")
+        (made / "board.toml").write_text(board.described(), encoding="utf-8")
+    print(f"{given.out}: board.pdf, board.svg, board.toml. Print at true size, on {wide:g} x")
+    print(f"{high:g} mm, glue it to something flat, and measure the bar: it is {BAR:g} mm long.")
+    return DONE
+
+
+def _observe(given: argparse.Namespace) -> int:
+    from recalib.laboratory.observe import IN_HAND, observe, write_observed
+    from recalib.laboratory.observed_page import write_observed_page
+
+    files = given.pictures, given.joints, given.board, given.lens
+    result = observe(*files, given.camera == IN_HAND, _print_progress)
+    write_observed(result, given.out, write_observed_page)
+    print(result.summary(), end="")
+    print(f"\n{given.out}: see page.html; next: recalib calibrate ARM.urdf {given.out}")
     return DONE
 
 

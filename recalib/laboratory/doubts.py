@@ -7,6 +7,7 @@ from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
 
+RESIZED = 0.015  # of a board: links are seldom longer or shorter by as much
 CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
 
@@ -14,6 +15,12 @@ def doubts(result: Calibrated) -> Iterator[str]:
     """Sentences, the gravest first; none where rows and lines agree."""
     for fault in result.faults:
         yield f"Careful: {_sentence(fault, result.observations)}."
+    if abs(beside := result.board_scale - 1) > RESIZED:
+        yield (
+            f"Careful: if links are as long as the URDF has them, the board is"
+            f" {100 * abs(beside):.1f} percent {'larger' if beside > 0 else 'smaller'} than its"
+            " description; measure its squares."
+        )
     validation = result.validation
     if validation.chosen != HYBRID:
         return

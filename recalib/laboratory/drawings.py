@@ -33,14 +33,14 @@ def draw_errors(result: Calibrated) -> str:
     """What part of the rows has at most which error, before and after."""
     kinds = result.calibration.estimate.noise.size
     with rc_context(STYLE):
-        figure, panels = _figure(2.8, 1, kinds)
+        figure, panels = figure_of(2.8, 1, kinds)
         for kind, (panel, (scale, unit)) in enumerate(zip(panels.flat, UNITS, strict=False)):
             panel.set(xlabel=f"cross-validated error [{unit}]", xscale="log")
             _plain(panel.xaxis)
             for name, numbers in _errors(result, kind, scale).items():
                 panel.ecdf(np.maximum(numbers, LEAST), color=COLOURS[name], linewidth=1.5)
         panels[0, 0].set_ylabel("part of the rows")
-        return _svg(figure)
+        return svg_of(figure)
 
 
 def draw_over_joints(result: Calibrated) -> str:
@@ -48,7 +48,7 @@ def draw_over_joints(result: Calibrated) -> str:
     joints, arm = result.observations.joints[result.counted], result.arm
     rows = -(-len(arm.joints) // COLUMNS)
     with rc_context(STYLE):
-        figure, panels = _figure(2.2 * rows, rows, COLUMNS, sharey=True)
+        figure, panels = figure_of(2.2 * rows, rows, COLUMNS, sharey=True)
         for panel in panels.flat[len(arm.joints) :]:
             panel.remove()
         for panel in panels[:, 0]:
@@ -66,7 +66,7 @@ def draw_over_joints(result: Calibrated) -> str:
                     linewidth=0,
                     rasterized=True,
                 )
-        return _svg(figure)
+        return svg_of(figure)
 
 
 def draw_arm(result: Calibrated) -> tuple[str, float]:
@@ -82,7 +82,7 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     longer = LONGEST * reach / np.linalg.norm(residuals["before"], axis=1).max()
     longer = float(f"{longer:.0e}")  # a round number
     with rc_context(STYLE):
-        figure, panels = _figure(4.2, 1, 2)
+        figure, panels = figure_of(4.2, 1, 2)
         views = ("from the side", [0, 2]), ("from above", [0, 1])
         for panel, (title, axes) in zip(panels.flat, views, strict=True):
             across, up = ("xyz"[axis] for axis in axes)
@@ -95,7 +95,7 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
                 panel.quiver(*start, *step, color=COLOURS[name], rasterized=True, **scales)
                 panel.update_datalim((start + step).T)
             panel.autoscale_view()
-        return _svg(figure), longer
+        return svg_of(figure), longer
 
 
 def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:
@@ -106,7 +106,7 @@ def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray
     }
 
 
-def _figure(
+def figure_of(
     height: float, rows: int, columns: int, sharey: bool = False
 ) -> tuple[Figure, np.ndarray]:
     """A figure so high [inches], and its panels (rows, columns)."""
@@ -121,7 +121,7 @@ def _plain(axis: Axis) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def _svg(figure: Figure) -> str:
+def svg_of(figure: Figure) -> str:
     """An element for a page of HTML."""
     text, metadata = StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
     figure.savefig(text, format="svg", metadata=metadata)

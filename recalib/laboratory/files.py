@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.hand_eye import hand_eye
 from recalib.laboratory.outputs import new
 from recalib.laboratory.parameters import described
 from recalib.laboratory.summary import DOING, errors_table, summary, verdict
@@ -20,10 +21,11 @@ from recalib.laboratory.universal_robots import kinematics_yaml
 from recalib.laboratory.urdf import angles_of
 from recalib.nominal.kinematics import Arm
 
-CORRECTION = "correction.npz"
+CORRECTION, HAND_EYE, LENS = "correction.npz", "hand_eye.toml", "lens.yaml"
 NAMES = (  # in the order in which they are listed
     *("summary.txt", "arm.urdf", CORRECTION, "frames.csv", "parameters.csv", "parameters.json"),
-    *("joint_offsets.csv", "rows.csv", "kinematics.yaml", "page.html", "recording.rrd"),
+    *("joint_offsets.csv", "rows.csv", "kinematics.yaml", HAND_EYE, LENS),
+    *("page.html", "recording.rrd"),
 )
 PLACE = (  # the columns of frames.csv that are numbers
     *("x [mm]", "y [mm]", "z [mm]", "roll [deg]", "pitch [deg]", "yaw [deg]"),
@@ -49,6 +51,8 @@ def write_files(
         _write_table(made / "rows.csv", _rows(result))
         if frames := [*_frames(result)]:
             _write_table(made / "frames.csv", frames)
+        if result.observations.optics is not None:
+            _write_hand_eye(made, result)
         if result.worthwhile:
             _write_calibration(made, result)
         for name, write in further:
@@ -115,6 +119,17 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
     }
     text = json.dumps(values, indent=2) + "\n"
     (folder / "parameters.json").write_text(text, encoding="utf-8")
+
+
+def _write_hand_eye(folder: Path, result: Calibrated) -> None:
+    """Where camera and board are, and the lens that goes with it."""
+    from recalib.laboratory.observed import fitted_lens  # OpenCV is there where there are pictures
+
+    (folder / HAND_EYE).write_text(hand_eye(result), encoding="utf-8")
+    calibration = result.geometry if result.worthwhile else result.calibration
+    optics = calibration.estimate.parameters[calibration.model.optics_columns]
+    lens = fitted_lens(result.table.parent, optics)
+    (folder / LENS).write_text(lens.as_ros(), encoding="utf-8")
 
 
 def _frames(result: Calibrated) -> Iterator[dict[str, Any]]:

@@ -21,6 +21,8 @@ MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place 
 QUATERNION = "qx", "qy", "qz", "qw"
 ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
 VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
+OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wrote
+PICTURE = "picture"  # the column with the names of files, which says nothing of an arm
 LABELS, TIMES = ("target", "socket"), "time"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
@@ -105,7 +107,7 @@ def read_desired(path: str | PathLike[str], arm: Arm) -> Measurements:
 def _read(path: str | PathLike[str], arm: Arm, description: Description | None) -> Measurements:
     table = read_table(path, description.columns if description else None)
     components = (name for group in VECTORS for name in group)
-    table.check_columns([*arm.joints, *components, *LABELS, TIMES])
+    table.check_columns([*arm.joints, *components, *LABELS, TIMES, PICTURE])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):

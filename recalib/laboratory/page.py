@@ -12,31 +12,39 @@ from recalib.laboratory.summary import errors_table, notes, verdict
 LISTED = 15  # parameters, the surest first
 
 
-def write_page(path: Path, result: Calibrated) -> None:
-    """Write the page of a calibration."""
-    environment = Environment(
+def environment() -> Environment:
+    """Of the templates of pages."""
+    return Environment(
         loader=PackageLoader("recalib.laboratory", "."),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+
+
+def write_page(path: Path, result: Calibrated) -> None:
+    """Write the page of a calibration."""
     parameters = described(result)
     decided = [its for its in parameters if its.decided_by == "data"]
     decided.sort(key=lambda its: -abs(its.value) / its.deviation)
     arm_drawing, longer = draw_arm(result)
-    text = environment.get_template("page.html.j2").render(
-        result=result,
-        verdict=verdict(result),
-        notes=notes(result),
-        errors=errors_table(result),
-        errors_drawing=draw_errors(result),
-        joints_drawing=draw_over_joints(result),
-        arm_drawing=arm_drawing,
-        longer=longer,
-        colours={name: COLOURS[name] for name in result.residuals},
-        parameters=decided[:LISTED],
-        decided=len(decided),
-        undecided=len(parameters) - len(decided),
+    text = (
+        environment()
+        .get_template("page.html.j2")
+        .render(
+            result=result,
+            verdict=verdict(result),
+            notes=notes(result),
+            errors=errors_table(result),
+            errors_drawing=draw_errors(result),
+            joints_drawing=draw_over_joints(result),
+            arm_drawing=arm_drawing,
+            longer=longer,
+            colours={name: COLOURS[name] for name in result.residuals},
+            parameters=decided[:LISTED],
+            decided=len(decided),
+            undecided=len(parameters) - len(decided),
+        )
     )
     path.write_text(text, encoding="utf-8")

@@ -2,10 +2,14 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from recalib.identification.frames import HELD
 from recalib.identification.parameters import Parameter, parameters_of
 from recalib.laboratory.calibrate import Calibrated
 from recalib.spelling import listed
+
+HARDLY = 0.5  # of a prior deviation: what is known no better, the prior has decided
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,9 @@ def described(result: Calibrated) -> list[Decided]:
     # not by a small deviation: the prior of what explains nothing becomes narrow
     by_prior = result.geometry.model.deviations <= HELD
     by_prior[[one.parameter for one in result.unidentifiable]] = True
+    optics = result.geometry.model.optics_columns
+    known = np.sqrt(np.diag(result.geometry.estimate.covariance)[optics])
+    by_prior[optics] = known > HARDLY * result.geometry.model.deviations[optics]
     return [
         Decided(**vars(its), decided_by="prior" if prior else "data")
         for its, prior in zip(_parameters(result), by_prior, strict=True)

@@ -47,6 +47,7 @@ def found_places(
     targets: Sequence[str],
     sockets: Sequence[str],
     tool: str,
+    instrument: str = "the instrument",
 ) -> list[Place]:
     """All that were not given.
 
@@ -54,11 +55,12 @@ def found_places(
         unidentifiable: see `unidentifiable_parameters`.
         targets, sockets: their names, in the order of their numbers.
         tool: the link that is the tool of the calibrated arm.
+        instrument: its name.
     """
     model, estimate = calibration.model, calibration.estimate
     frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
     turned = frames.target_deviations[1] > HELD
-    what = [("the instrument", base, True)] * _has_instrument(frames)
+    what = [(instrument, base, True)] * _has_instrument(frames)
     ends = targets if len(targets) == 1 else [f"target {name}" for name in targets]
     what += [(name, tool, turned) for name in ends] * frames.targets_unknown
     what += [(f"socket {name}", base, False) for name in sockets]

@@ -16,6 +16,7 @@ from recalib.identification.validation import (
 )
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.doubts import doubts
+from recalib.laboratory.hand_eye import pixel_error
 from recalib.laboratory.parameters import unidentifiable_directions
 from recalib.laboratory.urdf import angles_of
 from recalib.nominal.meshes import with_own_meshes
@@ -112,6 +113,15 @@ def _notes(result: Calibrated) -> Iterator[str]:
     used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
     yield f"noise of a measurement along an axis: {noise} (what is corrected: {used})"
     yield from _places(result)
+    if result.observations.optics is not None:
+        kinds = result.validation.chosen, NOTHING
+        found, right = (pixel_error(result, BLOCKWISE, kind) for kind in kinds)
+        yield (
+            f"corners in pictures that were not learned from: {found:.2g} px off; with the arm as"
+            f" it is described, {right:.2g} px"
+        )
+        own = 1e3 * result.observations.optics.length
+        yield f"a picture alone tells a position to {own:.2g} mm: part of each held-out error"
     if result.sockets:
         yield "a ball in sockets shows errors there; between the sockets they may be larger"
     if result.validation.full[HYBRID].pattern is not None:

@@ -23,7 +23,7 @@ def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) ->
         mean_error=lambda way, kind: errors[way, kind],
     )
     rows = Observations(np.zeros((ROWS, 6)), times=times)
-    return SimpleNamespace(validation=validation, faults=found, observations=rows)
+    return SimpleNamespace(validation=validation, faults=found, observations=rows, board_scale=1.0)
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,17 @@ EXECUTED |= {  # with a table and a URDF of the test's own
         ("next calibration/", "test_the_next_postures_are_within_limits_and_teach"),
     )
 }
+EXECUTED |= {  # with pictures that are rendered
+    f"recalib {command}": f"tests/vision/test_from_pictures.py::{test}"
+    for command, test in (
+        ("board", "session"),
+        ("observe pictures/ joints.csv", "session"),
+        (
+            "calibrate ARM.urdf observed/ --tool tool0",
+            "test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre",
+        ),
+    )
+}
 PLANNED = {  # Snakemake or make says what would run, and the reason why it does not
     "make setup": "whoever runs this has set it up",
     "make cluster": "what it installs is not pinned",
@@ -60,6 +71,7 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "snakemake --cores 2 --forcerun claims -- results/claims.json": "the same",
 }
 BY_HAND = {
+    "pip install '.[laboratory,vision]'": "part of what make vision installs",
     "pip install '.[laboratory]'": "part of what make setup installs",
     "snakemake --cores 1 results/real/fit.csv": "fetches a table from the network",
     "recalib calibrate ur5_robot.urdf results/real/fit.csv --tool tool0"

@@ -1,0 +1,74 @@
+"""Poses that were measured by a camera: how sure they are, and how they depend on its optics.
+
+What lens and board are beside what they were taken for moves all poses together: these are
+parameters of the fit, like those of the arm.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+# By name, with its unit, the size of that in what parameters are in, and the standard deviation
+# before any picture is seen, in that unit. A printer scales by a thousandth.
+BOARD = (("print scale along x", "%", 0.01, 0.1), ("print scale along y", "%", 0.01, 0.1))
+OPTICS = (
+    *BOARD,
+    *((f"focal length along {axis}", "px", 1.0, 100.0) for axis in "xy"),
+    *((f"principal point along {axis}", "px", 1.0, 100.0) for axis in "xy"),
+    *((f"distortion {name}", "", 1.0, 1.0) for name in ("k1", "k2", "p1", "p2")),
+)
+
+
+@dataclass(frozen=True)
+class Optics:
+    """What a camera's poses are worth, row by row. A displacement is (6,) [m, rad].
+
+    Attributes:
+        spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
+        slopes: (n, 6, o) by which measured poses move with the optics.
+        information: (n, o, o) that the pictures have of the optics, whatever the poses are.
+        gradient: (n, o) that goes with it: its sum is zero for the best optics of the pictures.
+        pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
+        whitening: (n, 6, 6) to displacements whose components are independent, and as large as
+            those of a typical row: in its first three m, then rad.
+    """
+
+    spread: np.ndarray
+    slopes: np.ndarray
+    information: np.ndarray
+    gradient: np.ndarray
+    pixels: np.ndarray
+    whitening: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
+
+    def __post_init__(self) -> None:
+        if self.whitening is None:  # of an arm that returns to a posture without any error
+            object.__setattr__(self, "whitening", _whitening(self.spread))
+
+    def with_noise(self, covariance: np.ndarray) -> "Optics":
+        """The same, where displacements have further noise of a covariance (6, 6)."""
+        return replace(self, whitening=_whitening(self.spread + covariance))
+
+    def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
+        return Optics(*(its[rows] for its in vars(self).values()))
+
+    @property
+    def count(self) -> int:
+        """How many parameters it has: the first of `OPTICS`."""
+        return self.slopes.shape[-1]
+
+    @property
+    def length(self) -> float:
+        """m, the root mean square of what the noise of a picture moves its position."""
+        return float(np.sqrt(np.trace(self.spread[:, :3, :3], axis1=1, axis2=2).mean()))
+
+    @property
+    def deviations(self) -> np.ndarray:
+        """Standard deviations (o,) of them, before any picture is seen."""
+        return np.array([size * deviation for _, _, size, deviation in OPTICS[: self.count]])
+
+
+def _whitening(spread: np.ndarray) -> np.ndarray:
+    variances = np.diagonal(spread, axis1=1, axis2=2).reshape(-1, 2, 3)
+    typical = np.sqrt(np.median(variances, axis=(0, 2)))
+    roots = np.linalg.cholesky(np.linalg.inv(spread)).swapaxes(1, 2)
+    return np.repeat(typical, 3)[:, None] * roots

@@ -1,0 +1,132 @@
+"""Boards of markers that a camera can measure, and the TOML that describes them."""
+
+import tomllib
+from dataclasses import dataclass, fields
+from functools import cached_property
+from os import PathLike
+from typing import Any
+
+import cv2
+import numpy as np
+
+from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.files.quantities import LENGTH
+from recalib.files.storage import read_file
+
+CHARUCO, APRILTAG = KINDS = "charuco", "apriltag"
+DICTIONARIES = {CHARUCO: "4X4_100", APRILTAG: "APRILTAG_36H11"}  # of the boards that we print
+BORDER = 1  # modules of black about the bits of a marker
+GAP = {CHARUCO: 1, APRILTAG: 2}  # modules of white between a marker and what is next to it
+MOST = 16_000  # bytes of a description
+
+
+@dataclass(frozen=True)
+class Board:
+    """A flat board. Its x axis goes along a row and its y axis down, so that z points into it.
+
+    Attributes:
+        kind: charuco or apriltag.
+        columns, rows: of squares, or of tags.
+        square: m, the side of a square, or from a tag to the next.
+        marker: m, the side of a marker.
+        dictionary: that of OpenCV, without `DICT_`.
+    """
+
+    kind: str
+    columns: int
+    rows: int
+    square: float
+    marker: float
+    dictionary: str
+
+    def __post_init__(self) -> None:
+        """Raise InvalidSetting unless there can be such a board."""
+        if self.kind not in KINDS:
+            raise InvalidSetting("kind", self.kind, " or ".join(KINDS))
+        for name in ("columns", "rows"):
+            if not isinstance(getattr(self, name), int) or not 2 <= getattr(self, name) <= 50:
+                raise InvalidSetting(name, getattr(self, name), "a whole number from 2 to 50")
+        if not 0 < self.marker < self.square:
+            raise InvalidSetting("marker", f"{1e3 * self.marker:g} mm", "less than the square")
+        if not hasattr(cv2.aruco, f"DICT_{self.dictionary}"):
+            raise InvalidSetting("dictionary", self.dictionary, "one of OpenCV, such as 4X4_100")
+        if self.markers > len(self.alphabet.bytesList):
+            found = f"{self.dictionary} for {self.markers} markers"
+            raise InvalidSetting("dictionary", found, "one with as many")
+
+    @property
+    def markers(self) -> int:
+        """How many there are."""
+        return self.columns * self.rows // (2 if self.kind == CHARUCO else 1)
+
+    @property
+    def alphabet(self) -> Any:
+        """OpenCV's dictionary of its markers."""
+        return cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, f"DICT_{self.dictionary}"))
+
+    @cached_property
+    def drawn(self) -> Any:
+        """OpenCV's own board."""
+        size, alphabet = (self.columns, self.rows), self.alphabet
+        if self.kind == CHARUCO:
+            return cv2.aruco.CharucoBoard(size, self.square, self.marker, alphabet)
+        return cv2.aruco.GridBoard(size, self.marker, self.square - self.marker, alphabet)
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """Where the corners (c, 3) [m] are that are looked for, by their numbers."""
+        inner = self.kind == CHARUCO
+        corners = self.drawn.getChessboardCorners() if inner else self.drawn.getObjPoints()
+        return np.array(corners, dtype=float).reshape(-1, 3)
+
+    @property
+    def modules(self) -> np.ndarray:
+        """Which modules (down, across) are black, if it is one that `printable` makes."""
+        pitch = self.alphabet.markerSize + 2 * BORDER + 2 * GAP[self.kind]
+        if self.kind == APRILTAG:
+            pitch -= GAP[self.kind]
+        size = pitch * np.array([self.columns, self.rows])
+        if self.kind == APRILTAG:
+            size -= GAP[self.kind]
+        return self.drawn.generateImage([int(side) for side in size]) == 0
+
+    @property
+    def size(self) -> np.ndarray:
+        """Width and height [m]."""
+        gap = 0.0 if self.kind == CHARUCO else self.square - self.marker
+        return self.square * np.array([self.columns, self.rows]) - gap
+
+    def described(self) -> str:
+        """The part of a TOML that `read_board` reads."""
+        lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in ("square", "marker")}
+        lines = [
+            f"{its.name} = {lengths.get(its.name) or repr(getattr(self, its.name))}"
+            for its in fields(self)
+        ]
+        return "\n".join(["[board]", *lines, ""]).replace("'", '"')
+
+
+def printable(kind: str, columns: int, rows: int, square: float) -> Board:
+    """A board whose markers are of as many modules as its gaps are. Raises InvalidSetting."""
+    name = DICTIONARIES.get(kind, "")
+    if not name:
+        raise InvalidSetting("kind", kind, " or ".join(KINDS))
+    bits = 4 if kind == CHARUCO else 6
+    modules = bits + 2 * BORDER
+    pitch = modules + (2 if kind == CHARUCO else 1) * GAP[kind]
+    return Board(kind, columns, rows, square, square * modules / pitch, name)
+
+
+def read_board(path: str | PathLike[str]) -> Board:
+    """The board in the TOML at `path`. Raises InvalidFile, which names the key."""
+    try:
+        given = tomllib.loads(read_file(path, MOST).decode("utf-8")).get("board")
+        names = [its.name for its in fields(Board)]
+        if not isinstance(given, dict) or sorted(given) != sorted(names):
+            raise InvalidSetting("[board]", given, ", ".join(names))
+        lengths = {name: LENGTH.read(given[name]) for name in ("square", "marker")}
+        return Board(**given | lengths | {"dictionary": str(given["dictionary"]).upper()})
+    except (InvalidSetting, InvalidQuantity) as error:
+        raise InvalidFile(path, str(error)) from None
+    except ValueError as error:  # not UTF-8, or not TOML
+        raise InvalidFile(path, f"it is no TOML: {error}") from None

@@ -1,0 +1,121 @@
+"""The corners of a board in a picture, or why the picture is of no use."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from recalib.errors import RecalibError
+from recalib.vision.boards import CHARUCO, Board
+
+FEWEST, FEWEST_MARKERS = 8, 4  # corners, and markers, to go by
+MISPLACED = 0.3  # of a marker's side: beside a plane by so much, most markers are of another board
+OTHERS = "4X4_250", "5X5_250", "6X6_250", "APRILTAG_36H11"
+HALF = 0.5  # px: this refinement counts from the corner of a picture, not from its first pixel
+MANY = 3  # markers of another dictionary that are no chance
+AROUND = 15  # px about an edge: where it is dark, bright and steepest
+BLURRED = 0.75  # a quantile of edges: motion leaves those along it sharp
+CLEAR = 0.7  # of the highest contrast: so high it is about the edges to look at
+SMOOTHED = 1.0  # px, against noise
+SOFT = 1.3  # px: a picture that is softer may show nothing because it is blurred
+
+
+class Unusable(RecalibError):
+    """A picture in which the board was not found as it should be."""
+
+
+@dataclass(frozen=True)
+class Corners:
+    """Corners in a picture.
+
+    Attributes:
+        numbers: (c,) which of the board's points.
+        pixels: (c, 2) from the middle of the upper left pixel, to the right and down.
+        softness: px, the standard deviation of the blur along edges.
+    """
+
+    numbers: np.ndarray
+    pixels: np.ndarray
+    softness: float
+
+
+def find_corners(board: Board, picture: np.ndarray) -> Corners:
+    """The corners of a board in a grey picture (height, width). Raises Unusable."""
+    markers, ids = _markers(board.alphabet, picture)
+    if problem := _problem(board, markers, ids):
+        raise Unusable(_mistake(board, picture) or problem)
+    if board.kind == CHARUCO:
+        found, numbers, _, _ = cv2.aruco.CharucoDetector(board.drawn).detectBoard(picture)
+        pixels = np.zeros((0, 2)) if numbers is None else found.reshape(-1, 2)
+        numbers = np.zeros(0, int) if numbers is None else numbers.ravel()
+    else:
+        markers, ids = _markers(board.alphabet, picture, exact=True)
+        numbers, pixels = (4 * ids[:, None] + np.arange(4)).ravel(), markers.reshape(-1, 2)
+    if len(numbers) < FEWEST:
+        raise Unusable(f"it shows {len(numbers)} corners; expected: at least {FEWEST}")
+    pixels = pixels.astype(float)
+    (left, top), (right, bottom) = pixels.min(axis=0).astype(int), pixels.max(axis=0).astype(int)
+    return Corners(numbers, pixels, _softness(picture[top : bottom + 1, left : right + 1]))
+
+
+def _problem(board: Board, markers: np.ndarray, ids: np.ndarray) -> str | None:
+    """What is wrong with markers, if anything is."""
+    if len(ids) < FEWEST_MARKERS:
+        return f"it shows {len(ids)} markers of the board; expected: at least {FEWEST_MARKERS}"
+    if len(np.unique(ids)) < len(ids):
+        twice = next(number for number in ids if (ids == number).sum() > 1)
+        return f"marker {twice} is there more than once: a second board, or two exposures"
+    if ids.max() >= board.markers:
+        return f"marker {ids.max()} is not on the board: this is another one"
+    places = np.array(board.drawn.getObjPoints())[ids, :, :2]
+    if _misplaced(places, markers) > MISPLACED:
+        return "markers are not where the board has them: this is another one"
+    return None
+
+
+def _mistake(board: Board, picture: np.ndarray) -> str | None:
+    """A mistake that explains why the board was not found."""
+    if _problem(board, *_markers(board.alphabet, cv2.flip(picture, 1))) is None:
+        return "it is mirrored; try: the camera's own picture"
+    for name in OTHERS:
+        alphabet = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, f"DICT_{name}"))
+        if not board.dictionary.startswith(name[:4]) and len(_markers(alphabet, picture)[1]) > MANY:
+            return f"its markers are of {name}, not of {board.dictionary}: this is another board"
+    if (softness := _softness(picture)) > SOFT:
+        return f"it is blurred, by {softness:.1f} px or more"
+    return None
+
+
+def _markers(
+    alphabet: cv2.aruco.Dictionary, picture: np.ndarray, exact: bool = False
+) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (m, 4, 2) [px] and numbers (m,) of markers."""
+    settings = cv2.aruco.DetectorParameters()
+    if exact:
+        settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_APRILTAG
+    corners, ids, _ = cv2.aruco.ArucoDetector(alphabet, settings).detectMarkers(picture)
+    if ids is None:
+        return np.zeros((0, 4, 2)), np.zeros(0, int)
+    return np.array(corners).reshape(-1, 4, 2) - HALF * exact, ids.ravel()
+
+
+def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:
+    """How far markers (m, 4, 2) [px] are from where a plane has them, in sides of theirs."""
+    plane, _ = cv2.findHomography(places.reshape(-1, 2), markers.reshape(-1, 2), cv2.LMEDS)
+    if plane is None:
+        return np.inf
+    expected = cv2.perspectiveTransform(places.astype(float), plane)
+    gaps = np.linalg.norm(expected - markers, axis=-1).mean(axis=1)
+    return float(np.quantile(gaps / np.linalg.norm(markers[:, 0] - markers[:, 1], axis=-1), 0.75))
+
+
+def _softness(picture: np.ndarray) -> float:
+    """The blur [px] that makes the edges of the highest contrast as flat as they are."""
+    smooth = cv2.GaussianBlur(picture.astype(np.float32), (0, 0), SMOOTHED)
+    window = np.ones((AROUND, AROUND))
+    contrast = cv2.dilate(smooth, window) - cv2.erode(smooth, window)
+    steepest = cv2.dilate(np.hypot(*np.gradient(smooth)), window)
+    edges = contrast >= CLEAR * contrast.max()
+    widths = contrast[edges] / np.maximum(steepest[edges], 1e-9) / np.sqrt(2 * np.pi)
+    total = np.quantile(widths, BLURRED) if len(widths) else 0.0
+    return float(np.sqrt(max(total**2 - SMOOTHED**2, 0.0)))

@@ -1,0 +1,59 @@
+"""A board on paper: at true size, with a bar to check the printer by."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Outline
+
+from recalib.vision.boards import Board
+
+PAPERS = {"A4": (297, 210), "A3": (420, 297), "A2": (594, 420), "A1": (841, 594), "A0": (1189, 841)}
+MARGIN, FOOT = 8.0, 13.0  # mm about the board, and below it for the bar
+BAR = 100.0  # mm
+INCH = 25.4  # mm
+
+
+def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
+    """Write a board at true size, in the formats of the paths' suffixes (PDF, SVG).
+
+    Returns width and height of the paper [mm]: the smallest sheet in landscape that is wide enough.
+    """
+    size = 1e3 * board.size
+    least = np.add(size, (2 * MARGIN, 2 * MARGIN + FOOT))
+    sheets = (sheet for sheet in PAPERS.values() if (least <= sheet).all())
+    paper = next(sheets, (float(least[0]), float(least[1])))
+    figure = Figure(figsize=(paper[0] / INCH, paper[1] / INCH))
+    page = figure.add_axes((0, 0, 1, 1), xlim=(0, paper[0]), ylim=(paper[1], 0))
+    page.set_axis_off()
+    left = (paper[0] - size[0]) / 2
+    # one outline: between shapes that touch, viewers would show a seam
+    outline = np.add(_outline(board.modules, size), (left, MARGIN))
+    page.add_patch(PathPatch(_closed(outline), color="black", linewidth=0))
+    foot = MARGIN + size[1] + FOOT / 2
+    bar = np.array([[0, 0], [BAR, 0], [BAR, 2], [0, 2]]) + np.array([left, foot])
+    page.add_patch(PathPatch(_closed(bar[None]), color="black", linewidth=0))
+    text = (
+        f"This bar is {BAR:g} mm long, or the printer scales. {board.kind}"
+        f" {board.columns} x {board.rows}, {1e3 * board.square:g} mm, {board.dictionary}"
+    )
+    page.text(left, foot + 6, text, fontsize=8)
+    for path in paths:
+        figure.savefig(path)
+    return paper
+
+
+def _outline(black: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Corners (run, 4, 2) [mm] of the runs of black modules in each line."""
+    edges = np.diff(np.pad(black.astype(int), ((0, 0), (1, 1))), axis=1)
+    (line, start), (_, end) = np.nonzero(edges == 1), np.nonzero(edges == -1)
+    corners = np.stack([[start, line], [end, line], [end, line + 1], [start, line + 1]])
+    return corners.transpose(2, 0, 1) * (size / black.shape[::-1])
+
+
+def _closed(corners: np.ndarray) -> Outline:
+    """One path of quadrilaterals (n, 4, 2)."""
+    codes = [Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY]
+    vertices = np.concatenate([corners, corners[:, :1]], axis=1).reshape(-1, 2)
+    return Outline(vertices, np.tile(codes, len(corners)))

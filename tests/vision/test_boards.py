@@ -1,0 +1,91 @@
+"""Boards on paper and in TOML, and lenses in YAML."""
+
+import cv2
+import numpy as np
+import pytest
+from pypdf import PdfReader
+
+from recalib.errors import InvalidFile, InvalidSetting
+from recalib.vision.boards import printable, read_board
+from recalib.vision.detection import find_corners
+from recalib.vision.lenses import read_lens
+from recalib.vision.printing import draw_board
+from tests.vision.rendering import LENS
+
+DOTS = 100  # an inch, of Matplotlib's PNG
+BOARDS = {
+    "charuco": printable("charuco", 7, 5, 0.036),
+    "apriltag": printable("apriltag", 6, 4, 0.04),
+}
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=BOARDS)
+def test_a_board_is_printed_at_true_size(board, tmp_path):
+    pdf, svg, png = (tmp_path / f"board.{kind}" for kind in ("pdf", "svg", "png"))
+    assert draw_board(board, pdf, svg, png) == (297, 210)
+    paper = [float(side) * 25.4 / 72 for side in PdfReader(pdf).pages[0].mediabox[2:]]
+    assert paper == pytest.approx([297, 210], abs=0.01)
+    assert 'width="841.88' in svg.read_text() and "100 mm" in svg.read_text()
+    found = find_corners(board, cv2.imread(str(png), cv2.IMREAD_GRAYSCALE))
+    assert len(found.numbers) == len(board.points)
+    expected = board.points[found.numbers, :2] / 0.0254 * DOTS
+    gaps = found.pixels - expected
+    assert np.abs(gaps - gaps.mean(axis=0)).max() < 0.7  # px, a fifth of a millimetre
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=BOARDS)
+def test_a_board_is_read_as_it_is_described(board, tmp_path):
+    (tmp_path / "board.toml").write_text(board.described())
+    assert np.allclose(read_board(tmp_path / "board.toml").points, board.points)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
+        ('square = "36 mm"|square = 36', "36 is no quantity"),
+        ('square = "36 mm"|square = "20 mm"', "expected: less than the square"),
+        ("4X4_100|9X9", "dictionary is '9X9'"),
+        ("rows = 5|rows = 40", "4X4_100 for 140 markers"),
+        ("rows = 5|", "expected: kind, columns, rows"),
+        ("[board]|[board", "it is no TOML"),
+    ],
+)
+def test_a_description_that_is_none_is_refused(line, said, tmp_path):
+    text = BOARDS["charuco"].described().replace(*line.split("|"))
+    (tmp_path / "board.toml").write_text(text)
+    with pytest.raises(InvalidFile) as refused:
+        read_board(tmp_path / "board.toml")
+    assert said in str(refused.value)
+    with pytest.raises(InvalidSetting, match="charuco or apriltag"):
+        printable("chess", 7, 5, 0.036)
+
+
+def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
+    (tmp_path / "ros.yaml").write_text(LENS.as_ros())
+    storage = cv2.FileStorage(str(tmp_path / "cv.yaml"), cv2.FILE_STORAGE_WRITE)
+    storage.write("image_width", LENS.size[0])
+    storage.write("image_height", LENS.size[1])
+    storage.write("camera_matrix", LENS.matrix)
+    storage.write("distortion_coefficients", LENS.distortion[:4])
+    storage.release()
+    for name in ("ros.yaml", "cv.yaml"):
+        lens = read_lens(tmp_path / name)
+        assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
+        assert np.allclose(lens.distortion, LENS.distortion)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("plumb_bob|equidistant", "distortion_model is 'equidistant'; expected: plumb_bob"),
+        ("1105|-1105", "focal lengths above zero"),
+        ("image_width|width_of", "image_width and image_height are missing"),
+        ("distortion_coefficients|d", "no 4, 5 or 8 numbers"),
+        ("[1105|[[1105", "it is no YAML"),
+    ],
+)
+def test_a_lens_that_is_none_is_refused(change, said, tmp_path):
+    (tmp_path / "lens.yaml").write_text(LENS.as_ros().replace(*change.split("|")))
+    with pytest.raises(InvalidFile, match=said.replace("[", r"\[")):
+        read_lens(tmp_path / "lens.yaml")

@@ -1,0 +1,178 @@
+"""From a printed board and pictures to a calibrated arm, by the commands of docs/pictures.md."""
+
+import csv
+import re
+import sys
+import tomllib
+
+import cv2
+import numpy as np
+import pytest
+
+from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.columns import read_table
+from recalib.laboratory.command_line import DONE, REFUSED, main
+from recalib.laboratory.observe import Observed, Picture, write_observed
+from recalib.laboratory.summary import verdict
+from recalib.nominal.arms import load_arm
+from recalib.vision.lenses import read_lens
+from recalib.vision.views import board_pose
+from tests.vision.bars import Draw
+from tests.vision.rendering import LENS, Cell
+
+PICTURES = 30
+BAD = {  # of further pictures, by row
+    31: "it is mirrored",
+    32: "it is blurred",
+    33: "it is the same picture as 000.png",
+    34: "it has 640 x 480 pixels; expected: 1280 x 960",
+    35: "there is no such file",
+    36: "it is no picture",
+}
+
+
+def write_joints(path, cell: Cell, joints: np.ndarray) -> None:
+    """The table, of pictures 000.png and so on."""
+    with path.open("w", newline="") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["picture", *(f"{name} [rad]" for name in cell.arm.joints)])
+        writer.writerows([f"{row:03}.png", *its] for row, its in enumerate(joints))
+
+
+@pytest.fixture(scope="module", params=["fixed", "hand"])
+def session(request, tmp_path_factory):
+    """A folder with pictures, joints, and what was observed; the cell; where its camera is."""
+    folder, camera = tmp_path_factory.mktemp(request.param), request.param
+    cell = Cell(3, in_hand=camera == "hand")
+    joints = cell.postures(PICTURES + len(BAD))
+    pictures = [cell.picture(pose) for pose in cell.seen(joints[:PICTURES])]
+    soft = cell.picture(cell.seen(joints[:1])[0], blur=8)
+    small = cv2.resize(pictures[0], (640, 480))
+    (folder / "pictures").mkdir()
+    for row, picture in enumerate([*pictures, cv2.flip(pictures[2], 1), soft, pictures[0], small]):
+        cv2.imwrite(str(folder / "pictures" / f"{row:03}.png"), picture)
+    (folder / "pictures" / "035.png").write_text("no picture")
+    (folder / "pictures" / "notes.txt").write_text("a note")
+    write_joints(folder / "joints.csv", cell, joints)
+    assert main(["board", "--out", str(folder / "board")]) == DONE
+    files = folder / "pictures", folder / "joints.csv"
+    options = [f"--board={folder / 'board' / 'board.toml'}", f"--camera={camera}"]
+    arguments = [*map(str, files), *options, f"--out={folder / 'observed'}"]
+    assert main(["observe", *arguments]) == DONE
+    return folder, cell, camera
+
+
+@pytest.mark.slow
+def test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre(session):
+    folder, cell, camera = session
+    arguments = [str(folder / "observed"), "--tool=panda_link8", f"--out={folder / 'calibration'}"]
+    assert main(["calibrate", "panda.urdf", *arguments]) == DONE
+    made, draw = folder / "calibration", Draw(3, cell.in_hand)
+    tool = tomllib.loads((made / "hand_eye.toml").read_text())
+    moving = tool["camera" if camera == "hand" else "board"]["in"]
+    arm = load_arm(made / "arm.urdf", moving)
+    assert draw.judge(arm.forward(draw.fresh))[0] < 0.5
+    lens = read_lens(made / "lens.yaml")
+    assert np.allclose(lens.matrix, LENS.matrix, atol=2)
+    held_out, as_right = tool["held_out"], tool["arm_as_right"]["held_out"]
+    for way in ("in blocks", "at random"):
+        assert held_out[way]["millimetres"] < 0.5 and held_out[way]["pixels"] < 0.1
+        assert as_right[way]["millimetres"] > 2 and as_right[way]["pixels"] > 2
+    assert "static_transform_publisher --x " in tool["board"]["ros"]
+    assert f"the camera in {tool['camera']['in']} of arm.urdf" in (made / "summary.txt").read_text()
+
+
+@pytest.mark.slow
+def test_what_was_found_in_each_picture_is_told(session):
+    folder, _, _ = session
+    told = (folder / "observed" / "summary.txt").read_text()
+    assert told.startswith(f"{PICTURES} of {PICTURES + len(BAD)} pictures are used; reprojection")
+    page = (folder / "observed" / "page.html").read_text()
+    for row, reason in BAD.items():
+        name = f"{row - 1:03}.png"
+        said = next(line for line in told.splitlines() if line.startswith(name))
+        assert reason in said and f"(row {row})" in said and reason in page
+    assert "not in joints.csv: notes.txt" in told
+    assert page.count("<img") == PICTURES + 4 and 'src="http' not in page
+
+
+@pytest.fixture(scope="module")
+def observed(tmp_path_factory):
+    """A folder as observe writes it, of corners that nobody had to look for."""
+    folder, draw = tmp_path_factory.mktemp("corners"), Draw(4, in_hand=False)
+    write_joints(folder / "joints.csv", draw.cell, draw.joints)
+    board, table = draw.cell.board, read_table(folder / "joints.csv")
+    pictures = [
+        Picture(row, name, corners=view, error=0.2, pose=board_pose(board, draw.lens, view))
+        for row, (name, view) in enumerate(zip(table.cells["picture"], draw.views, strict=True), 1)
+    ]
+    result = Observed(table, board, draw.lens, True, False, pictures, [])
+    write_observed(result, folder / "observed", lambda path, _: path.write_text("no page"))
+    return folder / "observed", draw
+
+
+def test_pixels_are_read_and_weighed(observed):
+    folder, draw = observed
+    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+    assert result.observations.optics is not None and result.instrument == "the camera"
+    assert abs(result.board_scale - 1) < 0.01 and "Careful" not in verdict(result)
+    assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
+    poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
+    assert poses.observations.optics is None
+    assert draw.judge(poses.geometry.forward(draw.fresh))[0] > 0.5
+
+
+@pytest.mark.parametrize(
+    ("file", "change", "said"),
+    [
+        ("setup.toml", ('"fixed"', '"roof"'), "camera or lens_from_pictures is not as observe"),
+        ("corners.csv", ("u [px]", "w [px]"), "column 'u' is missing"),
+        ("corners.csv", ("\n3,", "\n99,"), "row 3 has 0 corners"),
+        ("corners.csv", ("\n3,7,", "\n3,70,"), "a corner is not among the board's 24"),
+    ],
+)
+def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_path, capsys):
+    for path in observed[0].iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / file).write_text((tmp_path / file).read_text().replace(*change))
+    arguments = [str(tmp_path), "--tool=panda_link8", f"--out={tmp_path / 'new'}"]
+    assert main(["calibrate", "panda.urdf", *arguments]) == REFUSED
+    assert said in capsys.readouterr().err
+
+
+def test_a_board_of_another_size_is_doubted(observed, tmp_path):
+    for path in observed[0].iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    text = (tmp_path / "setup.toml").read_text()
+    text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
+    (tmp_path / "setup.toml").write_text(text)
+    result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
+    assert result.board_scale == pytest.approx(36 / 33, abs=0.01)
+    assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ("j [rad]\n0\n", "column 'picture' is missing"),
+        ("picture,j [rad]\na.png,0\na.png,1\n", "'a.png' is in more than one row"),
+        ("picture,j [rad]\na.png,0\n", "none of the pictures in joints.csv can be read"),
+        ("picture,j [rad]\ngrey.png,0\n", "0 of 1 pictures can be used; .* it shows 0 markers"),
+    ],
+)
+def test_what_cannot_be_observed_is_refused(table, said, tmp_path, capsys):
+
+    (tmp_path / "joints.csv").write_text(table)
+    main(["board", "--out", str(tmp_path / "board")])
+    cv2.imwrite(str(tmp_path / "grey.png"), np.full((480, 640), 90, np.uint8))
+    arguments = [str(tmp_path), str(tmp_path / "joints.csv"), f"--out={tmp_path / 'observed'}"]
+    board = f"--board={tmp_path / 'board' / 'board.toml'}"
+    assert main(["observe", *arguments, board]) == REFUSED
+    assert re.search(said, capsys.readouterr().err)
+
+
+def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):
+    monkeypatch.delitem(sys.modules, "recalib.vision.boards")
+    monkeypatch.setitem(sys.modules, "cv2", None)
+    assert main(["board", "--out", str(tmp_path / "board")]) == REFUSED
+    assert "cv2 is missing; try: pip install" in capsys.readouterr().err

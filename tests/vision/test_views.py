@@ -1,0 +1,118 @@
+"""What corners say: of pictures, of lens and board, and of an arm."""
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from recalib.identification.linearisation import displacements
+from recalib.vision.boards import printable
+from recalib.vision.detection import Corners, Unusable, find_corners
+from recalib.vision.lenses import Lens
+from recalib.vision.views import board_pose, good_corners, optics_of
+from tests.vision.bars import NOISE, Draw
+from tests.vision.rendering import BOARD, LENS, Cell
+
+PLACES = pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
+
+
+@pytest.fixture(scope="module")
+def cell():
+    return Cell(1, in_hand=True)
+
+
+@pytest.fixture(scope="module")
+def poses(cell):
+    return cell.seen(cell.postures(3))
+
+
+def test_corners_are_found_where_they_are(cell, poses):
+    for pose in poses:
+        found = find_corners(BOARD, cell.picture(pose))
+        gaps = found.pixels - cell.project(pose)[found.numbers]
+        assert len(found.numbers) == len(BOARD.points) and np.sqrt(np.mean(gaps**2)) < 0.1
+
+
+def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
+    first, second, _ = (cell.picture(pose) for pose in poses)
+    other = replace(cell, board=replace(BOARD, dictionary="5X5_100"))
+    turned = replace(cell, board=printable("charuco", 5, 7, 0.036))
+    reasons = {
+        "it is mirrored": cv2.flip(first, 1),
+        "it is blurred": cell.picture(poses[0], blur=9),
+        "more than once": np.maximum(first, np.roll(first, 640, axis=1)),
+        "its markers are of 5X5_250, not of 4X4_100": other.picture(poses[0]),
+        "this is another one": turned.picture(poses[0]),
+        "it shows 0 markers": np.full_like(second, 90),
+    }
+    for reason, picture in reasons.items():
+        with pytest.raises(Unusable, match=reason):
+            find_corners(BOARD, picture)
+
+
+def test_a_corner_that_is_off_is_left_out(cell, poses):
+    pixels = cell.project(poses[0])
+    pixels += NOISE * np.random.default_rng(5).standard_normal(pixels.shape)
+    pixels[7] += 5
+    left = good_corners(BOARD, LENS, Corners(np.arange(len(pixels)), pixels, 1.0)).numbers
+    assert 7 not in left and len(left) > len(pixels) - 4
+
+
+@PLACES
+def test_poses_move_with_optics_as_it_is_said(in_hand):
+    cell = Cell(2, in_hand)
+    (pose,) = cell.seen(cell.postures(1))
+    view = Corners(np.arange(len(BOARD.points)), cell.project(pose), 1.0)
+    _, optics = optics_of(BOARD, LENS, [view, view], True, in_hand)
+    places = [(0, 0), (1, 1), (0, 2), (1, 2)]
+    for column, step in enumerate([1e-4] * 2 + [0.5] * 4 + [1e-3] * 2 + [1e-4] * 2):
+        ends = []
+        for sign in (-1, 1):
+            matrix, distortion = LENS.matrix.copy(), LENS.distortion.copy()
+            sheet = replace(BOARD)
+            if column < 2:
+                sheet.__dict__["points"] = BOARD.points * (1 + sign * step * np.eye(3)[column])
+            elif column < 6:
+                matrix[places[column - 2]] += sign * step
+            else:
+                distortion[column - 6] += sign * step
+            seen = board_pose(sheet, Lens(LENS.size, matrix, distortion), view)
+            ends.append(np.linalg.inv(seen) if in_hand else seen)
+        (slope,) = displacements(*np.array(ends)[:, None]) / (2 * step)
+        assert np.allclose(slope, optics.slopes[0, :, column], rtol=0.01, atol=1e-6)
+
+
+@PLACES
+def test_poses_are_as_sure_as_is_said(in_hand):
+    cell = Cell(3, in_hand)
+    poses = cell.seen(cell.postures(300))
+    pixels = np.array([cell.project(pose) for pose in poses])
+    pixels += NOISE * np.random.default_rng(3).standard_normal(pixels.shape)
+    views = [Corners(np.arange(len(BOARD.points)), its, 1.0) for its in pixels]
+    measured, optics = optics_of(BOARD, LENS, views, False, in_hand)
+    gaps = displacements(np.linalg.inv(poses) if in_hand else poses, measured)
+    squares = np.einsum("ni,nij,nj->n", gaps, np.linalg.inv(optics.spread), gaps)
+    assert squares.mean() == pytest.approx(6, rel=0.1)
+    off = np.linalg.norm(np.einsum("nij,nj->ni", optics.pixels, gaps), axis=1)
+    per_axis = off.std() ** 2 + off.mean() ** 2  # six of the numbers of noise move the pose
+    assert per_axis == pytest.approx(6 * NOISE**2 / len(BOARD.points), rel=0.1)
+
+
+@PLACES
+@pytest.mark.parametrize("returns", [0.0, 0.02], ids=["exact", "worn"])
+def test_pixels_beat_poses(in_hand, returns):
+    draw = Draw(1, in_hand, returns)
+    errors = []
+    for observations in (draw.poses, draw.pixels):
+        calibration = draw.calibration(observations)
+        errors.append(draw.judge(calibration.forward(draw.fresh))[0])
+    assert errors[1] < 0.5 and errors[1] < (0.5 if not returns else 0.9) * errors[0]
+
+
+def test_the_lens_of_an_arm_is_better_than_that_of_pictures():
+    draw = Draw(1, in_hand=False)
+    calibration = draw.calibration(draw.pixels)
+    found = calibration.estimate.parameters[calibration.model.optics_columns][2:4]
+    true = np.diag(LENS.matrix)[:2] - np.diag(draw.lens.matrix)[:2]
+    assert np.linalg.norm(found - true) < 0.5 * np.linalg.norm(true)
