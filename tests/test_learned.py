@@ -140,6 +140,17 @@ def test_robots_differ_where_one_of_their_numbers_does(robot, part):
     assert not differences(here, here)
 
 
+@pytest.mark.parametrize("name", ["a_joint", "z_joint"])
+def test_of_robots_with_other_joints_nothing_else_is_compared(robot, name):
+    here = identity(robot)
+    other = here | {
+        "joints": [name, *here["joints"][1:]],
+        "home": [its + 1 for its in here["home"]],
+    }
+    (told,) = differences(other, here)
+    assert told.startswith(f"its joints are ['{name}', ")
+
+
 def test_another_name_is_no_other_robot(robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))

@@ -10,7 +10,7 @@ from recalib.study.experiments import search, speed
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.campaign import train_seeds
 from recalib.study.experiments.ensemble import train_draws
-from recalib.study.experiments.poses import Stream
+from recalib.study.experiments.poses import ResultPoses, Stream
 from recalib.study.experiments.replay import replay
 from recalib.study.experiments.samples import sample_of, sought, winners
 from recalib.study.experiments.settings import rules_of
@@ -161,14 +161,26 @@ def test_when_trainings_are_measured(study, data_regression):
 
 
 def test_what_is_said_of_speed(study, uneven_scenario, monkeypatch, data_regression):
-    """With a clock that goes on evenly: each call takes a second."""
+    """With a clock of our own: where robots go and what is learned from counts, not how long."""
     for name, value in (("RUNS", 2), ("MOVES", 3), ("REPEATS", 3), ("ITERATIONS", 4)):
         monkeypatch.setattr(speed, name, value)
-    spent = iter([2.0, 1.0, 9.0, 3.0, 5.0, 1.0, 7.0])
-    monkeypatch.setattr(speed, "seconds", lambda function, *its: (function(*its), next(spent))[1])
+    spent, told = iter([2.0, 1.0, 9.0, 3.0, 5.0, 1.0, 7.0]), []
+
+    def seconds(function, *arguments):
+        function(*arguments)
+        told.extend(its for its in arguments if isinstance(its, np.ndarray | ResultPoses))
+        return next(spent)
+
+    monkeypatch.setattr(speed, "seconds", seconds)
     text = speed.measure_speed(
         uneven_scenario,
         [SAMPLES / "improved_200.csv"],
         {"improved": study.learners["improved"]},
     )
-    data_regression.check(text.splitlines())
+    data_regression.check(plain({"text": text.splitlines(), "told": told[-2:]}))
+
+
+def test_seconds_are_the_difference_of_two_looks_at_the_clock(monkeypatch):
+    clock = iter([3.0, 10.5])
+    monkeypatch.setattr(speed.time, "perf_counter", lambda: next(clock))
+    assert speed.seconds(abs, -1) == 7.5
