@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 from recalib.errors import RecalibError
 from recalib.spelling import instead
 
+EXPECTED = "; expected: "
 MOST_SHOWN = 10  # mistakes
 LONGEST = 60  # characters of a value that are shown
 
@@ -53,7 +54,7 @@ def dotted(path: KeyPath) -> str:
 
 def unlike(path: KeyPath, stood: Any, valid: str, *also: KeyPath) -> Mistake:
     """A value that is none of the valid ones."""
-    return Mistake(path, f" is {shown(stood)}; expected: {valid}", also)
+    return Mistake(path, f" is {shown(stood)}{EXPECTED}{valid}", also)
 
 
 def unknown(path: KeyPath, name: str, valid: Iterable[str]) -> Mistake:

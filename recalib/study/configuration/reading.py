@@ -33,7 +33,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
-        raise _at_its_place(refusals(error), whole, own) from None
+        raise _at_its_place(refusals(error, whole.plain()), whole, own) from None
     for find in checks:
         if mistakes := list(find(study)):
             raise _at_its_place(mistakes, whole, own)

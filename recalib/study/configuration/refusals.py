@@ -1,11 +1,16 @@
 """What the types refuse, as mistakes: the key, what stood there, and pydantic's own words."""
 
 import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from functools import reduce
+from operator import getitem
+from typing import Any
 
 from pydantic import ValidationError
 
-from recalib.spelling import instead, nearest
-from recalib.study.configuration.messages import Mistake, unlike
+from recalib.spelling import instead, listed, nearest
+from recalib.study.configuration.messages import EXPECTED, Mistake, unlike
 from recalib.study.configuration.schema import find, keys, meaning
 
 KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
@@ -19,8 +24,11 @@ SAID = {
 }
 
 
-def refusals(error: ValidationError) -> list[Mistake]:
-    """What is wrong with a configuration: a mistake for each key.
+MISSING = " is missing: "
+
+
+def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
+    """What is wrong with the `whole` configuration: a mistake for each key.
 
     A misspelt key is no missing one, too.
     """
@@ -39,12 +47,29 @@ def refusals(error: ValidationError) -> list[Mistake]:
             case "missing" if path in meant:
                 pass
             case "missing":
-                found[path] = Mistake(path, f" is missing: {meaning(schema)}")
+                found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:
                 pass  # since none of its values is valid, which each of them says
             case _:
                 found.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
-    return list(found.values())
+    return [*_together(found.values(), whole)]
+
+
+def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
+    """Several keys that one part lacks, and several wrong values of one list, told at once."""
+    groups = defaultdict(list)
+    for mistake in mistakes:
+        missing = mistake.fault.startswith(MISSING)
+        shared = missing or isinstance(mistake.path[-1], int)
+        groups[mistake.path[:-1] if shared else mistake.path, missing].append(mistake)
+    for (path, missing), its in groups.items():
+        if len(its) == 1:
+            yield its[0]
+        elif missing:
+            yield Mistake(path, f" lacks {listed((str(one.path[-1]) for one in its), 'and')}")
+        else:
+            _, _, expected = its[0].fault.partition(EXPECTED)
+            yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
 
 
 def _expected(message: str) -> str:
