@@ -25,8 +25,16 @@ from recalib.study.recording.viewer import HERE, answer, free_port, viewer
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
 VIEWER = ("index.html", "re_viewer.js", "re_viewer_bg.wasm", "favicon.ico")
 ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # fonts of the viewer's page
-# The viewer would tell its makers of its use, and ask for news: in a browser it has no setting for
-# this. It is WebAssembly, which counts as eval.
+# It tells its makers of its use and asks for news, which it has no setting for in a browser: what
+# is elsewhere answers at once, with nothing.
+QUIET = """<head><script>
+const fetched = window.fetch;
+window.fetch = (asked, how) =>
+  new URL(asked.url ?? asked, location).origin === location.origin
+    ? fetched(asked, how)
+    : Promise.resolve(new Response(null, {status: 204}));
+</script>"""
+# The viewer is WebAssembly, which counts as eval.
 POLICY = "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'"
 
 
@@ -79,7 +87,8 @@ def _copy_viewer(folder: Path) -> None:
             fetch = partial(_fetch, f"http://{HERE}:{port}/{name}")
             (folder / name).write_bytes(answer(process, fetch))
     page = folder / "index.html"
-    page.write_text(ELSEWHERE.sub("", page.read_text(encoding="utf-8")), encoding="utf-8")
+    text = ELSEWHERE.sub("", page.read_text(encoding="utf-8"))
+    page.write_text(text.replace("<head>", QUIET, 1), encoding="utf-8")
 
 
 def _fetch(address: str) -> bytes:
