@@ -144,4 +144,4 @@ runpy.run_path("save_and_load.py")
     examples = shutil.copytree(ROOT / "examples", tmp_path / "examples")
     only = os.environ | {"PYTHONPATH": str(tmp_path)}
     told = subprocess.check_output([sys.executable, "-c", code], cwd=examples, env=only, text=True)
-    assert "commanded corrected: 0.0000" in told
+    assert "commanded corrected: mean error 0.0000" in told

@@ -125,7 +125,7 @@ def test_every_figure_is_shown_with_a_caption(visit, continued):
 
 
 def test_the_front_leads_to_every_kind_of_page_and_shows_no_graph(visit, browser):
-    for words in ("every claim with its criterion", "judged by", "all errors", "cite"):
+    for words in ("every claim with its criterion", "claims that it judges", "all errors", "cite"):
         assert words in visit.front
     click(browser, "//nav//ol//a")
     click(browser, "//nav//span[.='Workflow']")
