@@ -46,6 +46,9 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
                 found[path] = Mistake(path, f": unknown key; {instead(last, valid)}")
             case "missing" if path in meant:
                 pass
+            case "missing" if isinstance(last, int):  # the last of so many in a list
+                stood = reduce(getitem, path[:-1], whole)
+                found[path[:-1]] = unlike(path[:-1], stood, f"{last + 1} values or more")
             case "missing":
                 found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:
@@ -66,7 +69,7 @@ def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
         if len(its) == 1:
             yield its[0]
         elif missing:
-            yield Mistake(path, f" lacks {listed((str(one.path[-1]) for one in its), 'and')}")
+            yield Mistake(path, f" lacks {listed((one.path[-1] for one in its), 'and')}")
         else:
             _, _, expected = its[0].fault.partition(EXPECTED)
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")

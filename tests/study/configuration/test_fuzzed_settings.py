@@ -48,7 +48,7 @@ REFUSAL = re.compile(
     r"(the command line|config\.yaml:\d+:\d+): [a-z]\S*"
     r"(: (unknown|no valid) \w+; .+|: a name with another meaning; try: a new one"
     r"| (is|has|lacks|moves) .+; ((valid|expected): .+|did you mean [\w.]+\?)"
-    r"|: .+ again; expected: once| is missing: .+| does not fit: .+)",
+    r"|: .+ again; expected: once| is missing: .+| lacks [\w, ]+| does not fit: .+)",
     re.DOTALL,
 )
 
