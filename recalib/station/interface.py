@@ -1,0 +1,52 @@
+"""What a program must offer to be calibrated live: move, say where it stands, measure, stop."""
+
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+
+from recalib.errors import RecalibError
+
+
+class StationFailed(RecalibError):
+    """A station cannot go on: no further move may be asked of it."""
+
+
+class Station(Protocol):
+    """An arm with its untouched controller, and an instrument."""
+
+    @property
+    def joints(self) -> Sequence[str]:
+        """Names of the joints, as the URDF has them, in the order of all angles below."""
+        ...
+
+    @property
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """The lowest and highest angles (joints,) that it allows [rad], m where a joint slides."""
+        ...
+
+    def move(self, angles: np.ndarray, speed: float) -> None:
+        """Go to joint angles (joints,) [rad, m], and return once it stands there.
+
+        Args:
+            speed: of the fastest joint, as a part of what the joint allows, in (0, 1].
+
+        Raises StationFailed: it did not get there, or touched something.
+        """
+        ...
+
+    def angles(self) -> np.ndarray:
+        """Where its encoders say it is now: (joints,) rad, m."""
+        ...
+
+    def measure(self) -> Mapping[str, float | str] | None:
+        """What the instrument sees, as cells of a row of measurements by their column's header.
+
+        For instance `x [m]`, `y [m]`, `z [m]` and `qx`, `qy`, `qz`, `qw`, or `picture`, the path of
+        a file. None where it does not see the target. Raises StationFailed.
+        """
+        ...
+
+    def stop(self) -> None:
+        """Stand still, now. It raises nothing, and may be called at any time, also twice."""
+        ...
