@@ -54,5 +54,5 @@ def test_a_file_that_is_not_there_is_refused_with_the_reason(tmp_path):
 
 def test_numbers_that_are_none_are_refused(path):
     write_archive(path, {"format": KIND[0], "version": KIND[1]}, {"a": {"b": np.array([np.nan])}})
-    with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are none"):
+    with pytest.raises(InvalidFile, match=r"a\.npz: it holds numbers that are not finite"):
         read(path)

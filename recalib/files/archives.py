@@ -72,7 +72,7 @@ def read_archive(
         if digest != _digest(header, arrays):
             raise ValueError
     if any(array.dtype.kind == "f" and not np.isfinite(array).all() for array in arrays.values()):
-        raise InvalidFile(path, "it holds numbers that are none")
+        raise InvalidFile(path, "it holds numbers that are not finite")
     return header, _nested({name: array[()] for name, array in arrays.items()})
 
 

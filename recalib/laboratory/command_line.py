@@ -55,52 +55,75 @@ def _parser() -> argparse.ArgumentParser:
         own.set_defaults(command=command, makes_folder=folder)
         return own
 
-    own = add("calibrate", _calibrate, "identify an arm from measurements")
-    own.add_argument("urdf", help="a file, or the name of one of example-robot-data")
+    own = add("calibrate", _calibrate, "identify the arm's parameters from measurements")
+    own.add_argument("urdf", help="URDF file, or the name of an arm of example-robot-data")
     own.add_argument(
-        "measurements", type=Path, help="a table (CSV), or the folder that observe wrote"
+        "measurements", type=Path, help="table (CSV), or the folder that observe wrote"
     )
-    own.add_argument("--out", default="calibration", help="a new folder (%(default)s)")
-    own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
-    own.add_argument("--base", help="link in whose frame poses are; the root unless given")
-    own.add_argument("--description", type=Path, help="what the table does not say itself (TOML)")
+    own.add_argument(
+        "--out", default="calibration", help="new folder to write (default: %(default)s)"
+    )
+    own.add_argument("--tool", help="tool link; needed only if the arm has several ends")
+    own.add_argument("--base", help="link whose frame poses are given in (default: the root)")
+    own.add_argument("--description", type=Path, help="frames, columns and distances (TOML)")
 
-    own = add("correct", _correct, "commands that take the arm to what is desired")
-    own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
-    own.add_argument("desired", type=Path, help="poses or joint coordinates (CSV)")
+    own = add("correct", _correct, "compute commands that reach the desired poses")
+    own.add_argument("calibration", type=Path, help="folder that calibrate wrote")
+    own.add_argument("desired", type=Path, help="desired poses or joint coordinates (CSV)")
     own.add_argument(
         "--frame",
         choices=("base", "instrument"),
         default="base",
-        help="in which poses are: of the tool link in the base, or of a target in the instrument's",
+        help="frame of the poses: the tool link in the base, or a target in the instrument's frame"
+        " (default: %(default)s)",
     )
-    own.add_argument("--out", default="commands.csv", help="a new file (%(default)s)")
+    own.add_argument(
+        "--out", default="commands.csv", help="new file to write (default: %(default)s)"
+    )
 
-    own = add("next", _next, "the most informative postures to measure next")
-    own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
-    own.add_argument("candidates", type=Path, nargs="?", help="to choose from (CSV)")
-    own.add_argument("--count", type=_positive, default=10, help="how many (%(default)s)")
-    own.add_argument("--out", default="next.csv", help="a new file (%(default)s)")
+    own = add(
+        "next",
+        _next,
+        "propose the most informative postures, and say whether more are worth measuring",
+    )
+    own.add_argument("calibration", type=Path, help="folder that calibrate wrote")
+    own.add_argument(
+        "candidates", type=Path, nargs="?", help="postures to choose from (CSV); drawn unless given"
+    )
+    own.add_argument(
+        "--count", type=_positive, default=10, help="number of postures (default: %(default)s)"
+    )
+    own.add_argument("--out", default="next.csv", help="new file to write (default: %(default)s)")
 
-    own = add("urdf", _urdf, "the URDF of an arm, from its Denavit-Hartenberg parameters")
-    own.add_argument("links", type=Path, help="a table (CSV): joint, a, alpha, d, theta, kind")
-    own.add_argument("--convention", default="standard", help="or modified (%(default)s)")
-    own.add_argument("--out", default="arm.urdf", help="a new file (%(default)s)")
+    own = add("urdf", _urdf, "write a URDF from Denavit-Hartenberg parameters")
+    own.add_argument("links", type=Path, help="table (CSV): joint, a, alpha, d, theta, kind")
+    own.add_argument(
+        "--convention", default="standard", help="standard or modified (default: %(default)s)"
+    )
+    own.add_argument("--out", default="arm.urdf", help="new file to write (default: %(default)s)")
 
-    own = add("board", _board, "a board to print and to measure by pictures")
-    own.add_argument("--kind", default="charuco", help="or apriltag (%(default)s)")
-    own.add_argument("--columns", type=_positive, default=7, help="(%(default)s)")
-    own.add_argument("--rows", type=_positive, default=5, help="(%(default)s)")
-    own.add_argument("--square", default="36 mm", help="from one to the next (%(default)s)")
-    own.add_argument("--out", default="board", help="a new folder (%(default)s)")
+    own = add("board", _board, "draw a calibration board to print")
+    own.add_argument("--kind", default="charuco", help="charuco or apriltag (default: %(default)s)")
+    own.add_argument(
+        "--columns", type=_positive, default=7, help="squares in a row (default: %(default)s)"
+    )
+    own.add_argument(
+        "--rows", type=_positive, default=5, help="rows of squares (default: %(default)s)"
+    )
+    own.add_argument("--square", default="36 mm", help="width of a square (default: %(default)s)")
+    own.add_argument("--out", default="board", help="new folder to write (default: %(default)s)")
 
-    own = add("observe", _observe, "find a board in pictures, and calibrate the lens")
-    own.add_argument("pictures", type=Path, help="a folder")
-    own.add_argument("joints", type=Path, help="a table (CSV) of joints, with a column picture")
-    own.add_argument("--board", type=Path, default="board/board.toml", help="(%(default)s)")
-    own.add_argument("--lens", type=Path, help="its calibration (YAML); from pictures unless given")
-    own.add_argument("--camera", choices=("fixed", "hand"), default="fixed", help="(%(default)s)")
-    own.add_argument("--out", default="observed", help="a new folder (%(default)s)")
+    own = add("observe", _observe, "find the board in pictures, and calibrate the lens")
+    own.add_argument("pictures", type=Path, help="folder of pictures")
+    own.add_argument(
+        "joints", type=Path, help="table (CSV) of joint coordinates, with a column picture"
+    )
+    own.add_argument("--board", type=Path, default="board/board.toml", help="its description")
+    own.add_argument(
+        "--lens", type=Path, help="lens calibration (YAML); from the pictures unless given"
+    )
+    own.add_argument("--camera", choices=("fixed", "hand"), default="fixed", help="where it is")
+    own.add_argument("--out", default="observed", help="new folder to write (default: %(default)s)")
     return parser
 
 

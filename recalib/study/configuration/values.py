@@ -168,3 +168,5 @@ for kind, pattern, first in (
     ),
 ):
     _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{kind}", re.compile(f"^({pattern})$"), first)
+# YAML 1.2 has no octal numbers with a leading zero: 010 is ten, and 08 is eight.
+_Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
