@@ -5,7 +5,6 @@ All of it stays on this machine: the browser itself is told to ask for nothing e
 
 import argparse
 import getpass
-import re
 import socket
 import sys
 from collections.abc import Iterator
@@ -14,26 +13,15 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from urllib.request import urlopen
 
 import jinja2
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
-from recalib.study.recording.viewer import HERE, answer, free_port, viewer
+from recalib.study.recording.viewer import HERE
+from recalib.study.recording.web_viewer import copy_viewer
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
-VIEWER = ("index.html", "re_viewer.js", "re_viewer_bg.wasm", "favicon.ico")
-ELSEWHERE = re.compile(r"<link[^>]*https://[^>]*>")  # fonts of the viewer's page
-# It tells its makers of its use and asks for news, which it has no setting for in a browser: what
-# is elsewhere answers at once, with nothing.
-QUIET = """<head><script>
-const fetched = window.fetch;
-window.fetch = (asked, how) =>
-  new URL(asked.url ?? asked, location).origin === location.origin
-    ? fetched(asked, how)
-    : Promise.resolve(new Response(null, {status: 204}));
-</script>"""
 # The viewer is WebAssembly, which counts as eval.
 POLICY = "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'"
 
@@ -50,7 +38,7 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
     with TemporaryDirectory() as temporary:
         root = Path(temporary)
         (root / "results").symlink_to(folder.resolve())
-        _copy_viewer(root / "viewer")
+        copy_viewer(root / "viewer")
         study = SHIPPED if folder.name == RESULTS else folder.name
         known = {"study": study, "recordings": recordings}
         known["report"] = (folder / "report.html").exists()
@@ -75,25 +63,6 @@ class _Handler(SimpleHTTPRequestHandler):
 
     def log_message(self, *args):
         """Say nothing of each request."""
-
-
-def _copy_viewer(folder: Path) -> None:
-    """The viewer's files: they are part of its program, which serves them."""
-    folder.mkdir()
-    port = free_port()
-    # with an address to show it starts no other server, which would take a core all the time
-    with viewer("--serve-web", "--web-viewer-port", port, f"http://{HERE}/_.rrd") as process:
-        for name in VIEWER:
-            fetch = partial(_fetch, f"http://{HERE}:{port}/{name}")
-            (folder / name).write_bytes(answer(process, fetch))
-    page = folder / "index.html"
-    text = ELSEWHERE.sub("", page.read_text(encoding="utf-8"))
-    page.write_text(text.replace("<head>", QUIET, 1), encoding="utf-8")
-
-
-def _fetch(address: str) -> bytes:
-    with urlopen(address) as page:
-        return page.read()
 
 
 def main(arguments: list[str] | None = None) -> None:

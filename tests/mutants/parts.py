@@ -43,7 +43,8 @@ PARTS = {
         ("recalib/identification", "recalib/numerics"),
         ("tests/identification", "tests/test_regression.py"),
     ),
-    "laboratory": Part(("recalib/laboratory",), ("tests/laboratory",)),
+    "laboratory": Part(("recalib/laboratory",), ("tests/laboratory", "tests/vision")),
+    "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
     "nominal": Part(
         ("recalib/nominal",), ("tests/nominal", "tests/damaged", "tests/test_meshes.py")

@@ -7,7 +7,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
 import pytest
+import rerun
+from PIL import Image
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.wait import WebDriverWait
@@ -26,6 +29,9 @@ LINKS = "return [...document.links].map(link => link.href)"
 READY = "return performance.getEntriesByType('navigation')[0].domContentLoadedEventStart"
 TOO_WIDE = """return [...document.querySelectorAll("#try *")].filter(its =>
   its.getBoundingClientRect().right > innerWidth).map(its => its.outerHTML.slice(0, 80))"""
+NO_PAGES = "404.html", "viewer/index.html"  # for servers; for a frame in a page
+MAGENTA = 255, 0, 255  # a colour that nothing else has
+SOFTWARE = "--use-angle=swiftshader", "--enable-unsafe-swiftshader"  # WebGL without a graphics card
 SCHEME = "return document.body.dataset.mdColorScheme"
 SCHEMES = {"light": "default", "dark": "slate"}
 # text, signatures, commands, sliders
@@ -38,10 +44,14 @@ pytestmark = [pytest.mark.slow, pytest.mark.xdist_group(name="site")]
 def site(tmp_path_factory) -> Path:
     """The site, built as `make docs` builds it: a broken link would stop it."""
     folder = tmp_path_factory.mktemp("site")
+    recording = tmp_path_factory.mktemp("recordings") / "magenta.rrd"
+    with rerun.RecordingStream("magenta") as stream:
+        stream.save(recording)
+        stream.log("magenta", rerun.Image(np.full((9, 16, 3), MAGENTA, np.uint8)))
     built = subprocess.run(
         [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", folder],
         cwd=ROOT,
-        env={"PATH": "", "NO_MKDOCS_2_WARNING": "1"},
+        env={"PATH": "", "NO_MKDOCS_2_WARNING": "1", "RECORDING": str(recording)},
         text=True,
         capture_output=True,
         check=False,
@@ -57,7 +67,7 @@ def visit(site, tmp_path_factory) -> SimpleNamespace:
     met = SimpleNamespace(violations={}, broken=[], links=set())
     with chromium(tmp_path_factory.mktemp("browser")) as browser:
         browser.set_script_timeout(PATIENCE)
-        pages = sorted({*site.rglob("*.html")} - {site / "404.html"})  # that is for servers
+        pages = sorted({*site.rglob("*.html")} - {site / page for page in NO_PAGES})
         for scheme, shown in {"light": pages, "dark": [site / page for page in BY_NIGHT]}.items():
             if scheme == "dark":
                 browser.find_element(By.CSS_SELECTOR, "label[title='Dark']").click()
@@ -131,6 +141,24 @@ def test_an_arm_learns_in_the_browser_by_keyboard_on_a_narrow_screen(site, tmp_p
             lambda _: browser.find_element(By.CSS_SELECTOR, "[role=status]").text == said
         )
         assert severe(browser) == []
+
+
+@needs_chromium
+def test_a_recording_is_shown_on_its_page_without_a_server(site, tmp_path):
+    with chromium(tmp_path / "browser", *SOFTWARE) as browser:
+
+        def drawn(_) -> bool:
+            browser.save_screenshot(str(tmp_path / "page.png"))
+            with Image.open(tmp_path / "page.png") as image:
+                return MAGENTA in {colour for _, colour in image.convert("RGB").getcolors(2**24)}
+
+        browser.get((site / "docs" / "watch.html").as_uri())
+        browser.find_element(By.CSS_SELECTOR, "button.embed").send_keys(Keys.ENTER)
+        frame = browser.find_element(By.CSS_SELECTOR, "iframe.embed")
+        browser.execute_script("arguments[0].scrollIntoView()", frame)
+        WebDriverWait(browser, 2 * PATIENCE, 1).until(drawn, "the recording is not drawn")
+        assert severe(browser) == []
+        assert {urlsplit(url).scheme for url in requests(browser)} <= {"file", "data", "blob"}
 
 
 @needs_chromium

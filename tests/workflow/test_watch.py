@@ -66,7 +66,7 @@ def test_where_nothing_was_recorded_it_says_what_makes_a_recording(tmp_path):
 def test_it_listens_here_alone_and_says_how_to_get_there(tmp_path, monkeypatch, capsys):
     (tmp_path / "recordings").mkdir()
     (tmp_path / "recordings" / "fall.rrd").touch()
-    monkeypatch.setattr(watch, "_copy_viewer", lambda folder: folder.mkdir())
+    monkeypatch.setattr(watch, "copy_viewer", lambda folder: folder.mkdir())
     monkeypatch.setattr(watch.ThreadingHTTPServer, "serve_forever", lambda server: None)
     with socket.socket() as taken:
         taken.bind((watch.HERE, 0))

@@ -5,6 +5,7 @@ from pathlib import Path
 from mkdocs.structure.files import File, Files
 
 import recalib
+from recalib.study.recording.web_viewer import ADDRESS, embed
 
 SHOWN = (
     "*.md",
@@ -19,7 +20,13 @@ SHOWN = (
     "docs/*.js",
 )
 PLACES = {"docs/index.md": "index.html", "README.md": "README.html"}  # others keep theirs
-WIDE = "docs/index.md", "docs/try.md"  # without columns beside the text
+WIDE = "docs/index.md", "docs/try.md", "docs/watch.md"  # without columns beside the text
+WATCH, VIEWER = "docs/watch.md", "viewer"
+# Where the picture is in the repository: the viewer has 35 MB, so nothing is loaded before a click.
+EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{VIEWER}/{ADDRESS}">
+Watch the recording here (35 MB)</button>
+
+"""
 REFERENCE = """# Reference
 
 What `import recalib` has. [How it fits together](library.md).
@@ -42,10 +49,23 @@ def on_files(files: Files, config) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, page, config, files: Files) -> None:
-    """Give some pages the whole width."""
+def on_page_markdown(markdown: str, page, config, files: Files) -> str:
+    """Give some pages the whole width, and one the recording, if it was made."""
     if page.file.src_uri in WIDE:
         page.meta["hide"] = ["navigation", "toc"]
+    if page.file.src_uri == WATCH and _recording(config).exists():
+        return markdown.replace("![", f"{EMBEDDED}![", 1)
+    return markdown
+
+
+def on_post_build(config) -> None:
+    """Put the viewer beside the pages, with a recording in it."""
+    if _recording(config).exists():
+        embed(_recording(config), Path(config.site_dir) / VIEWER)
+
+
+def _recording(config) -> Path:
+    return Path(config.config_file_path).parent / config.extra["recording"]
 
 
 def reference() -> str:

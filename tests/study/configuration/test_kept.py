@@ -128,12 +128,13 @@ def test_ordered_and_distinct_values_are_as_kept(data_regression):
 
 TEXT = """\
 # a study
-names: {one: 1, two: -2.5e3, three: yes, four: 0x10, five: 1:30, six: 2026-11-23, seven: 08, eight: -010}
+names: {one: 1, two: -2.5e3, three: yes, four: 0x10, five: 1:30, six: 2026-11-23}
 list: [true, False, ~, null, .inf, -.inf, 1e5, +7, 1_000, "4", '', 4 cm]
 base: &base {a: 1, b: [2, {c: 3}]}
 other: {<<: *base, a: 9}
 again: *base
 empty:
+zeros: [08, -010]
 """
 WRONG = {
     "twice": "a: 1\nb: {c: 1,\n  c: 2}\n",

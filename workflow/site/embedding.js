@@ -1,0 +1,9 @@
+// A recording takes the place of the button that asks for it.
+document$.subscribe(() => {
+  for (const button of document.querySelectorAll("button.embed"))
+    button.onclick = () => {
+      const frame = document.createElement("iframe");
+      Object.assign(frame, {src: button.dataset.address, title: "A recording", className: "embed"});
+      button.replaceWith(frame);
+    };
+});
