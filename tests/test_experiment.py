@@ -133,3 +133,12 @@ def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every)
 def test_long_trainings_are_measured_on_a_logarithmic_grid():
     grid = measuring_grid(10_000, 4, 200, 50)
     assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51
+
+
+def test_progress_tells_the_means_over_all_runs(history, controller, damaged, poses):
+    seen = []
+    train(Plant(controller, damaged), learner(3), *poses, [0, 8], lambda *said: seen.append(said))
+    means = history.position[:, [0, 2], 0].mean(axis=0), history.orientation[:, [0, 2], 0]
+    assert [its[0] for its in seen] == [0, 8]
+    assert [its[1] for its in seen] == pytest.approx(100 * means[0])
+    assert [its[2] for its in seen] == pytest.approx(np.degrees(means[1].mean(axis=0)))

@@ -141,3 +141,23 @@ def test_rows_of_one_time_may_come_before_others(gantry, write):
 def test_times_are_seconds_or_dates(column, cells, gantry, write):
     times = read_measurements(write(joints() | positions() | {column: cells}), gantry).times
     assert times - times[0] == pytest.approx(1.5 * np.arange(ROWS))
+
+
+@pytest.mark.parametrize(
+    ("column", "cells", "said"),
+    [
+        ("time [s]", [0, 1, 2, 3, 2.5, *range(6, ROWS + 1)], "row 5 was measured before row 4"),
+        ("time [s]", [7] * ROWS, "column 'time' is the same in all rows"),
+    ],
+)
+def test_times_that_run_backwards_or_stand_still_are_refused(column, cells, said, gantry, write):
+    with pytest.raises(InvalidFile, match=said):
+        read_measurements(write(joints() | positions() | {column: cells}), gantry)
+
+
+def test_one_quaternion_of_another_length_is_refused(gantry, write):
+    turns = {name: [0.0] * ROWS for name in ("qx", "qy", "qz")} | {"qw": [1.0] * ROWS}
+    turns["qw"][2] = 0.9
+    said = r"the quaternion in row 3 has length 0\.9; expected: 1"
+    with pytest.raises(InvalidFile, match=said):
+        read_measurements(write(joints() | positions() | turns), gantry)

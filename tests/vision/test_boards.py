@@ -1,8 +1,11 @@
 """Boards on paper and in TOML, and lenses in YAML."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
+import yaml
 from pypdf import PdfReader
 
 from recalib.errors import InvalidFile, InvalidSetting
@@ -79,6 +82,7 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
     ("change", "said"),
     [
         ("plumb_bob|equidistant", "distortion_model is 'equidistant'; expected: plumb_bob"),
+        ("1105|.nan", "focal lengths above zero"),
         ("1105|-1105", "focal lengths above zero"),
         ("image_width|width_of", "image_width and image_height are missing"),
         ("distortion_coefficients|d", "no 4, 5 or 8 numbers"),
@@ -89,3 +93,55 @@ def test_a_lens_that_is_none_is_refused(change, said, tmp_path):
     (tmp_path / "lens.yaml").write_text(LENS.as_ros().replace(*change.split("|")))
     with pytest.raises(InvalidFile, match=said.replace("[", r"\[")):
         read_lens(tmp_path / "lens.yaml")
+
+
+@pytest.mark.parametrize("size", [(7, 5, 0.036), (3, 2, 0.09)], ids=["A4", "A3"])
+def test_the_bar_below_a_board_is_100_mm_long(size, tmp_path):
+    board = printable("charuco", *size)
+    wide, high = draw_board(board, tmp_path / "board.png")
+    page = cv2.imread(str(tmp_path / "board.png"), cv2.IMREAD_GRAYSCALE)
+    assert np.divide(page.shape, DOTS / 25.4) == pytest.approx([high, wide], abs=0.3)
+    below = round((8 + 1e3 * board.size[1] + 2) * DOTS / 25.4)  # px
+    dark = page[below:] < 128
+    longest = dark.sum(axis=1).max()
+    (rows,) = np.nonzero(dark.sum(axis=1) == longest)
+    (columns,) = np.nonzero(dark[rows[0]])
+    assert np.ptp(columns) + 1 == longest  # one piece
+    assert longest * 25.4 / DOTS == pytest.approx(100, abs=0.3)
+    assert np.ptp(rows) * 25.4 / DOTS == pytest.approx(2, abs=0.4)
+    left = (wide - 1e3 * board.size[0]) / 2
+    assert columns[0] * 25.4 / DOTS == pytest.approx(left, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"kind": "chess"}, "kind is 'chess'; expected: charuco or apriltag"),
+        ({"columns": 2, "rows": 2}, ""),
+        ({"rows": 51}, "rows is 51; expected: a whole number from 2 to 50"),
+        ({"columns": 6.0}, "columns is 6.0; expected: a whole number from 2 to 50"),
+        ({"marker": 0.0365}, "marker is '36.5 mm'; expected: less than the square"),
+        ({"marker": 0.0}, "marker is '0 mm'; expected: less than the square"),
+    ],
+)
+def test_what_cannot_be_a_board_is_refused(change, said):
+    if not said:
+        assert replace(BOARDS["charuco"], **change).markers == 2
+    else:
+        with pytest.raises(InvalidSetting) as refused:
+            replace(BOARDS["charuco"], **change)
+        assert said in str(refused.value)
+
+
+def test_a_lens_is_written_as_ros_reads_it():
+    said = yaml.safe_load(LENS.as_ros())
+    (fx, _, cx), (_, fy, cy), _ = LENS.matrix.tolist()
+    assert (said["image_width"], said["image_height"]) == LENS.size
+    assert said["distortion_model"] == "plumb_bob"
+    for name, rows, columns, data in (
+        ("camera_matrix", 3, 3, LENS.matrix.ravel().tolist()),
+        ("distortion_coefficients", 1, 5, LENS.distortion.tolist()),
+        ("rectification_matrix", 3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]),
+        ("projection_matrix", 3, 4, [fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0]),
+    ):
+        assert said[name] == {"rows": rows, "cols": columns, "data": pytest.approx(data)}

@@ -9,12 +9,16 @@ import cv2
 import numpy as np
 import pytest
 
+from recalib.errors import RecalibError
+from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.observe import Observed, Picture, write_observed
+from recalib.laboratory.hand_eye import hand_eye
+from recalib.laboratory.observe import Observed, Picture, observe, write_observed
 from recalib.laboratory.summary import verdict
 from recalib.nominal.arms import load_arm
+from recalib.vision.detection import Corners
 from recalib.vision.lenses import read_lens
 from recalib.vision.views import board_pose
 from tests.vision.bars import Draw
@@ -176,3 +180,72 @@ def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, c
     monkeypatch.setitem(sys.modules, "cv2", None)
     assert main(["board", "--out", str(tmp_path / "board")]) == REFUSED
     assert "cv2 is missing; try: pip install" in capsys.readouterr().err
+
+
+@pytest.fixture
+def taken(tmp_path, monkeypatch):
+    """Files that observe needs, and what it finds in so many pictures: nobody has to look."""
+
+    def take(count: int, sharp: float = 1.0) -> tuple:
+        cell = Cell(5)
+        joints, random = cell.postures(count), np.random.default_rng(6)
+        views = []
+        for number, pose in enumerate(cell.seen(joints)):
+            pixels = cell.project(pose)
+            pixels += (0.1 + 0.02 * number) * random.standard_normal(pixels.shape)
+            views.append(Corners(np.arange(len(pixels)), pixels, sharp))
+            picture = np.full((*LENS.size[::-1],), number, np.uint8)
+            cv2.imwrite(str(tmp_path / f"{number:03}.png"), picture)
+        write_joints(tmp_path / "joints.csv", cell, joints)
+        (tmp_path / "board.toml").write_text(cell.board.described())
+        (tmp_path / "lens.yaml").write_text(LENS.as_ros())
+        monkeypatch.setattr(
+            "recalib.laboratory.observe.find_corners", lambda board, grey: views[grey[0, 0]]
+        )
+        files = (tmp_path / name for name in ("joints.csv", "board.toml", "lens.yaml"))
+        return cell, views, (tmp_path, *files)
+
+    return take
+
+
+def test_reprojection_errors_are_root_mean_squares(taken):
+    cell, views, files = taken(12)
+    result = observe(*files)
+    assert len(result.used) == 12 and not result.fitted
+    squares = []
+    for its, view in zip(result.pictures, views, strict=True):
+        kept = its.corners
+        assert np.array_equal(kept.pixels, view.pixels[kept.numbers])
+        off = kept.pixels - cell.project(its.pose)[kept.numbers]
+        squares.append((off**2).sum(axis=1).mean())
+        assert its.error == pytest.approx(np.sqrt(squares[-1]), rel=1e-6)
+    assert result.error == pytest.approx(np.sqrt(np.mean(squares) / 2), rel=1e-6)
+
+
+def test_nine_pictures_are_too_few(taken):
+    with pytest.raises(RecalibError, match="9 of 9 pictures can be used; expected: at least 10"):
+        observe(*taken(9)[2])
+
+
+def test_hand_eye_says_places_and_held_out_errors(observed):
+    folder, _ = observed
+    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+    said = tomllib.loads(hand_eye(result))
+    for place in result.places:
+        its = said[place.name.removeprefix("the ")]
+        numbers = [float(text.removesuffix(" mm")) for text in its["position"]]
+        assert its["in"] == place.link
+        assert numbers == pytest.approx(1e3 * place.pose[:3, 3], abs=1e-4)
+    optics, validation = result.observations.optics, result.validation
+    for section, kind in (
+        (said["held_out"], validation.chosen),
+        (said["arm_as_right"]["held_out"], NOTHING),
+    ):
+        for way in WAYS:
+            off = np.einsum("nij,nj->ni", optics.pixels, validation.held_out[way][kind].residuals)[
+                result.counted
+            ]
+            pixels = np.sqrt((off**2).sum(axis=1)).mean()
+            assert section[way]["pixels"] == pytest.approx(pixels, rel=1e-3)
+            millimetres = 1e3 * validation.mean_error(way, kind)
+            assert section[way]["millimetres"] == pytest.approx(millimetres, rel=1e-3)

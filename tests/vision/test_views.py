@@ -116,3 +116,22 @@ def test_the_lens_of_an_arm_is_better_than_that_of_pictures():
     found = calibration.estimate.parameters[calibration.model.optics_columns][2:4]
     true = np.diag(LENS.matrix)[:2] - np.diag(draw.lens.matrix)[:2]
     assert np.linalg.norm(found - true) < 0.5 * np.linalg.norm(true)
+
+
+@pytest.mark.parametrize("blur", [0.8, 1.5, 2.5])
+def test_a_blur_is_measured_in_pixels(cell, poses, blur):
+    found = find_corners(BOARD, cell.picture(poses[0], blur=blur))
+    assert found.softness == pytest.approx(blur, abs=0.25)
+
+
+def test_blur_by_motion_along_half_of_the_edges_is_seen(cell, poses):
+    still = cell.picture(poses[1], blur=0.5)
+    moved = cv2.blur(still, (8, 1))  # by 8 px to the side: a deviation of 8 / sqrt(12)
+    found = find_corners(BOARD, moved)
+    assert found.softness == pytest.approx(8 / np.sqrt(12), rel=0.3)
+
+
+def test_a_marker_of_a_larger_board_is_named(cell, poses):
+    larger = replace(cell, board=printable("charuco", 9, 7, 0.03))
+    with pytest.raises(Unusable, match="marker 30 is not on the board: this is another one"):
+        find_corners(BOARD, larger.picture(poses[0]))

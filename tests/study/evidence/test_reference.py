@@ -102,3 +102,17 @@ def test_one_search_alone_would_find_what_replicates_find(reference):
     assert row["low"] < mean < row["high"]
     # Student's prediction for 8 replicates: 2.5 standard deviations, of LUCK and of setups
     assert np.log(row["high"] / mean) == pytest.approx(2.5 * LUCK, rel=0.7)
+
+
+def test_of_few_trials_p_is_the_share_of_all_exchanges():
+    """One search whose errors rise with one order alone: two of 2^7 exchanges go as far."""
+    table = pd.DataFrame({"position/g_k": np.exp([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7])})
+    table["position/g_kl"], table["orientation/g_k"] = 1.0, table["position/g_k"]
+    table["orientation/g_kl"] = 1 / table["position/g_kl"]
+    ranks = np.array([-3.0, -2.0, -1.0, 0.5, 1.0, 2.0, 3.0])
+    for column in ("position/g_k", "orientation/g_k"):
+        table[column] = np.exp(np.sign(ranks) * np.arange(1, 8))
+    table["position_error_cm"] = table["orientation_error_deg"] = ranks
+    table = table.assign(search=0, round=1)
+    for row in width_order(table, np.random.default_rng(1)):
+        assert row["p"] == pytest.approx(2 / 2**7, rel=0.3)

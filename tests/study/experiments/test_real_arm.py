@@ -126,7 +126,9 @@ def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     assert np.abs(left - 1).max() < 0.01
 
 
-def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(table, plan, tmp_path):
+def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(
+    table, plan, tmp_path, monkeypatch
+):
     fit, test = tmp_path / "fit.csv", tmp_path / "test.csv"
     table[:40].to_csv(fit, index=False)
     table[100:].to_csv(test, index=False)
@@ -135,6 +137,15 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(table, plan, 
     found = learned("affine", (10, 40), 3, 1)
     assert found[["poses", "subset"]].to_numpy().tolist() == [[10, 0], [10, 1], [10, 2], [40, 0]]
     assert found["position_error_mm"].nunique() == 4
+    # another number of poses draws other subsets, not more of the same
+    taught = []
+    monkeypatch.setattr(
+        "recalib.study.experiments.real_arm.remaining_errors",
+        lambda _, arm, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
+    )
+    learned("affine", (10, 20), 2, 1)
+    assert not any(few <= more for few in taught[:2] for more in taught[2:])
+    monkeypatch.undo()
     nothing = learned("uncorrected", (10, 40), 3, 1)
     assert nothing["position_error_mm"].nunique() == 1 and len(nothing) == 2
 

@@ -54,6 +54,13 @@ def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(resolved, reco
     nothing = replace(history, position=0 * history.position, orientation=0 * history.orientation)
     panel = captions.about(its, {"improved": replace(learned, history=nothing)})
     assert "that there is nothing to correct" in panel and "stay below 0.001 cm and 0.001°" in panel
+    for once in ("position", "orientation"):  # one of both errors, at one measurement
+        risen = getattr(nothing, once).copy()
+        risen[..., 1, 0] = 0.1
+        panel = captions.about(
+            its, {"improved": replace(learned, history=replace(nothing, **{once: risen}))}
+        )
+        assert "although there is nothing to correct" in panel
 
 
 def test_every_caption_has_the_mean_errors_of_the_panel(columns):
