@@ -99,6 +99,19 @@ def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
 
 
+def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correction):
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    outside = correction.learned[:4].copy()
+    outside[:, 2] = np.array([low[2], low[2], high[2], high[2]]) + np.array(
+        [-0.04, -0.06, 0.04, 0.06]
+    ) * (high[2] - low[2])
+    goals = correction.calibration.forward(outside)
+    desired = Measurements(4, outside, goals[:, :3, 3], goals[:, :3, :3])
+    commands = correct(correction, desired)
+    assert np.allclose(commands.joints, outside, atol=1e-6)
+    assert commands.beyond[:, 2].tolist() == [False, True, False, True]
+
+
 @pytest.mark.parametrize(
     ("name", "change"),
     [

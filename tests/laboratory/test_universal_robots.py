@@ -5,6 +5,7 @@ import yaml
 
 from recalib.laboratory.universal_robots import LINKS, kinematics_yaml
 from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import find_urdf
 from tests.laboratory.test_urdf import postures, random_calibration
 
 # As the manufacturer publishes them, Denavit and Hartenberg's: d1, a2, a3, d4, d5, d6 [m].
@@ -70,3 +71,10 @@ def test_parallel_axes_throw_no_frame_far_away():
 )
 def test_another_arm_has_none(name, tool):
     assert kinematics_yaml(random_calibration(load_arm(name, tool))) is None
+
+
+def test_an_arm_with_one_joint_of_another_name_has_none(tmp_path):
+    text = find_urdf("ur10_robot.urdf").read_text()
+    (tmp_path / "other.urdf").write_text(text.replace("wrist_2_joint", "wrist_two"))
+    other = load_arm(tmp_path / "other.urdf", "tool0")
+    assert other.joints[4] == "wrist_two" and kinematics_yaml(random_calibration(other)) is None

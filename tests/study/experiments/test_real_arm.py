@@ -1,5 +1,6 @@
 """What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
 
+import hashlib
 from dataclasses import replace
 from functools import partial
 
@@ -13,6 +14,7 @@ from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.study.configuration.study import Source
 from recalib.study.experiments.real_arm import (
     LEARNERS,
     learn_from_tables,
@@ -20,7 +22,7 @@ from recalib.study.experiments.real_arm import (
     remaining_errors,
     with_tool_point,
 )
-from recalib.study.experiments.tracker import read_of, read_whole_description
+from recalib.study.experiments.tracker import WrongData, fetch, read_of, read_whole_description
 from recalib.study.plan.competitors import PEERS
 from recalib.study.scenarios.plants import nominal_robot
 from tests.conftest import ROOT
@@ -238,3 +240,15 @@ def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
     for rows in ([0], [0] * 20):
         left = remaining_errors(learner, ur5.arm, recording[rows], unknown)
         assert left.mean() < 1.5 * before
+
+
+@pytest.mark.parametrize("digest", ["0" * 64, "f" * 64])
+def test_another_table_than_the_one_that_is_meant_is_refused(digest, tmp_path):
+    given = tmp_path / "given.csv"
+    given.write_text("a table")
+    its = hashlib.sha256(given.read_bytes()).hexdigest()
+    fetch(Source(url="https://there", file=str(given), sha256=its), tmp_path / "own.csv")
+    assert (tmp_path / "own.csv").read_text() == "a table"
+    with pytest.raises(WrongData, match=f"has SHA-256 {its}; expected {digest}"):
+        fetch(Source(url="https://there", file=str(given), sha256=digest), tmp_path / "no.csv")
+    assert not (tmp_path / "no.csv").exists()
