@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from recalib.study.evidence import checks, report
-from recalib.study.evidence.benchmark import seconds
+from recalib.study.evidence.benchmark import put_together, seconds
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.deviations import REMOVED, unnamed
@@ -111,6 +111,19 @@ def test_the_tables_of_results(results, data_regression):
     tables = {name: pd.read_csv(results.path(f"{name}.csv")) for name in names}
     spent = pd.DataFrame({"learner": [*"baab"], "seconds_per_move": [0.1, 0.7, 0.5, 0.2]})
     data_regression.check(plain(tables | {"seconds": seconds(spent)}))
+
+
+def test_the_tables_of_the_benchmark_from_its_files(tmp_path, data_regression):
+    rng, files = np.random.default_rng(9), []
+    for learner in "ab":
+        rows = pd.DataFrame({"moves": [0, 5, 9] * 3, "seed": np.repeat([0, 1, 2], 3)})
+        for error in ("position_error_cm", "orientation_error_deg"):
+            rows[error] = rng.lognormal(size=len(rows))
+        rows = rows.assign(scenario="s", learner=learner, seconds_per_move=rng.random(len(rows)))
+        files.append(tmp_path / f"{learner}.parquet")
+        rows.to_parquet(files[-1])
+    tables = put_together(files, ("s",), ("b", "a"), (0.5, 1.0), 4)
+    data_regression.check(plain(dict(zip(("errors", "reached", "seconds"), tables, strict=True))))
 
 
 def test_what_the_check_says_of_a_summary(results, tmp_path, data_regression):
