@@ -12,8 +12,8 @@ from tests.conftest import ROOT, loaded_with
 
 # Packages and loose modules, from the ground up: each imports those before it alone.
 LIBRARY = """
-    spelling errors numerics files nominal loop damaged identification vision learners laboratory
-    __main__
+    spelling errors numerics files nominal loop damaged identification vision learners station
+    laboratory __main__
 """.split()  # noqa: SIM905
 STUDY = """
     inference configuration scenarios plan mapping experiments evidence checks multiverse plots

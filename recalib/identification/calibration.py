@@ -75,11 +75,12 @@ class Calibration:
         """Poses (n, 4, 4) as `predict`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
         standing = self._standing(joints)
         jacobians = np.empty((len(joints), 6, joints.shape[1]))
+        poses = np.empty((len(joints), 4, 4))
         for target in np.unique(targets):
             rows = targets == target
-            arm = self.model.arm(self.estimate.parameters, target)
-            _, jacobians[rows] = arm.forward_and_jacobian(standing[rows])
-        return self.predict(joints, targets), jacobians
+            arm = self._arms_to_targets[target]
+            poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
+        return self._shifted(poses, joints), jacobians
 
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
@@ -120,6 +121,12 @@ class Calibration:
     @cached_property
     def _arm(self) -> Arm:
         return self.model.own_arm(self.estimate.parameters)
+
+    @cached_property
+    def _arms_to_targets(self) -> list[Arm]:
+        """From the instrument to each target: to make one takes longer than to ask it."""
+        numbers = range(len(self.model.frames.targets))
+        return [self.model.arm(self.estimate.parameters, target) for target in numbers]
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
         return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))

@@ -2,6 +2,7 @@
 
 import argparse
 import io
+import math
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -51,7 +52,7 @@ def _parser() -> argparse.ArgumentParser:
         name: str, command: Callable[[argparse.Namespace], int], text: str
     ) -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
-        folder = command in (_board, _observe, _calibrate)
+        folder = command in (_board, _observe, _calibrate, _live)
         own.set_defaults(command=command, makes_folder=folder)
         return own
 
@@ -64,6 +65,22 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
     own.add_argument("--base", help="link in whose frame poses are; the root unless given")
     own.add_argument("--description", type=Path, help="what the table does not say itself (TOML)")
+
+    own = add("live", _live, "move, measure and calibrate until it is enough")
+    own.add_argument("station", help="FILE.py:NAME or MODULE:NAME, or a quoted command line")
+    own.add_argument("urdf", help="a file, or the name of one of example-robot-data")
+    own.add_argument("--table", default="measurements.csv", help="new or begun (%(default)s)")
+    own.add_argument("--out", default="calibration", help="a new folder (%(default)s)")
+    own.add_argument("--tool", help="link that is the tool; guessed if there is one end only")
+    own.add_argument("--base", help="link in whose frame poses are; the root unless given")
+    own.add_argument("--description", type=Path, help="frames that are known (TOML)")
+    own.add_argument("--error", help="predicted error at which it ends, as '0.3 mm'")
+    own.add_argument("--most", type=_positive, default=60, help="rows at most (%(default)s)")
+    own.add_argument("--span", default="45 deg", help="of a joint, either way (%(default)s)")
+    own.add_argument("--box", help="of the tool: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'")
+    own.add_argument("--speed", type=_part, default=0.1, help="of the possible one (%(default)s)")
+    own.add_argument("--patience", default="60 s", help="with the station (%(default)s)")
+    own.add_argument("--yes", action="store_true", help="do not ask before each move")
 
     own = add("correct", _correct, "commands that take the arm to what is desired")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
@@ -110,16 +127,82 @@ def _positive(text: str) -> int:
     return int(text)
 
 
+def _part(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not 0 < number <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number above 0 and up to 1")
+    return number
+
+
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
 
 
 def _calibrate(given: argparse.Namespace) -> int:
+    return _calibrate_from(given, given.measurements)
+
+
+def _live(given: argparse.Namespace) -> int:
+    import signal
+    from functools import partial
+
+    from recalib.files.quantities import ANGLE, LENGTH, TIME
+    from recalib.laboratory.allowed import Box
+    from recalib.laboratory.description import read_description
+    from recalib.laboratory.live import LiveSettings, calibrate_live
+    from recalib.nominal.arms import load_arm
+    from recalib.station.opening import open_station
+
+    arm = load_arm(given.urdf, given.tool, given.base)
+    settings = LiveSettings(
+        None if given.error is None else LENGTH.read(given.error),
+        given.most,
+        ANGLE.read(given.span),
+        None if given.box is None else Box.read(given.box),
+        given.speed,
+        TIME.read(given.patience),
+    )
+    for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
+        signal.signal(number, signal.default_int_handler)
+    reason = calibrate_live(
+        partial(open_station, given.station),
+        arm,
+        given.table,
+        settings,
+        (lambda posture: True) if given.yes else partial(_ask_to_move, arm.joints, arm.slides),
+        given.description and read_description(given.description),
+        _print_progress,
+    )
+    _print_progress(f"enough: {reason}")
+    return _calibrate_from(given, Path(given.table))
+
+
+def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:
+    """Whether a person lets the arm move to a posture (joints,) [rad, m]."""
+    from recalib.errors import InvalidSetting
+
+    goals = (
+        f"{joint} {1e3 * goal:.1f} mm" if slide else f"{joint} {math.degrees(goal):.1f} deg"
+        for joint, slide, goal in zip(joints, slides, posture, strict=True)
+    )
+    print(f"Move to {', '.join(goals)}? Enter: yes; anything else: end ", file=sys.stderr, end="")
+    sys.stderr.flush()
+    answer = sys.stdin.readline()
+    if not answer:
+        raise InvalidSetting("an answer", None, "a person at the terminal, or --yes")
+    return not answer.strip()
+
+
+def _calibrate_from(given: argparse.Namespace, table: Path) -> int:
+    """Identify the arm from a table, and write and print what follows."""
     from recalib.laboratory.calibrate import calibrate_arm
     from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
     result = calibrate_arm(
-        given.urdf, given.measurements, given.description, given.tool, given.base, _print_progress
+        given.urdf, table, given.description, given.tool, given.base, _print_progress
     )
     further, missing = optional_outputs()
     _print_progress(f"files in {given.out}")
