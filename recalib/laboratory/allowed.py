@@ -121,4 +121,4 @@ class AllowedPostures:
         """Whether the nominal tool is in the box (n,)."""
         assert self._box is not None
         places = self._arm.forward(joints)[:, :3, 3]
-        return ((places >= self._box.low) & (places <= self._box.high)).all(axis=1)
+        return np.all((places >= self._box.low) & (places <= self._box.high), axis=1)

@@ -171,7 +171,9 @@ def _live(given: argparse.Namespace) -> int:
         arm,
         given.table,
         settings,
-        (lambda posture: True) if given.yes else partial(_ask_to_move, arm.joints, arm.slides),
+        (lambda posture: True)
+        if given.yes
+        else partial(_ask_to_move, arm.joints, arm.slides.tolist()),
         given.description and read_description(given.description),
         _print_progress,
     )

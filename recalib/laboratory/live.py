@@ -172,6 +172,6 @@ def _enough(
     total = f"the predicted error is {1e3 * error.total:.3g} mm"
     if settings.error is not None and error.total <= settings.error:
         return f"{total}; {1e3 * settings.error:g} mm was asked for"
-    if np.isfinite(error.by_rows) and error.ahead > (1 - USELESS) * error.by_model:
+    if running.is_settled(rows) and error.ahead > (1 - USELESS) * error.by_model:
         return f"{total}, and {AHEAD} further postures would hardly make it smaller"
     return f"{total}; {count} rows are as many as allowed" if count >= settings.most else None

@@ -69,6 +69,10 @@ class RunningCalibration:
         """Whether the rows are enough for a calibration."""
         return len(observations) >= fewest(observations) + SPARE
 
+    def is_settled(self, observations: Observations) -> bool:
+        """Whether `PredictedError.by_rows` is no longer that of the first, poor calibrations."""
+        return self.is_ready(observations[: max(0, len(observations) - 2 * LAST)])
+
     def calibration(self, observations: Observations) -> Calibration:
         """From all rows. Raises RecalibError: they do not fit the arm."""
         count = len(observations)
@@ -144,7 +148,7 @@ class RunningCalibration:
         count = len(observations)
         weights = self.calibration(observations).estimate.weights
         rows = [row for row in range(count - LAST, count) if weights[row] >= OUTLYING]
-        if count < FEWEST or not rows or not self.is_ready(observations[: count - LAST]):
+        if count < FEWEST or not rows or not self.is_ready(observations[: max(0, count - LAST)]):
             return np.inf
         residuals = [
             self.calibration(observations[:row]).residuals(observations[row : row + 1])[0, :3]

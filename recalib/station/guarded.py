@@ -54,7 +54,7 @@ class Guarded:
         lower, upper = self._ask("tell its limits", lambda station: station.limits)
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
-            joint = self._joints[wrong.argmax()]
+            joint = self._joints[int(wrong.argmax())]
             raise StationFailed(f"the station's limits of {joint} are the wrong way round")
         return low, high
 
@@ -69,9 +69,9 @@ class Guarded:
         self._ask("move", lambda station: station.move(own, speed))
         off = np.abs(self._standing() - goal)
         if off.max() > REACHED:
+            joint = self._joints[int(off.argmax())]
             raise StationFailed(
-                f"after a move, {self._joints[off.argmax()]} stands {off.max():.3g} rad or m from"
-                " where it was sent"
+                f"after a move, {joint} stands {off.max():.3g} rad or m from where it was sent"
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
