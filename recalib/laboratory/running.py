@@ -14,6 +14,7 @@ from recalib.identification.design import most_informative
 from recalib.identification.diagnostics import FEWEST
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
+from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
@@ -25,6 +26,7 @@ from recalib.laboratory.propose import PROBES, variances
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
 
+FIRST = 20  # rows that tell where instrument and target are, to start from: more take longer
 LAST = 8  # rows whose prediction is compared with what was measured
 AHEAD = 10  # postures that have to be of use, or none is
 WILD, FAR = 10.0, 0.05  # standard deviations and m off a prediction: no outlier is both
@@ -62,6 +64,7 @@ class RunningCalibration:
 
     def __init__(self, arm: Arm, description: Description, postures: AllowedPostures):
         self._arm, self._description, self._postures = arm, description, postures
+        self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
         self._calibrations: dict[int, Calibration] = {}
 
     @staticmethod
@@ -75,11 +78,12 @@ class RunningCalibration:
 
     def calibration(self, observations: Observations) -> Calibration:
         """From all rows. Raises RecalibError: they do not fit the arm."""
-        count = len(observations)
+        count, some = len(observations), min(FIRST, len(observations))
+        if some not in self._frames:
+            given = self._description.instrument, self._description.target
+            self._frames[some] = checked_frames(self._arm, observations[:some], *given)
         if count not in self._calibrations:
-            given = self._description
-            frames = checked_frames(self._arm, observations, given.instrument, given.target)
-            model = ErrorModel(self._arm, OFFSETS, frames)
+            model = ErrorModel(self._arm, OFFSETS, self._frames[some])
             self._calibrations[count] = Calibration(model, identify(model, observations))
         return self._calibrations[count]
 
