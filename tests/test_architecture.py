@@ -23,6 +23,7 @@ STUDY = """
 LOOKS = {
     "laboratory/drawings.py": {"matplotlib"},
     "laboratory/page.py": {"jinja2"},
+    "laboratory/live_view.py": {"rerun"},
     "laboratory/watching.py": {"rerun"},
     "laboratory/viewing.py": {"rerun"},
 }

@@ -7,9 +7,14 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from recalib.errors import RecalibError
 from recalib.laboratory.outputs import check_new, is_taken, new
+
+if TYPE_CHECKING:
+    from recalib.laboratory.live_view import LiveView
+    from recalib.nominal.kinematics import Arm
 
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -81,6 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("--speed", type=_part, default=0.1, help="of the possible one (%(default)s)")
     own.add_argument("--patience", default="60 s", help="with the station (%(default)s)")
     own.add_argument("--yes", action="store_true", help="do not ask before each move")
+    own.add_argument("--view", action="store_true", help="show it in a window of rerun")
 
     own = add("correct", _correct, "commands that take the arm to what is desired")
     own.add_argument("calibration", type=Path, help="the folder that calibrate wrote")
@@ -176,9 +182,19 @@ def _live(given: argparse.Namespace) -> int:
         else partial(_ask_to_move, arm.joints, arm.slides.tolist()),
         given.description and read_description(given.description),
         _print_progress,
+        _view(given.urdf, arm).show if given.view else lambda rows, running: None,
     )
     _print_progress(f"enough: {reason}")
     return _calibrate_from(given, Path(given.table))
+
+
+def _view(urdf: str, arm: "Arm") -> "LiveView":
+    from recalib.files.storage import read_file
+    from recalib.laboratory.live_view import LiveView
+    from recalib.nominal.descriptions import MOST, find_urdf
+
+    path = find_urdf(urdf)
+    return LiveView(arm, read_file(path, MOST), path)
 
 
 def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:

@@ -54,6 +54,7 @@ def calibrate_live(
     ask: Callable[[np.ndarray], bool],
     description: Description | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
+    on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
 ) -> str:
     """Move, measure and add rows to a table until it is enough, and say why it is.
 
@@ -67,6 +68,7 @@ def calibrate_live(
         ask: called with the joint angles (joints,) [rad, m] to move to next; whether it may.
         description: what the table does not say itself.
         on_progress: called with a line for each row.
+        on_row: called with the rows so far, and what calibrates by them.
 
     Raises RecalibError: StationFailed, Interrupted, or rows that do not fit the arm.
     """
@@ -77,7 +79,7 @@ def calibrate_live(
     station = None
     try:
         station = Guarded(opening, arm.joints, settings.patience)
-        return _go_on(station, arm, record, settings, ask, description, on_progress)
+        return _go_on(station, arm, record, settings, ask, description, on_progress, on_row)
     except BaseException as error:
         if station is not None:
             station.stop()
@@ -99,6 +101,7 @@ def _go_on(
     ask: Callable[[np.ndarray], bool],
     description: Description,
     on_progress: Callable[[str], None],
+    on_row: Callable[[Observations, RunningCalibration], None],
 ) -> str:
     started = record.observations
     home = station.angles() if started is None else started.joints[0]
@@ -113,6 +116,7 @@ def _go_on(
     lost = 0
     while True:
         reason = _enough(rows, running, settings, on_progress)
+        on_row(rows, running)
         if reason is not None:
             return reason
         goal = running.next_posture(rows, unseen)

@@ -97,6 +97,10 @@ class RunningCalibration:
         ahead = self._expected(replace(calibration, estimate=estimate), self._probes).mean()
         return PredictedError(float(now), self._by_rows(observations), float(ahead))
 
+    def workspace(self, observations: Observations) -> tuple[np.ndarray, np.ndarray]:
+        """Allowed postures (n, joints) [rad, m], and the deviation (n,) [m] expected in each."""
+        return self._probes, self._expected(self.calibration(observations), self._probes)
+
     def next_posture(
         self, observations: Observations, unseen: list[np.ndarray]
     ) -> np.ndarray | None:

@@ -10,6 +10,7 @@ import time
 
 import numpy as np
 import pytest
+import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
 from recalib.laboratory.allowed import AllowedPostures, Box
@@ -18,9 +19,12 @@ from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correct import NotReached
 from recalib.laboratory.corrector import Corrector
 from recalib.laboratory.live import Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live_view import LiveView
+from recalib.nominal.descriptions import find_urdf
 from recalib.station.interface import StationFailed
 from tests.conftest import ROOT
 from tests.identification.real import ARMS
+from tests.logged import logged
 from tests.station import simulated
 from tests.station.simulated import HOMES, Simulated
 
@@ -35,10 +39,11 @@ def quick(monkeypatch):
 
 
 def run(station, tmp_path, ask=YES, on_progress=lambda line: None, **settings):
+    watch = {name: settings.pop(name) for name in ("on_row",) if name in settings}
     settings = LiveSettings(**({"patience": 1.0} | settings))
     table = tmp_path / "table.csv"
     its = lambda: station  # noqa: E731
-    return calibrate_live(its, station.arm, table, settings, ask, on_progress=on_progress)
+    return calibrate_live(its, station.arm, table, settings, ask, None, on_progress, **watch)
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -225,6 +230,19 @@ def test_the_command_calibrates(tmp_path, monkeypatch, capsys):
     assert "row 14: predicted error by the model 0." in told.err
     assert "the mean error falls from" in told.out
     assert (tmp_path / "calibration" / "correction.npz").exists()
+
+
+def test_it_can_be_watched(tmp_path):
+    station, urdf = Simulated(), find_urdf("ur10_robot.urdf")
+    with rr.RecordingStream("live") as rec:
+        rec.save(tmp_path / "live.rrd")
+        view = LiveView(station.arm, urdf.read_bytes(), urdf, rec)
+        run(station, tmp_path, most=14, on_row=view.show)
+    its = logged(tmp_path / "live.rrd")
+    entities = {name.split()[0] for name in its}
+    assert entities >= {"/line", "/measured", "/workspace", "/error/by_the_last_rows"}
+    (errors,) = (its[name] for name in its if "/by_the_model Scalars" in name)
+    assert len(np.concatenate(errors)) == 14 - 5
 
 
 def test_the_command_asks(tmp_path, monkeypatch, capsys):
