@@ -31,6 +31,7 @@ LOOKS = {
 PICTURES = {
     "laboratory/observe.py": {"cv2"},
     "laboratory/observed_page.py": {"cv2", "matplotlib"},
+    "station/pictures.py": {"cv2"},
     "vision/boards.py": {"cv2"},
     "vision/detection.py": {"cv2"},
     "vision/lenses.py": {"cv2"},

@@ -15,6 +15,7 @@ from recalib.laboratory.outputs import check_new, is_taken, new
 if TYPE_CHECKING:
     from recalib.laboratory.live_view import LiveView
     from recalib.nominal.kinematics import Arm
+    from recalib.station.interface import Station
 
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -85,6 +86,9 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("--box", help="of the tool: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'")
     own.add_argument("--speed", type=_part, default=0.1, help="of the possible one (%(default)s)")
     own.add_argument("--patience", default="60 s", help="with the station (%(default)s)")
+    own.add_argument("--board", type=Path, help="in the station's pictures (TOML)")
+    own.add_argument("--lens", type=Path, help="of the camera (YAML), with --board")
+    own.add_argument("--camera", choices=("fixed", "hand"), default="fixed", help="(%(default)s)")
     own.add_argument("--yes", action="store_true", help="do not ask before each move")
     own.add_argument("--view", action="store_true", help="show it in a window of rerun")
 
@@ -172,8 +176,11 @@ def _live(given: argparse.Namespace) -> int:
     )
     for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
         signal.signal(number, signal.default_int_handler)
+    opening: Callable[[], Station] = partial(open_station, given.station)
+    if given.board is not None:
+        opening = _with_board(opening, given)
     reason = calibrate_live(
-        partial(open_station, given.station),
+        opening,
         arm,
         given.table,
         settings,
@@ -186,6 +193,22 @@ def _live(given: argparse.Namespace) -> int:
     )
     _print_progress(f"enough: {reason}")
     return _calibrate_from(given, Path(given.table))
+
+
+def _with_board(
+    opening: "Callable[[], Station]", given: argparse.Namespace
+) -> "Callable[[], Station]":
+    """What opens a station that takes pictures, as one that measures the board in them."""
+    from recalib.errors import InvalidSetting
+    from recalib.laboratory.observe import IN_HAND
+    from recalib.station.pictures import PicturesOfABoard
+    from recalib.vision.boards import read_board
+    from recalib.vision.lenses import read_lens
+
+    if given.lens is None:
+        raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
+    board, lens = read_board(given.board), read_lens(given.lens)
+    return lambda: PicturesOfABoard(opening(), board, lens, given.camera == IN_HAND)
 
 
 def _view(urdf: str, arm: "Arm") -> "LiveView":

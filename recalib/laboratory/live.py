@@ -17,7 +17,7 @@ from recalib.station.guarded import Guarded
 from recalib.station.interface import Station, StationFailed
 
 USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
-UNSEEN = 5  # postures in a row without a sight of the target: it is lost
+UNSEEN = 10  # postures in a row without a sight of the target: it is lost, or they are too far
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,10 @@ def _go_on(
             unseen.append(goal)
             on_progress("the instrument does not see the target there")
         if lost == UNSEEN:
-            raise StationFailed(f"the instrument has not seen the target in {UNSEEN} postures")
+            raise StationFailed(
+                f"the instrument has not seen the target in {UNSEEN} postures, one after the other;"
+                " if it is still there, try: a smaller --span"
+            )
 
 
 def _measured(station: Guarded, record: Record, running: RunningCalibration) -> Observations | None:

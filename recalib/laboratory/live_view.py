@@ -7,6 +7,7 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
+from recalib.errors import InvalidSetting
 from recalib.identification.observations import Observations
 from recalib.laboratory.running import RunningCalibration
 from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
@@ -26,6 +27,8 @@ class LiveView:
     Args:
         rec: where it goes; a viewer unless given.
         source: of the URDF at the path `urdf`.
+
+    Raises InvalidSetting: there is no viewer.
     """
 
     def __init__(self, arm: Arm, source: bytes, urdf: Path, rec: rr.RecordingStream | None = None):
@@ -33,7 +36,11 @@ class LiveView:
         if rec is None:
             os.environ["CI"] = "true"  # with it, the viewer collects and sends no statistics
             rec = rr.RecordingStream("recalib live")
-            rec.spawn()
+            try:
+                rec.spawn()
+            except RuntimeError:
+                valid = "the viewer of rerun in PATH, as after: . .venv/bin/activate"
+                raise InvalidSetting("--view", "without a viewer", valid) from None
         self._rec = rec
         rec.send_blueprint(_BLUEPRINT)
         rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
