@@ -81,7 +81,7 @@ STOPPED = {
     simulated.MeasuresOtherThings: "no row: its columns are .*, qw; the station gives .*, temp",
     simulated.MeasuresNothing: "no row: no positions are measured in it; expected: x, y and z",
     simulated.Lies: "the target was measured .* mm from where 1. rows put it; expected: about",
-    simulated.IsBlind: "the instrument has not seen the target in 10 postures, .* try: a smaller --span",
+    simulated.IsBlind: "not seen the target in 10 postures, .* try: a smaller --span",
     simulated.SeesNothing: "does not see the target where the arm stands; try: begin where it does",
     simulated.ForgetsAJoint: r"the station's angles are \[.*\]; expected: 6 numbers",
     simulated.HasOtherJoints: "the station's joints are joint_0, .*; expected: those of the arm",

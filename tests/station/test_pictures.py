@@ -54,7 +54,7 @@ def test_pictures_calibrate_live_and_then_by_their_pixels(camera, tmp_path):
     out = f"--out={tmp_path / 'observed'}"
     assert main(["observe", ".", str(table), f"--camera={camera}", *options, out]) == DONE
     result = calibrate_arm("panda.urdf", tmp_path / "observed", tool=cell.arm.tool)
-    assert result.worthwhile and len(result.observations) == 12
+    assert result.worthwhile and len(result.observations) >= 10
 
 
 FILES = {"board": "board.toml", "lens": "lens.yaml"}

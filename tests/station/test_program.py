@@ -82,7 +82,8 @@ def test_an_answer_that_is_none_is_told(program, answer, says):
         program(measure=answer).measure()
 
 
-def test_a_program_that_ends_is_told():
+def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
     station = ProgramStation([sys.executable, "-c", text])
     for _ in range(2):
