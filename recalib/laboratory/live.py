@@ -85,7 +85,8 @@ def calibrate_live(
             station.stop()
         on_progress(f"stopped; {len(record)} rows are in {record.path}: the same call goes on")
         if isinstance(error, KeyboardInterrupt):
-            raise Interrupted("interrupted; the station was told to stop") from None
+            told = "was not open yet" if station is None else "was told to stop"
+            raise Interrupted(f"interrupted; the station {told}") from None
         raise
     finally:
         if station is not None:

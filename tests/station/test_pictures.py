@@ -41,6 +41,7 @@ class Photographs:
         pass
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", ["fixed", "hand"])
 def test_pictures_calibrate_live_and_then_by_their_pixels(camera, tmp_path):
     station = Photographs(tmp_path, camera == "hand")
