@@ -218,7 +218,7 @@ def calibrate(
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
     start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
-    best = _most_probable(arm, candidates, observations, frames, start, weights)
+    best = most_probable(arm, candidates, observations, frames, start, weights)
     if is_time_to_search(before, len(observations)):
         return _with_pattern(best, observations, None)
     if last is None or last.pattern is None:
@@ -240,21 +240,21 @@ def calibrate_again(
     Raises BadMeasurement, as `calibrate`.
     """
     model = whole.model
-    found = _most_probable(model.nominal, candidates, observations, model.frames, None, weights)
+    found = most_probable(model.nominal, candidates, observations, model.frames, None, weights)
     if whole.pattern is None:
         return found
     return _with_pattern(found, observations, whole.pattern.hyperparameters)
 
 
-def _most_probable(
+def most_probable(
     arm: Arm,
     candidates: Sequence[JointTerms],
     observations: Observations,
-    frames: Frames | None,
-    start: Estimate | None,
-    weights: np.ndarray | None,
+    frames: Frames | None = None,
+    start: Estimate | None = None,
+    weights: np.ndarray | None = None,
 ) -> Calibration:
-    """The calibration of the error model that is chosen; see `calibrate`."""
+    """The calibration of the error model that is chosen, without a process; see `calibrate`."""
 
     def identified(terms: JointTerms) -> Calibration:
         model = ErrorModel(arm, terms, frames)

@@ -1,7 +1,7 @@
-"""What the rows so far say: the arm's geometry, the error that is left, and what to measure next.
+"""What the rows so far say: the arm's errors, the error that is left, and what to measure next.
 
 All of it follows from the rows alone, without what an earlier update found: a calibration that was
-killed goes on as if it had not been. That is fast enough, since geometry has few parameters.
+killed goes on as if it had not been. That is fast enough without many waves and a process.
 """
 
 from dataclasses import dataclass, replace
@@ -9,11 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.distance import cdist
 
-from recalib.identification.calibration import Calibration
+from recalib.identification.calibration import Calibration, most_probable
 from recalib.identification.design import most_informative
 from recalib.identification.diagnostics import FEWEST
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
+from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.linearisation import LEVER
@@ -26,6 +25,7 @@ from recalib.laboratory.propose import PROBES, variances
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
 
+MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
 FIRST = 20  # rows that tell where instrument and target are, to start from: more take longer
 LAST = 8  # rows whose prediction is compared with what was measured
 AHEAD = 10  # postures that have to be of use, or none is
@@ -54,7 +54,7 @@ class PredictedError:
 
 
 class RunningCalibration:
-    """Calibrations of an arm's geometry from rows that become more.
+    """Calibrations of an arm from rows that become more: geometry, and joint errors if it has any.
 
     Args:
         arm: the nominal one.
@@ -83,8 +83,8 @@ class RunningCalibration:
             given = self._description.instrument, self._description.target
             self._frames[some] = checked_frames(self._arm, observations[:some], *given)
         if count not in self._calibrations:
-            model = ErrorModel(self._arm, OFFSETS, self._frames[some])
-            self._calibrations[count] = Calibration(model, identify(model, observations))
+            frames = self._frames[some]
+            self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
         return self._calibrations[count]
 
     def error(self, observations: Observations) -> PredictedError:
