@@ -34,6 +34,10 @@ from recalib.identification.observations import Distance as Distance
 from recalib.identification.observations import Observations as Observations
 from recalib.laboratory.calibrate import calibrate_arm as calibrate_arm
 from recalib.laboratory.correct import correct as correct
+from recalib.laboratory.correction import load_correction as load_correction
+from recalib.laboratory.corrector import Corrector as Corrector
+from recalib.laboratory.live import LiveSettings as LiveSettings
+from recalib.laboratory.live import calibrate_live as calibrate_live
 from recalib.laboratory.measurements import Measurements as Measurements
 from recalib.laboratory.summary import verdict as verdict
 from recalib.learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner
@@ -68,5 +72,8 @@ from recalib.nominal.poses import orientation_error as orientation_error
 from recalib.nominal.poses import position_error as position_error
 from recalib.nominal.robots import Robot as Robot
 from recalib.nominal.robots import load_robot as load_robot
+from recalib.station.interface import Station as Station
+from recalib.station.interface import StationFailed as StationFailed
+from recalib.station.program import ProgramStation as ProgramStation
 
 __version__: str

@@ -12,8 +12,8 @@ from tests.conftest import ROOT, loaded_with
 
 # Packages and loose modules, from the ground up: each imports those before it alone.
 LIBRARY = """
-    spelling errors numerics files nominal loop damaged identification vision learners laboratory
-    __main__
+    spelling errors numerics files nominal loop damaged identification vision learners station
+    laboratory __main__
 """.split()  # noqa: SIM905
 STUDY = """
     inference configuration scenarios plan mapping experiments evidence checks multiverse plots
@@ -23,6 +23,7 @@ STUDY = """
 LOOKS = {
     "laboratory/drawings.py": {"matplotlib"},
     "laboratory/page.py": {"jinja2"},
+    "laboratory/live_view.py": {"rerun"},
     "laboratory/watching.py": {"rerun"},
     "laboratory/viewing.py": {"rerun"},
 }
@@ -30,6 +31,7 @@ LOOKS = {
 PICTURES = {
     "laboratory/observe.py": {"cv2"},
     "laboratory/observed_page.py": {"cv2", "matplotlib"},
+    "station/pictures.py": {"cv2"},
     "vision/boards.py": {"cv2"},
     "vision/detection.py": {"cv2"},
     "vision/lenses.py": {"cv2"},

@@ -16,7 +16,8 @@ import pytest
 import recalib
 from tests.conftest import ROOT
 
-ALONE = "ur10", "notebook"  # the robot of the examples, and tests/test_notebook.py
+# the robot and the station of the examples, and tests/test_notebook.py
+ALONE = "ur10", "station", "notebook"
 EXAMPLES = sorted(path.stem for path in (ROOT / "examples").glob("*.py") if path.stem not in ALONE)
 FOR_STUDIES = "matplotlib", "pandas", "pydantic", "rerun", "snakemake", "yaml"
 

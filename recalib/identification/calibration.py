@@ -75,11 +75,12 @@ class Calibration:
         """Poses (n, 4, 4) as `predict`, and Jacobians (n, 6, joints) as `forward_and_jacobian`."""
         standing = self._standing(joints)
         jacobians = np.empty((len(joints), 6, joints.shape[1]))
+        poses = np.empty((len(joints), 4, 4))
         for target in np.unique(targets):
             rows = targets == target
-            arm = self.model.arm(self.estimate.parameters, target)
-            _, jacobians[rows] = arm.forward_and_jacobian(standing[rows])
-        return self.predict(joints, targets), jacobians
+            arm = self._arms_to_targets[target]
+            poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
+        return self._shifted(poses, joints), jacobians
 
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
@@ -120,6 +121,12 @@ class Calibration:
     @cached_property
     def _arm(self) -> Arm:
         return self.model.own_arm(self.estimate.parameters)
+
+    @cached_property
+    def _arms_to_targets(self) -> list[Arm]:
+        """From the instrument to each target: to make one takes longer than to ask it."""
+        numbers = range(len(self.model.frames.targets))
+        return [self.model.arm(self.estimate.parameters, target) for target in numbers]
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
         return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
@@ -211,7 +218,7 @@ def calibrate(
     Raises BadMeasurement: no numbers, or grossly off; or none at all.
     """
     start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
-    best = _most_probable(arm, candidates, observations, frames, start, weights)
+    best = most_probable(arm, candidates, observations, frames, start, weights)
     if is_time_to_search(before, len(observations)):
         return _with_pattern(best, observations, None)
     if last is None or last.pattern is None:
@@ -233,21 +240,21 @@ def calibrate_again(
     Raises BadMeasurement, as `calibrate`.
     """
     model = whole.model
-    found = _most_probable(model.nominal, candidates, observations, model.frames, None, weights)
+    found = most_probable(model.nominal, candidates, observations, model.frames, None, weights)
     if whole.pattern is None:
         return found
     return _with_pattern(found, observations, whole.pattern.hyperparameters)
 
 
-def _most_probable(
+def most_probable(
     arm: Arm,
     candidates: Sequence[JointTerms],
     observations: Observations,
-    frames: Frames | None,
-    start: Estimate | None,
-    weights: np.ndarray | None,
+    frames: Frames | None = None,
+    start: Estimate | None = None,
+    weights: np.ndarray | None = None,
 ) -> Calibration:
-    """The calibration of the error model that is chosen; see `calibrate`."""
+    """The calibration of the error model that is chosen, without a process; see `calibrate`."""
 
     def identified(terms: JointTerms) -> Calibration:
         model = ErrorModel(arm, terms, frames)

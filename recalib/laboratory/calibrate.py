@@ -181,7 +181,7 @@ def calibrate_arm(
     if rows.nominal is not None:
         stand = None if given.instrument is None else np.linalg.inv(given.instrument)
         between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
-    observations, targets, sockets = _observations(rows, given, table)
+    observations, targets, sockets = observations_of(rows, given, table)
     instrument, scale = "the instrument", 1.0
     if pictures is not None:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels
@@ -212,7 +212,7 @@ def calibrate_arm(
     )
 
 
-def _observations(
+def observations_of(
     rows: Measurements, given: Description, table: Path
 ) -> tuple[Observations, tuple[str, ...], tuple[str, ...]]:
     """What was measured, with the names of targets and of sockets."""

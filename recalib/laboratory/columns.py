@@ -94,15 +94,22 @@ class Table:
 
 
 def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:
-    """The table at `path`: UTF-8, commas between cells, a header, a row for each measurement.
+    """The table at `path`; see `table_of`. Raises InvalidFile."""
+    return table_of(read_file(path, MOST), path, columns)
+
+
+def table_of(
+    content: bytes, path: str | PathLike[str], columns: Mapping[str, str] | None = None
+) -> Table:
+    """The table in a file's content: UTF-8, commas between cells, a header, rows below it.
 
     Args:
+        path: of the file, for messages.
         columns: by a heading of the file what should have stood there, or "ignored".
 
     Raises InvalidFile: not such a table, or a heading in `columns` that is not there.
     """
     path, columns = Path(path), columns or {}
-    content = read_file(path, MOST)
     try:
         lines = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""))
         filled = (row for row in lines if any(cell.strip() for cell in row))

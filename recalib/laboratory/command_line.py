@@ -2,14 +2,22 @@
 
 import argparse
 import io
+import math
 import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from recalib.errors import RecalibError
 from recalib.laboratory.outputs import check_new, is_taken, new
 
+if TYPE_CHECKING:
+    from recalib.laboratory.live_view import LiveView
+    from recalib.nominal.kinematics import Arm
+    from recalib.station.interface import Station
+
+CAMERAS = "fixed", "hand"
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
 
@@ -51,21 +59,64 @@ def _parser() -> argparse.ArgumentParser:
         name: str, command: Callable[[argparse.Namespace], int], text: str
     ) -> argparse.ArgumentParser:
         own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
-        folder = command in (_board, _observe, _calibrate)
+        folder = command in (_board, _observe, _calibrate, _live)
         own.set_defaults(command=command, makes_folder=folder)
         return own
 
+    def add_arm(own: argparse.ArgumentParser) -> None:
+        own.add_argument("--tool", help="tool link; needed only if the arm has several ends")
+        own.add_argument("--base", help="link whose frame poses are given in (default: the root)")
+        own.add_argument("--description", type=Path, help="frames, columns and distances (TOML)")
+        own.add_argument(
+            "--out", default="calibration", help="new folder to write (default: %(default)s)"
+        )
+
+    urdf = "URDF file, or the name of an arm of example-robot-data"
     own = add("calibrate", _calibrate, "identify the arm's parameters from measurements")
-    own.add_argument("urdf", help="URDF file, or the name of an arm of example-robot-data")
+    own.add_argument("urdf", help=urdf)
     own.add_argument(
         "measurements", type=Path, help="table (CSV), or the folder that observe wrote"
     )
-    own.add_argument(
-        "--out", default="calibration", help="new folder to write (default: %(default)s)"
+    add_arm(own)
+
+    own = add(
+        "live", _live, "move, measure and calibrate until the predicted error is small enough"
     )
-    own.add_argument("--tool", help="tool link; needed only if the arm has several ends")
-    own.add_argument("--base", help="link whose frame poses are given in (default: the root)")
-    own.add_argument("--description", type=Path, help="frames, columns and distances (TOML)")
+    own.add_argument("station", help="FILE.py:NAME, MODULE:NAME, or a quoted command line")
+    own.add_argument("urdf", help=urdf)
+    own.add_argument("--error", help="predicted error to end at, such as '0.3 mm'")
+    own.add_argument(
+        "--most",
+        type=_positive,
+        default=60,
+        help="rows to end at in any case (default: %(default)s)",
+    )
+    own.add_argument(
+        "--span",
+        default="45 deg",
+        help="range of each joint about the first posture, either way (default: %(default)s)",
+    )
+    own.add_argument(
+        "--box", help="ranges of the tool's x, y, z: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'"
+    )
+    own.add_argument(
+        "--speed",
+        type=_part,
+        default=0.1,
+        help="share of the possible speed (default: %(default)s)",
+    )
+    own.add_argument(
+        "--patience", default="60 s", help="time limit of a move or measurement (%(default)s)"
+    )
+    own.add_argument("--board", type=Path, help="board in the station's pictures (TOML)")
+    own.add_argument("--lens", type=Path, help="lens calibration (YAML), with --board")
+    own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
+    own.add_argument("--yes", action="store_true", help="move without asking")
+    own.add_argument("--view", action="store_true", help="show it in a window of rerun")
+    own.add_argument(
+        "--table", default="measurements.csv", help="new, or begun by live (default: %(default)s)"
+    )
+    add_arm(own)
 
     own = add("correct", _correct, "compute commands that reach the desired poses")
     own.add_argument("calibration", type=Path, help="folder that calibrate wrote")
@@ -122,7 +173,7 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument(
         "--lens", type=Path, help="lens calibration (YAML); from the pictures unless given"
     )
-    own.add_argument("--camera", choices=("fixed", "hand"), default="fixed", help="where it is")
+    own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
     own.add_argument("--out", default="observed", help="new folder to write (default: %(default)s)")
     return parser
 
@@ -133,16 +184,113 @@ def _positive(text: str) -> int:
     return int(text)
 
 
+def _part(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not 0 < number <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number above 0 and up to 1")
+    return number
+
+
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
 
 
 def _calibrate(given: argparse.Namespace) -> int:
+    return _calibrate_from(given, given.measurements)
+
+
+def _live(given: argparse.Namespace) -> int:
+    import signal
+    from functools import partial
+
+    from recalib.files.quantities import ANGLE, LENGTH, TIME
+    from recalib.laboratory.allowed import Box
+    from recalib.laboratory.description import read_description
+    from recalib.laboratory.live import LiveSettings, calibrate_live
+    from recalib.nominal.arms import load_arm
+    from recalib.station.opening import open_station
+
+    arm = load_arm(given.urdf, given.tool, given.base)
+    settings = LiveSettings(
+        None if given.error is None else LENGTH.read(given.error),
+        given.most,
+        ANGLE.read(given.span),
+        None if given.box is None else Box.read(given.box),
+        given.speed,
+        TIME.read(given.patience),
+    )
+    for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
+        signal.signal(number, signal.default_int_handler)
+    opening: Callable[[], Station] = partial(open_station, given.station)
+    if given.board is not None:
+        opening = _with_board(opening, given)
+    reason = calibrate_live(
+        opening,
+        arm,
+        given.table,
+        settings,
+        (lambda posture: True)
+        if given.yes
+        else partial(_ask_to_move, arm.joints, arm.slides.tolist()),
+        given.description and read_description(given.description),
+        _print_progress,
+        _view(given.urdf, arm).show if given.view else lambda rows, running: None,
+    )
+    _print_progress(f"enough: {reason}")
+    return _calibrate_from(given, Path(given.table))
+
+
+def _with_board(
+    opening: "Callable[[], Station]", given: argparse.Namespace
+) -> "Callable[[], Station]":
+    """What opens a station that takes pictures, as one that measures the board in them."""
+    from recalib.errors import InvalidSetting
+    from recalib.laboratory.observe import IN_HAND
+    from recalib.station.pictures import PicturesOfABoard
+    from recalib.vision.boards import read_board
+    from recalib.vision.lenses import read_lens
+
+    if given.lens is None:
+        raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
+    board, lens = read_board(given.board), read_lens(given.lens)
+    return lambda: PicturesOfABoard(opening(), board, lens, given.camera == IN_HAND)
+
+
+def _view(urdf: str, arm: "Arm") -> "LiveView":
+    from recalib.files.storage import read_file
+    from recalib.laboratory.live_view import LiveView
+    from recalib.nominal.descriptions import MOST, find_urdf
+
+    path = find_urdf(urdf)
+    return LiveView(arm, read_file(path, MOST), path)
+
+
+def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:
+    """Whether a person lets the arm move to a posture (joints,) [rad, m]."""
+    from recalib.errors import InvalidSetting
+
+    goals = (
+        f"{joint} {1e3 * goal:.1f} mm" if slide else f"{joint} {math.degrees(goal):.1f} deg"
+        for joint, slide, goal in zip(joints, slides, posture, strict=True)
+    )
+    print(f"Move to {', '.join(goals)}? Enter: yes; anything else: end ", file=sys.stderr, end="")
+    sys.stderr.flush()
+    answer = sys.stdin.readline()
+    if not answer:
+        raise InvalidSetting("an answer", None, "a person at the terminal, or --yes")
+    return not answer.strip()
+
+
+def _calibrate_from(given: argparse.Namespace, table: Path) -> int:
+    """Identify the arm from a table, and write and print what follows."""
     from recalib.laboratory.calibrate import calibrate_arm
     from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
     result = calibrate_arm(
-        given.urdf, given.measurements, given.description, given.tool, given.base, _print_progress
+        given.urdf, table, given.description, given.tool, given.base, _print_progress
     )
     further, missing = optional_outputs()
     _print_progress(f"files in {given.out}")

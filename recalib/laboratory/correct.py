@@ -63,7 +63,7 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     targets = _targets(correction, desired) if in_instrument else None
     found, errors, reached = solve(correction, desired, targets)
     if not reached.all():
-        _refuse(correction, found, errors, reached)
+        refuse(correction, found, errors, reached)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = MARGIN * (high - low)
     beyond = (found < low - margin) | (found > high + margin)
@@ -178,9 +178,10 @@ def _newton(
     return found[:, 0], errors[:, 0]
 
 
-def _refuse(
+def refuse(
     correction: Correction, found: np.ndarray, errors: np.ndarray, reached: np.ndarray
 ) -> None:
+    """Raise NotReached, of what `solve` returned."""
     rows = np.flatnonzero(~reached)
     first, model = rows[0], correction.arm.model
     if errors[first] > TOLERANCE:

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.diagnostics import FEWEST
-from recalib.laboratory.columns import NUMBER, Table, read_table
+from recalib.laboratory.columns import NUMBER, Table, read_table, table_of
 from recalib.laboratory.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
@@ -81,7 +81,7 @@ def read_measurements(
     twice or useless; a cell that is no number or too large for an arm; too few rows; nothing
     measured.
     """
-    read = _read(path, arm, description)
+    read = _read(read_table(path, description.columns if description else None), arm)
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
     if len(read) < FEWEST:
@@ -98,14 +98,29 @@ def read_desired(path: str | PathLike[str], arm: Arm) -> Measurements:
 
     Raises InvalidFile as `read_measurements` does, but one row is enough.
     """
-    read = _read(path, arm, None)
+    read = _read(read_table(path), arm)
     if read.coordinates is None and read.positions is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
     return read
 
 
-def _read(path: str | PathLike[str], arm: Arm, description: Description | None) -> Measurements:
-    table = read_table(path, description.columns if description else None)
+def measurements_so_far(
+    content: bytes, path: str | PathLike[str], arm: Arm, description: Description
+) -> Measurements:
+    """The measurements in the content of a table that still grows: one row is enough.
+
+    Raises InvalidFile as `read_measurements` does, and where a row has no position.
+    """
+    read = _read(table_of(content, path, description.columns), arm)
+    if read.coordinates is None:
+        raise InvalidFile(path, _lacking(arm, arm.joints[0]))
+    if read.positions is None:
+        raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
+    return read
+
+
+def _read(table: Table, arm: Arm) -> Measurements:
+    path = table.path
     components = (name for group in VECTORS for name in group)
     table.check_columns([*arm.joints, *components, *LABELS, TIMES, PICTURE])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}

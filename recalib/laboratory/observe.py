@@ -13,7 +13,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.columns import Table, read_table
-from recalib.laboratory.measurements import OBSERVED, PICTURE
+from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.laboratory.outputs import new
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import Corners, Unusable, find_corners
@@ -258,7 +258,9 @@ def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:
 def _measurements(result: Observed) -> tuple[list[str], list[list[str]]]:
     """The table of pictures and joints, with poses of the board, or of the camera in it."""
     table, rows = result.table, []
-    joints = [name for name in table.cells if name != PICTURE]
+    # what a live calibration measured by the same pictures is measured anew
+    measured = {PICTURE, *(name for group in VECTORS for name in group)}
+    joints = [name for name in table.cells if name not in measured]
     units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
     header = [
         PICTURE,

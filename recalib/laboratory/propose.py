@@ -14,6 +14,7 @@ from recalib.identification.design import most_informative
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
+from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 
 DRAWN = 400  # candidates
@@ -71,23 +72,28 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
     return Proposal(postures[chosen], np.array(uncertainty))
 
 
+def variances(jacobians: np.ndarray, covariance: np.ndarray) -> np.ndarray:
+    """Of positions (n,) [m^2], all axes together, from their Jacobians (n, 6, P)."""
+    rows = jacobians[:, :3]
+    return np.sum((rows @ covariance) * rows, axis=(1, 2))
+
+
 def _uncertainty(jacobians: np.ndarray, covariance: np.ndarray) -> float:
     """The mean deviation [m] of positions whose Jacobians (n, 6, P) by the parameters are given."""
-    rows = jacobians[:, :3]
-    return float(np.sqrt(np.sum((rows @ covariance) * rows, axis=(1, 2))).mean())
+    return float(np.sqrt(variances(jacobians, covariance)).mean())
 
 
 def _drawn(correction: Correction) -> np.ndarray:
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = BEYOND * (high - low)
-    lower, upper = _limits(correction)
+    lower, upper = joint_limits(correction.arm)
     low, high = (np.clip(end, lower, upper) for end in (low - margin, high + margin))
     return generator(0, "postures to measure next").uniform(low, high, (DRAWN, len(low)))
 
 
-def _limits(correction: Correction) -> tuple[np.ndarray, np.ndarray]:
-    """(joints,) each: joint limits without the outermost ranges."""
-    model = correction.arm.model
+def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
+    """Lower and upper (joints,) [rad, m] of an arm, without the outermost part of each range."""
+    model = arm.model
     lower, upper = model.lowerPositionLimit, model.upperPositionLimit
     margin = np.where(np.isfinite(upper - lower), OUTERMOST * (upper - lower), 0.0)
     return lower + margin, upper - margin
@@ -98,5 +104,5 @@ def _reachable(correction: Correction, candidates: Measurements) -> np.ndarray:
         found, reached = candidates.joints, np.ones(len(candidates), dtype=bool)
     else:
         found, _, reached = solve(correction, candidates)
-    lower, upper = _limits(correction)
+    lower, upper = joint_limits(correction.arm)
     return found[reached & ((found >= lower) & (found <= upper)).all(axis=1)]

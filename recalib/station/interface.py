@@ -13,7 +13,11 @@ class StationFailed(RecalibError):
 
 
 class Station(Protocol):
-    """An arm with its untouched controller, and an instrument."""
+    """An arm with its untouched controller, and an instrument.
+
+    All but `stop` is called from one thread, which also makes the station. If it has a method
+    `close`, that is called at the end.
+    """
 
     @property
     def joints(self) -> Sequence[str]:

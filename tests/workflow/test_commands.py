@@ -53,6 +53,15 @@ EXECUTED |= {  # with pictures that are rendered
         ),
     )
 }
+EXECUTED |= {  # with another folder
+    f"recalib live {station} ur10_robot.urdf --tool tool0 --yes": (
+        f"tests/station/test_program.py::{test}"
+    )
+    for station, test in (
+        ("examples/station.py:BentUR10", "test_the_example_in_python_is_a_station"),
+        ('"node examples/station.js"', "test_the_example_in_another_language_is_a_station"),
+    )
+}
 PLANNED = {  # Snakemake or make says what would run, and the reason why it does not
     "make setup": "whoever runs this has set it up",
     "make cluster": "what it installs is not pinned",

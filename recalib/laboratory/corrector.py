@@ -1,0 +1,47 @@
+"""Corrected commands one at a time, for the loop of a controller."""
+
+import numpy as np
+
+from recalib.errors import UnknownName
+from recalib.laboratory.correct import refuse, solve
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.measurements import Measurements
+
+
+class Corrector:
+    """What takes the real arm to a pose, starting from the command before: `correct` in a loop.
+
+    Args:
+        correction: what `load_correction` returned.
+    """
+
+    def __init__(self, correction: Correction):
+        self._correction = correction
+
+    def command(self, pose: np.ndarray, near: np.ndarray, target: str | None = None) -> np.ndarray:
+        """Joint coordinates (joints,) [rad, m] to send.
+
+        Args:
+            pose: (4, 4), or a position (3,) [m] where the rotation is free.
+            near: (joints,) rad, m, a command close by, such as the last one: the solution stays on
+                its branch.
+            target: whose pose it is, in the instrument's frame; the tool link's, in the arm's base,
+                unless given.
+
+        Raises NotReached (beyond reach or limits) and UnknownName.
+        """
+        names = self._correction.targets
+        if target is not None and target not in names:
+            raise UnknownName("target", target, names)
+        whole = pose.ndim == 2
+        desired = Measurements(
+            1,
+            near[None],
+            (pose[:3, 3] if whole else pose)[None],
+            pose[None, :3, :3] if whole else None,
+        )
+        numbers = None if target is None else np.array([names.index(target)])
+        found, errors, reached = solve(self._correction, desired, numbers)
+        if not reached.all():
+            refuse(self._correction, found, errors, reached)
+        return found[0]

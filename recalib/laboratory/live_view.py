@@ -1,0 +1,86 @@
+"""A live calibration in the Rerun viewer: the arm, what is believed of it, the predicted error."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from recalib.errors import InvalidSetting
+from recalib.identification.observations import Observations
+from recalib.laboratory.running import RunningCalibration
+from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
+from recalib.nominal.kinematics import Arm
+
+ARM, ROW = "arm", "row"
+SURE, UNSURE, GREY = np.array([0, 114, 178]), np.array([213, 94, 0]), (120, 120, 120)
+THICK = 0.003  # m
+
+
+class LiveView:
+    """What is shown: the nominal arm, the targets as measured, and the workspace.
+
+    Each point of the workspace is the tool in an allowed posture. It is orange where the predicted
+    error is as large as it ever was, and blue where it is gone.
+
+    Args:
+        rec: where it goes; a viewer unless given.
+        source: of the URDF at the path `urdf`.
+
+    Raises InvalidSetting: there is no viewer.
+    """
+
+    def __init__(self, arm: Arm, source: bytes, urdf: Path, rec: rr.RecordingStream | None = None):
+        self._arm, self._worst = arm, 0.0
+        if rec is None:
+            os.environ["CI"] = "true"  # with it, the viewer collects and sends no statistics
+            rec = rr.RecordingStream("recalib live")
+            try:
+                rec.spawn()
+            except RuntimeError:
+                valid = "the viewer of rerun in PATH, as after: . .venv/bin/activate"
+                raise InvalidSetting("--view", "without a viewer", valid) from None
+        self._rec = rec
+        rec.send_blueprint(_BLUEPRINT)
+        rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        self._visuals, _ = log_meshes(rec, source, urdf, ARM)
+
+    def show(self, rows: Observations, running: RunningCalibration) -> None:
+        """Show what is known after some rows."""
+        rec, joints = self._rec, rows.joints[-1:]
+        rec.set_time(ROW, sequence=len(rows))
+        clock = [rr.TimeColumn(ROW, sequence=[len(rows)])]
+        for link, poses in link_placements(self._arm, self._visuals, joints).items():
+            send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", clock, poses)
+        line = rr.LineStrips3D(self._arm.skeleton(joints), radii=THICK, colors=GREY)
+        rec.log("line", line)
+        if not running.is_ready(rows):
+            return
+        calibration, error = running.calibration(rows), running.error(rows)
+        base = np.linalg.inv(calibration.frames.base)
+        measured = rows.positions @ base[:3, :3].T + base[:3, 3]
+        rec.log("measured", rr.Points3D(measured, radii=THICK, colors=GREY))
+        probes, deviations = running.workspace(rows)
+        self._worst = max(self._worst, deviations.max())
+        part = (deviations / self._worst)[:, None]
+        colours = ((1 - part) * SURE + part * UNSURE).astype(np.uint8)
+        places = self._arm.forward(probes)[:, :3, 3]
+        rec.log("workspace", rr.Points3D(places, radii=2 * THICK, colors=colours))
+        rec.log("error/by_the_model", rr.Scalars(1e3 * error.by_model))
+        if np.isfinite(error.by_rows):
+            rec.log("error/by_the_last_rows", rr.Scalars(1e3 * error.by_rows))
+
+
+_BLUEPRINT = rrb.Blueprint(
+    rrb.Vertical(
+        rrb.Spatial3DView(
+            origin="/",
+            name="the arm, its targets, and the predicted error",
+            contents=["+ /**", "- /error/**"],
+        ),
+        rrb.TimeSeriesView(origin="error", name="predicted error [mm]"),
+        row_shares=[3, 1],
+    ),
+    collapse_panels=True,
+)

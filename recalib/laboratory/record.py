@@ -1,0 +1,137 @@
+"""A table of measurements that grows by a whole row at a time, and survives being killed."""
+
+import csv
+import fcntl
+import io
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.files.storage import read_file
+from recalib.identification.observations import Observations
+from recalib.laboratory.calibrate import observations_of
+from recalib.laboratory.columns import MOST
+from recalib.laboratory.description import Description
+from recalib.laboratory.measurements import measurements_so_far
+from recalib.nominal.kinematics import Arm
+
+
+class Record:
+    """The rows so far, and the file that holds them.
+
+    A row that a killed process or a full disk left without its end is dropped; nothing else that
+    is there is changed.
+
+    Args:
+        path: of the table, which may be there already.
+        arm: whose joints are in the first columns.
+        description: what the table does not say itself.
+
+    Attributes:
+        observations: the rows; None while there are none.
+        dropped: the row without an end, if there was one.
+
+    Raises InvalidFile: it is no such table, or another process writes it.
+    """
+
+    def __init__(self, path: str | os.PathLike[str], arm: Arm, description: Description):
+        self.path, self._arm, self._description = Path(path), arm, description
+        self.observations: Observations | None = None
+        self.dropped = ""
+        self._joints = [
+            f"{joint} [{'m' if slides else 'rad'}]"
+            for joint, slides in zip(arm.joints, arm.slides, strict=True)
+        ]
+        try:
+            self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+        except OSError as error:
+            raise InvalidFile(self.path, error.strerror or "it cannot be written") from None
+        try:
+            self._start()
+        except BaseException:
+            os.close(self._file)
+            raise
+
+    def __len__(self) -> int:
+        return 0 if self.observations is None else len(self.observations)
+
+    def _start(self) -> None:
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise InvalidFile(self.path, "another process writes it") from None
+        content = read_file(self.path, MOST)
+        self._content = content[: content.rfind(b"\n") + 1]
+        self.dropped = content[len(self._content) :].decode("utf-8", "replace")
+        if self._content.count(b"\n") == 1:  # a header alone: it was killed before the first row
+            self._content = b""
+        if self._content:
+            self.observations = self._read(self._content)
+            header = next(csv.reader(io.StringIO(self._content.decode("utf-8-sig"))))
+            missing = [name for name in self._joints if name not in header]
+            if missing:
+                raise InvalidFile(
+                    self.path, f"it has no column {missing[0]!r}, so that no row can be added"
+                )
+            self._header = header
+        os.ftruncate(self._file, len(self._content))
+
+    def read(
+        self, angles: np.ndarray, cells: Mapping[str, float | str]
+    ) -> tuple[Observations, bytes]:
+        """The rows with a further one, and its text, before it is written.
+
+        Args:
+            angles: (joints,) rad, m where the arm stood.
+            cells: what was measured there, by the headers of its columns.
+
+        Raises InvalidFile: its columns are others than before, or its cells are no measurement.
+        """
+        row = dict(zip(self._joints, angles.tolist(), strict=True)) | dict(cells)
+        header = self._header if len(self) else [*row]
+        if sorted(header) != sorted(row):
+            raise InvalidFile(
+                self.path,
+                f"its columns are {', '.join(header)}; the station gives {', '.join(row)}",
+            )
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerows([[row[name] for name in header]] if len(self) else [header, row.values()])
+        line = text.getvalue().encode()
+        return self._read(self._content + line), line
+
+    def write(self, observations: Observations, line: bytes) -> None:
+        """Add the row that `read` returned: it is on the disk when this returns.
+
+        Raises InvalidFile: there is no room for it.
+        """
+        try:
+            os.lseek(self._file, len(self._content), os.SEEK_SET)
+            if os.write(self._file, line) < len(line):
+                raise OSError(None, "there is no room for a row")
+            os.fsync(self._file)
+        except OSError as error:
+            os.ftruncate(self._file, len(self._content))
+            raise InvalidFile(self.path, error.strerror or "it cannot be written") from None
+        if not self._content:
+            self._header = next(csv.reader(io.StringIO(line.decode())))
+        self._content += line
+        self.observations = observations
+
+    def close(self) -> None:
+        """Let others write it. Without a row there is no file."""
+        if not self._content:
+            self.path.unlink(missing_ok=True)
+        os.close(self._file)
+
+    def _read(self, content: bytes) -> Observations:
+        rows = measurements_so_far(content, self.path, self._arm, self._description)
+        observations, targets, _ = observations_of(rows, self._description, self.path)
+        if len(targets) > 1:
+            raise InvalidFile(
+                self.path, f"it has the targets {', '.join(targets)}; expected: one and the same"
+            )
+        return observations

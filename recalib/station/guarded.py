@@ -1,0 +1,167 @@
+"""A station that is trusted in nothing: each call has a time limit, each answer is checked."""
+
+import queue
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from recalib.station.interface import Station, StationFailed
+
+REACHED = 0.01  # rad, m: how far from its goal a joint may stand
+STILL = 1e-3  # rad, m: between two readings of an arm that stands
+APART = 0.05  # s from one of these readings to the next
+SETTLING = 5.0  # s within which it has to stand
+STOPPING = 10.0  # s that are given to a stop
+
+# What to call, and where to put what it returned and what it raised.
+Call = tuple[Callable[[], Any], queue.SimpleQueue[Any]]
+
+
+class Guarded:
+    """A station that was opened, with its joints in the order of an arm's.
+
+    All calls but a stop come from one thread, which also opens the station: drivers and graphics
+    may be bound to it. After `stop`, nothing more is asked of it.
+
+    Args:
+        opening: makes the station.
+        joints: names of the arm's joints.
+        patience: s that each call may take.
+
+    Raises StationFailed here and in all that asks it: what it should not have done, in a sentence.
+    """
+
+    def __init__(self, opening: Callable[[], Station], joints: Sequence[str], patience: float):
+        self._patience, self._stopped = patience, False
+        self._calls: queue.SimpleQueue[Call | None] = queue.SimpleQueue()
+        self._station: Station | None = None
+        threading.Thread(target=self._work, name="station", daemon=True).start()
+        self._station = self._ask("open", opening)
+        names = self._ask("name its joints", lambda station: [*station.joints])
+        if sorted(map(str, names)) != sorted(joints):
+            raise StationFailed(
+                f"the station's joints are {', '.join(map(str, names))}; expected: those of the"
+                f" arm, {', '.join(joints)}"
+            )
+        self._order = [names.index(joint) for joint in joints]
+        self._joints = joints
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """The lowest and highest angles (joints,) that it allows [rad, m]."""
+        lower, upper = self._ask("tell its limits", lambda station: station.limits)
+        low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
+        if (wrong := low >= high).any():
+            joint = self._joints[int(wrong.argmax())]
+            raise StationFailed(f"the station's limits of {joint} are the wrong way round")
+        return low, high
+
+    def angles(self) -> np.ndarray:
+        """Where it stands: (joints,) rad, m."""
+        return self._numbers("angles", self._ask("tell its angles", lambda its: its.angles()))
+
+    def move(self, goal: np.ndarray, speed: float) -> None:
+        """Move to joint angles (joints,) [rad, m], and wait until it stands there."""
+        own = np.empty_like(goal)
+        own[self._order] = goal
+        self._ask("move", lambda station: station.move(own, speed))
+        off = np.abs(self._standing() - goal)
+        if off.max() > REACHED:
+            joint = self._joints[int(off.argmax())]
+            raise StationFailed(
+                f"after a move, {joint} stands {off.max():.3g} rad or m from where it was sent"
+            )
+
+    def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
+        """Where it stands (joints,) [rad, m], and what the instrument sees there."""
+        angles = self._standing()
+        cells = self._ask("measure", lambda station: station.measure())
+        if (np.abs(self.angles() - angles) > STILL).any():
+            raise StationFailed("the arm moved while it was measured")
+        if cells is None:
+            return angles, None
+        if not isinstance(cells, Mapping) or not cells:
+            raise StationFailed(f"the station measured {cells!r}; expected: cells by their headers")
+        return angles, cells
+
+    def stop(self) -> None:
+        """Stop it, once; from then on it refuses all else."""
+        if not self._stopped:
+            self._stopped = True
+            self._at_last(lambda station: station.stop())
+
+    def close(self) -> None:
+        """Let go of it: its method `close` is called, if it has one."""
+        self._stopped = True
+        self._calls.put(None)
+        self._at_last(lambda station: getattr(station, "close", lambda: None)())
+
+    def _at_last(self, do: Callable[[Station], None]) -> None:
+        """Whatever it is doing: from a thread of its own, for a limited time."""
+        if self._station is None:
+            return
+        station = self._station
+        ending = threading.Thread(target=lambda: _quietly(lambda: do(station)), daemon=True)
+        ending.start()
+        ending.join(STOPPING)
+
+    def _work(self) -> None:
+        while (waiting := self._calls.get()) is not None:
+            call, answer = waiting
+            try:
+                answer.put((call(), None))
+            except BaseException as error:
+                answer.put((None, error))
+
+    def _ask(self, what: str, call: Callable[..., Any]) -> Any:
+        if self._stopped:
+            raise StationFailed(f"the station was stopped; it is not asked to {what}")
+        answer: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        arguments = () if self._station is None else (self._station,)
+        self._calls.put((lambda: call(*arguments), answer))
+        try:
+            value, error = answer.get(timeout=self._patience)
+        except queue.Empty:
+            raise StationFailed(
+                f"for {self._patience:g} s the station has not answered when asked to {what}"
+            ) from None
+        if isinstance(error, StationFailed):
+            raise error
+        if error is not None:
+            raise StationFailed(
+                f"asked to {what}, the station raised {type(error).__name__}: {error}"
+            ) from error
+        return value
+
+    def _standing(self) -> np.ndarray:
+        """The angles (joints,) at which two readings agree."""
+        last, until = self.angles(), time.monotonic() + SETTLING
+        while time.monotonic() < until:
+            time.sleep(APART)
+            now = self.angles()
+            if (np.abs(now - last) <= STILL).all():
+                return now
+            last = now
+        raise StationFailed(f"the arm still moves, {SETTLING:g} s after it should stand")
+
+    def _numbers(self, name: str, given: Any) -> np.ndarray:
+        """An answer (joints,), in the arm's order."""
+        try:
+            numbers = np.asarray(given, dtype=float)
+        except (TypeError, ValueError):
+            raise StationFailed(f"the station's {name} are {given!r}; expected: numbers") from None
+        if numbers.shape != (len(self._order),) or not np.isfinite(numbers).all():
+            raise StationFailed(
+                f"the station's {name} are {numbers.tolist()}; expected: {len(self._order)} numbers"
+            )
+        return numbers[self._order]
+
+
+def _quietly(do: Callable[[], None]) -> None:
+    """What comes last has nobody to complain to: the failure before it is told."""
+    try:
+        do()
+    except Exception:
+        return

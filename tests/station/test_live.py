@@ -1,0 +1,335 @@
+"""A calibration that moves the arm itself: where it ends, and what stops it."""
+
+import os
+import random
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import rerun as rr
+
+from recalib.errors import InvalidFile, InvalidSetting, UnknownName
+from recalib.laboratory.allowed import AllowedPostures, Box
+from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.command_line import DONE, REFUSED, main
+from recalib.laboratory.correct import NotReached
+from recalib.laboratory.corrector import Corrector
+from recalib.laboratory.live import Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live_view import LiveView
+from recalib.nominal.descriptions import find_urdf
+from recalib.station.interface import StationFailed
+from tests.conftest import ROOT
+from tests.identification.real import ARMS
+from tests.logged import logged
+from tests.station import simulated
+from tests.station.simulated import HOMES, Simulated
+
+YES = lambda posture: True  # noqa: E731
+AROUND = Box(np.array([-2.0, -2.0, 0.1]), np.array([2.0, 2.0, 2.0]))
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    monkeypatch.setattr("recalib.station.guarded.APART", 0.001)
+    monkeypatch.setattr("recalib.station.guarded.SETTLING", 0.1)
+
+
+def run(station, tmp_path, ask=YES, on_progress=lambda line: None, **settings):
+    watch = {name: settings.pop(name) for name in ("on_row",) if name in settings}
+    settings = LiveSettings(**({"patience": 1.0} | settings))
+    table = tmp_path / "table.csv"
+    its = lambda: station  # noqa: E731
+    return calibrate_live(its, station.arm, table, settings, ask, None, on_progress, **watch)
+
+
+@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
+    station = Simulated(name, seed, noise=(5e-5, np.radians(0.01)))
+    reason = run(station, tmp_path, error=3e-4)
+    assert "0.3 mm was asked for" in reason
+    assert station.calls.count("move") < 30 and "stop" not in station.calls
+    urdf, tool = ARMS[name]
+    result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
+    low, high = (np.array(HOMES[name]) + side * np.radians(45) for side in (-1, 1))
+    fresh = np.random.default_rng(seed).uniform(low, high, (200, len(low)))
+    gaps = result.calibration.predict(fresh) - station.real.poses(fresh, noise=(0, 0))
+    assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < 3e-4
+
+
+def test_it_ends_where_more_is_of_no_use(tmp_path):
+    assert "would hardly make it smaller" in run(Simulated(), tmp_path)
+
+
+def test_it_ends_where_it_is_told_to(tmp_path):
+    assert "as many as allowed" in run(Simulated(), tmp_path, most=4)
+
+
+STOPPED = {
+    simulated.Collides: "the protective stop of the arm is on",
+    simulated.Stalls: "for 1 s the station has not answered when asked to move",
+    simulated.GetsLost: "after a move, elbow_joint stands 0.05 rad or m from where it was sent",
+    simulated.KeepsMoving: "the arm still moves, 0.1 s after it should stand",
+    simulated.MovesWhileItMeasures: "the arm moved while it was measured",
+    simulated.HasAnError: "asked to measure, the station raised KeyError: 'temperature'",
+    simulated.MeasuresForever: "for 1 s the station has not answered when asked to measure",
+    simulated.MeasuresNoNumber: "no row: row 4 of column 'y' is 'nan'; expected: a number",
+    simulated.MeasuresOtherThings: "no row: its columns are .*, qw; the station gives .*, temp",
+    simulated.MeasuresNothing: "no row: no positions are measured in it; expected: x, y and z",
+    simulated.Lies: "the target was measured .* mm from where 1. rows put it; expected: about",
+    simulated.IsBlind: "not seen the target in 10 postures, .* try: a smaller --span",
+    simulated.SeesNothing: "does not see the target where the arm stands; try: begin where it does",
+    simulated.ForgetsAJoint: r"the station's angles are \[.*\]; expected: 6 numbers",
+    simulated.HasOtherJoints: "the station's joints are joint_0, .*; expected: those of the arm",
+    simulated.HasNoLimits: "limits of shoulder_pan_joint are the wrong way round",
+    simulated.Disappears: "asked to tell its angles, the station raised ConnectionResetError",
+}
+
+
+@pytest.mark.parametrize("kind", STOPPED, ids=lambda kind: kind.__name__)
+def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(kind, tmp_path):
+    station, told = kind(), []
+    with pytest.raises(StationFailed, match=STOPPED[kind]):
+        run(station, tmp_path, on_progress=told.append)
+    time.sleep(0.05)
+    if kind not in (simulated.HasOtherJoints,):  # it was never asked for anything
+        assert station.calls.count("stop") == 1
+        assert "move" not in station.calls[station.calls.index("stop") :]
+        assert re.match(r"stopped; \d+ rows are in ", told[-1])
+
+
+def test_joints_in_another_order_are_the_same_joints(tmp_path):
+    class Reversed(Simulated):
+        def __init__(self):
+            super().__init__()
+            self.joints = self.arm.joints[::-1]
+            self.limits = [limit[::-1] for limit in self.limits]
+
+        def move(self, angles, speed):
+            super().move(angles[::-1], speed)
+
+        def angles(self):
+            return self.stands[::-1]
+
+    run(Reversed(), tmp_path, most=12)
+    run(Simulated(), tmp_path / "..", most=12)
+    tables = (tmp_path / "table.csv", tmp_path / ".." / "table.csv")
+    assert tables[0].read_bytes() == tables[1].read_bytes()
+
+
+def test_nothing_moves_without_a_yes(tmp_path):
+    station, asked = Simulated(), []
+
+    def ask(posture):
+        asked.append(posture)
+        return len(asked) < 3
+
+    assert run(station, tmp_path, ask) == "you ended it"
+    assert station.calls.count("move") == 2
+
+
+def test_an_interrupt_stops_the_arm(tmp_path):
+    station = Simulated()
+
+    def ask(posture):
+        if station.calls.count("move") == 4:
+            raise KeyboardInterrupt
+        return True
+
+    with pytest.raises(Interrupted, match="the station was told to stop"):
+        run(station, tmp_path, ask)
+    assert station.calls[-1] == "stop"
+
+
+def test_the_tool_stays_in_the_box_also_on_its_way(tmp_path):
+    class Watched(Simulated):
+        def move(self, angles, speed):
+            way = self.arm.forward(np.linspace(self.stands, angles, 200))[:, :3, 3]
+            assert (way >= box.low - 0.01).all() and (way <= box.high + 0.01).all()
+            super().move(angles, speed)
+
+    box = Box(np.array([0.5, -0.3, 0.1]), np.array([1.0, 0.5, 0.6]))
+    station = Watched()
+    run(station, tmp_path, most=12, box=box)
+    assert station.calls.count("move") > 11, "none went by way of home"
+
+
+def test_where_the_arm_was_left_outside_the_box_it_stays(tmp_path):
+    run(Simulated(), tmp_path, most=3)
+    station = Simulated()
+    station.stands = station.stands + 1.2 * np.eye(6)[1]
+    with pytest.raises(StationFailed, match="no straight path .* try: move it back by hand"):
+        run(station, tmp_path, box=AROUND)
+    assert "move" not in station.calls
+
+
+def test_postures_are_within_the_limits_of_both():
+    station = Simulated()
+    home, limits = station.stands, (np.full(6, -2.5), np.full(6, 2.0))
+    postures = AllowedPostures(station.arm, home, limits, 0.5, AROUND).joints
+    assert (np.abs(postures - home) <= 0.5).all()
+    assert (postures >= -2.5).all() and (postures <= 2.0).all()
+    for changed, match in (
+        ({"home": home + 0.2 * np.eye(6)[2]}, "first posture is 'elbow_joint at 2.1'"),
+        ({"box": Box(np.zeros(3), np.full(3, 0.5))}, "without the tool, which is at"),
+        ({"box": Box.read("77 cm to 78 cm, 16 cm to 17 cm, 23 cm to 25 cm")}, "left by all"),
+    ):
+        given = {"home": home, "limits": limits, "span": 0.5, "box": AROUND} | changed
+        with pytest.raises(InvalidSetting, match=match):
+            AllowedPostures(station.arm, **given)
+
+
+@pytest.mark.parametrize("text", ["1 m to 2 m", "a, b, c", "1 m to 0 m, 0 m to 1 m, 0 m to 1 m"])
+def test_a_box_is_three_ranges(text):
+    with pytest.raises(InvalidSetting, match="--box"):
+        Box.read(text)
+
+
+def test_a_torn_row_is_dropped_and_nothing_else(tmp_path):
+    table, told = tmp_path / "table.csv", []
+    run(Simulated(), tmp_path, most=7)
+    whole = table.read_bytes()
+    for cut in (len(whole) - 1, len(whole) - 60, len(whole) // 2, whole.index(b"\n") + 5, 10):
+        table.write_bytes(whole[:cut])
+        run(Simulated(), tmp_path, most=7, on_progress=told.append)
+        assert "a row without its end was dropped: " in "".join(told)
+        assert table.read_bytes() == whole
+
+
+def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
+    station, table = Simulated(), tmp_path / "table.csv"
+
+    def ask(posture):
+        with pytest.raises(InvalidFile, match="another process writes it"):
+            run(Simulated(), tmp_path)
+        return False
+
+    run(station, tmp_path, ask)
+    table.write_text(table.read_text().replace("elbow_joint [rad]", "elbow_joint [deg]"))
+    with pytest.raises(InvalidFile, match=r"no column 'elbow_joint \[rad\]'"):
+        run(Simulated(), tmp_path)
+
+
+def test_without_a_row_there_is_no_table(tmp_path):
+    with pytest.raises(StationFailed):
+        run(simulated.SeesNothing(), tmp_path)
+    assert not (tmp_path / "table.csv").exists()
+
+
+LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
+
+
+def test_the_command_calibrates(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main([*LINE.format("Simulated").split(), "--yes"]) == DONE
+    told = capsys.readouterr()
+    assert "row 14: predicted error by the model 0." in told.err
+    assert "the mean error falls from" in told.out
+    assert (tmp_path / "calibration" / "correction.npz").exists()
+
+
+def test_it_can_be_watched(tmp_path):
+    station, urdf = Simulated(), find_urdf("ur10_robot.urdf")
+    with rr.RecordingStream("live") as rec:
+        rec.save(tmp_path / "live.rrd")
+        view = LiveView(station.arm, urdf.read_bytes(), urdf, rec)
+        run(station, tmp_path, most=14, on_row=view.show)
+    its = logged(tmp_path / "live.rrd")
+    entities = {name.split()[0] for name in its}
+    assert entities >= {"/line", "/measured", "/workspace", "/error/by_the_last_rows"}
+    (errors,) = (its[name] for name in its if "/by_the_model Scalars" in name)
+    assert len(np.concatenate(errors)) == 14 - 5
+
+
+def test_the_command_asks(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin.readline", iter(["\n", "no\n"]).__next__, raising=False)
+    assert main(LINE.format("Simulated").split()) == REFUSED
+    told = capsys.readouterr().err
+    assert told.count("? Enter: yes; anything else: end") == 2
+    assert "enough: you ended it" in told and "it has 2 rows; expected: at least 10" in told
+
+
+def begun(folder, most=14):
+    """`recalib live` in a folder, in a process of its own."""
+    folder.mkdir(exist_ok=True)
+    line = LINE.format("Lasting").replace("14", str(most))
+    return subprocess.Popen(
+        [sys.executable, "-m", "recalib", *line.split(), "--yes"],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def rows(folder) -> list[str]:
+    table = folder / "measurements.csv"
+    return table.read_text().splitlines() if table.exists() else []
+
+
+@pytest.mark.slow
+def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
+    once, killed, most = tmp_path / "once", tmp_path / "killed", 40  # it ends before that
+    with begun(once, most) as process:
+        process.communicate()
+    moments, before = random.Random(8), []
+    for _ in range(20):
+        with begun(killed, most) as process:
+            process.stderr.readline()  # it is about to make its first move
+            time.sleep(moments.uniform(0, 0.3))
+            process.kill()
+            process.communicate()
+        assert process.returncode == -signal.SIGKILL
+        assert rows(killed)[: len(before)] == before
+        before = rows(killed)
+    with begun(killed, most) as process:
+        process.communicate()
+    assert process.returncode == DONE
+    assert rows(killed) == rows(once)
+    measured = (killed / "measured").read_text().splitlines()
+    # where it was killed after it measured and before the row was there, it had to measure again
+    assert len({*measured}) == len(rows(once)) - 1 and len(measured) <= len({*measured}) + 20
+
+
+def test_one_that_is_terminated_stops_the_arm_first(tmp_path):
+    with begun(tmp_path) as process:
+        process.stderr.readline()
+        process.terminate()
+        told = process.communicate()[1]
+    assert "recalib: interrupted; the station was told to stop" in told
+    assert process.returncode == REFUSED
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("calibrated")
+    station = Simulated()
+    run(station, folder, most=20)
+    return station, calibrate_arm(*_files(folder)).correction
+
+
+def _files(folder):
+    return "ur10_robot.urdf", folder / "table.csv", None, "tool0"
+
+
+def test_a_command_takes_the_target_where_it_should_be(calibrated):
+    station, correction = calibrated
+    corrector, near = Corrector(correction), station.stands
+    goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
+    command = corrector.command(goal, near, target="the target")
+    there = station.real.poses(command[None], noise=(0, 0))[0]
+    assert np.linalg.norm((there - goal)[:3, 3]) < 1e-3
+    position = corrector.command(goal[:3, 3], near, target="the target")
+    assert np.abs(position - near).max() < np.abs(command - near).max() + 0.05
+    tool = correction.calibration.forward(near[None])[0]
+    np.testing.assert_allclose(corrector.command(tool, near + 0.02), near, atol=1e-6)
+    with pytest.raises(NotReached):
+        corrector.command(np.array([9.0, 0, 0]), near)
+    with pytest.raises(UnknownName, match="unknown target"):
+        corrector.command(goal, near, target="the board")

@@ -1,0 +1,135 @@
+"""Stations behind programs, and what may stand on the command line."""
+
+import json
+import re
+import shutil
+import sys
+import time
+
+import pytest
+
+from recalib.laboratory.command_line import DONE, main
+from recalib.nominal.arms import load_arm
+from recalib.station.interface import StationFailed
+from recalib.station.opening import open_station
+from recalib.station.program import ProgramStation
+from tests.conftest import ROOT
+
+DESCRIBED = {"joints": ["a", "b"], "lower": [-1, -1], "upper": [1, 1]}
+PROGRAM = """
+import json, sys
+answers = json.loads({answers!r})
+for line in sys.stdin:
+    request = json.loads(line)
+    print(line, file=open("heard", "a"), end="")
+    if request["do"] in answers:
+        print(answers[request["do"]], flush=True)
+    elif request["do"] != "stop":
+        sys.exit()
+print("ended", file=open("heard", "a"))
+"""
+ANSWERS = {
+    "describe": json.dumps(DESCRIBED),
+    "move": "{}",
+    "angles": '{"angles": [0.1, 0.2]}',
+    "measure": '{"row": {"x [m]": 0.5, "target": "ball"}}',
+}
+
+
+@pytest.fixture
+def program(tmp_path, monkeypatch):
+    """Starts a program that answers so; a request that has no answer ends it."""
+    monkeypatch.chdir(tmp_path)
+    begun = []
+
+    def begin(**answers):
+        text = PROGRAM.format(answers=json.dumps(ANSWERS | answers))
+        begun.append(ProgramStation([sys.executable, "-c", text]))
+        return begun[-1]
+
+    yield begin
+    for station in begun:
+        station.close()
+
+
+def test_each_request_is_a_line_and_so_is_its_answer(program, tmp_path):
+    station = program()
+    assert list(station.joints) == ["a", "b"]
+    assert tuple(station.limits) == ([-1, -1], [1, 1])
+    station.move(load_arm("ur10_robot.urdf", "tool0").model.upperPositionLimit[:2], 0.2)
+    assert station.angles() == [0.1, 0.2]
+    assert station.measure() == {"x [m]": 0.5, "target": "ball"}
+    station.stop()
+    station.close()
+    station.stop()  # at any time
+    *heard, last = (tmp_path / "heard").read_text().splitlines()
+    assert [json.loads(line)["do"] for line in heard] == [*ANSWERS, "stop"]
+    assert json.loads(heard[1])["speed"] == 0.2 and last == "ended"
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        ("[INFO] measuring", "answered '.INFO. measuring' to 'measure'; expected: a JSON object"),
+        ("[1, 2]", "expected: a JSON object in a line. What is for people belongs on stderr"),
+        ("[" * 100_000, "expected: a JSON object"),
+        ('{"error": "no tracker on port 3"}', "python.*: no tracker on port 3"),
+        ("{}", "answered 'measure' without 'row'"),
+    ],
+)
+def test_an_answer_that_is_none_is_told(program, answer, says):
+    with pytest.raises(StationFailed, match=says):
+        program(measure=answer).measure()
+
+
+def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
+    station = ProgramStation([sys.executable, "-c", text])
+    for _ in range(2):
+        with pytest.raises(StationFailed, match="has ended instead of an answer to 'angles'"):
+            station.angles()
+    station.stop()
+    station.close()
+
+
+def test_a_program_that_does_not_end_is_ended(monkeypatch):
+    monkeypatch.setattr("recalib.station.program.PATIENCE", 0.1)
+    text = f"import time; print({json.dumps(DESCRIBED)!r}, flush=True); time.sleep(60)"
+    station, began = ProgramStation([sys.executable, "-c", text]), time.monotonic()
+    station.close()
+    assert time.monotonic() - began < 30
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("nowhere --at all", "nowhere does not start: No such file or directory"),
+        ("'unclosed", "is no command line: No closing quotation"),
+        ("", "STATION is empty"),
+        ("nowhere.py:Mine", "nowhere.py:Mine cannot be made: FileNotFoundError"),
+        ("no_such_module:Mine", "cannot be made: ModuleNotFoundError: No module named"),
+        ("recalib.errors:Mine", "has no attribute 'Mine'"),
+        ("sh -c 'exit 3'", "sh has ended instead of an answer to 'describe'"),
+    ],
+)
+def test_what_is_no_station_is_told(text, says):
+    with pytest.raises(StationFailed, match=says):
+        open_station(text)
+
+
+def lived(station: str, folder) -> float:
+    """The mean error [mm] away from measured postures after a live calibration."""
+    words = [station, "ur10_robot.urdf", "--tool", "tool0", "--yes"]
+    assert main(["live", *words, f"--table={folder}/rows.csv", f"--out={folder}/new"]) == DONE
+    summary = (folder / "new" / "summary.txt").read_text()
+    return float(re.search(r"the mean error falls from [\d.]+ mm to ([\d.]+) mm", summary)[1])
+
+
+@pytest.mark.skipif(not shutil.which("node"), reason="needs node")
+def test_the_example_in_another_language_is_a_station(tmp_path):
+    assert lived(f"node {ROOT / 'examples' / 'station.js'}", tmp_path) < 0.3
+
+
+def test_the_example_in_python_is_a_station(tmp_path):
+    assert lived(f"{ROOT / 'examples' / 'station.py'}:BentUR10", tmp_path) < 0.5
