@@ -1,9 +1,9 @@
 """An arm in MuJoCo as a station: joints give way, rub and have play. It stands for a real arm.
 
 Geometry and masses come from a URDF, damaged as `recalib.damaged` does it; all that moves is
-MuJoCo's. A joint is a motor, a gear, and what the gear carries. The encoder sits on the motor, which
-stands exactly where the controller wants it. The gear is a spring, which gives way to gravity, with
-friction and play. So only the instrument sees how far a joint droops.
+MuJoCo's. A joint is a motor, a gear, and what the gear carries. The encoder sits on the motor,
+which stands exactly where the controller wants it. The gear is a spring, which gives way to
+gravity, with friction and play. So only the instrument sees how far a joint droops.
 """
 
 import threading
@@ -24,8 +24,8 @@ STEP = 0.004  # s
 CHUNK = 25  # steps between two looks at whether it stands
 STILL = 1e-6  # rad or m in a chunk
 PATIENCE = 300  # chunks in which it must stand
-# rad/s: no joint swings faster, whatever it carries, since its motor's rotor, which turns many times
-# as fast, has to be moved, too. Time steps are as long as that allows.
+# rad/s: no joint swings faster, whatever it carries: its motor's rotor, which turns many times as
+# fast, has to be moved, too. Time steps are as long as that allows.
 FASTEST = 100.0
 SPEED = 1.0  # rad/s or m/s of a joint of which the URDF does not say how fast it is
 SAMPLES = 100  # postures among which is the one that is hardest to swing
