@@ -38,6 +38,7 @@ PICTURES = {
 }
 # What needs the extra `live`, likewise.
 LIVE = {
+    "station/camera.py": {"cv2", "mujoco"},
     "station/physics.py": {"mujoco"},
 }
 # What the library needs beside Python, by the name under which it is installed.
@@ -54,6 +55,7 @@ HEAVY = {
     "cv2",
     "jinja2",
     "matplotlib",
+    "mujoco",
     "numba",
     "pandas",
     "pinocchio",

@@ -6,13 +6,16 @@ which stands exactly where the controller wants it. The gear is a spring, which 
 gravity, with friction and play. So only the instrument sees how far a joint droops.
 """
 
+import os
+import sys
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+os.environ.setdefault("MUJOCO_GL", "egl" if sys.platform == "linux" else "")  # without a screen
+
 import mujoco
 import numpy as np
-import pinocchio as pin
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
@@ -185,7 +188,7 @@ def _spec(arm: Arm, gears: Gears, gravity: bool) -> mujoco.MjSpec:
     tool = model.frames[tool_frame(model, arm.tool)].placement
     ends = [*list(model.jointPlacements)[2:], tool]
     for index, name in enumerate(arm.joints):
-        body = body.add_body(name=name, **_placed(model.jointPlacements[index + 1]))
+        body = body.add_body(name=name, **placed(model.jointPlacements[index + 1].homogeneous))
         its = model.inertias[index + 1]
         (xx, xy, xz), (_, yy, yz), (_, _, zz) = its.inertia
         body.mass, body.ipos, body.fullinertia = its.mass, its.lever, [xx, yy, zz, xy, xz, yz]
@@ -204,9 +207,9 @@ def _spec(arm: Arm, gears: Gears, gravity: bool) -> mujoco.MjSpec:
         spring.wrap_joint(name, 1.0)
         end = np.array(ends[index].translation)
         if np.linalg.norm(end) > 1e-6:
-            capsule = mujoco.mjtGeom.mjGEOM_CAPSULE
+            round_end, flat = mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_CYLINDER
             body.add_geom(
-                type=capsule,
+                type=flat if index == count - 1 else round_end,  # a tool may begin there
                 fromto=[0, 0, 0, *end],
                 size=[WIDTH, 0, 0],
                 contype=0,
@@ -214,15 +217,15 @@ def _spec(arm: Arm, gears: Gears, gravity: bool) -> mujoco.MjSpec:
                 mass=0,
                 rgba=[0.6, 0.6, 0.65, 1],
             )
-    body.add_site(name="tool", **_placed(tool))
+    body.add_site(name="tool", **placed(tool.homogeneous))
     return spec
 
 
-def _placed(placement: pin.SE3) -> dict[str, np.ndarray]:
-    """Where a body or a site is, in MuJoCo's words."""
+def placed(pose: np.ndarray) -> dict[str, np.ndarray]:
+    """Where something is, by its pose (4, 4) [m], in MuJoCo's words."""
     turn = np.empty(4)
-    mujoco.mju_mat2Quat(turn, placement.rotation.ravel())
-    return {"pos": placement.translation, "quat": turn}
+    mujoco.mju_mat2Quat(turn, pose[:3, :3].ravel())
+    return {"pos": pose[:3, 3], "quat": turn}
 
 
 def _damp(model: mujoco.MjModel, data: mujoco.MjData, limits: tuple[np.ndarray, ...]) -> None:

@@ -33,7 +33,7 @@ from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.study import Study
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.competitors import COMPETITORS, MOVES, label_of, make_peer
+from recalib.study.plan.competitors import COMPETITORS, label_of, make_peer
 from recalib.study.plan.trainings import rules
 from recalib.study.plots.style import STYLE, logarithmic, save
 from recalib.study.scenarios.assignments import assign
@@ -81,6 +81,11 @@ def scenario() -> tuple[Controller, DamagedArm]:
     _, assignment = assign(its, study().paper_damage, study().seed)
     controller = nominal_controller(its)
     return controller, apply(controller.robot, damages_among(assignment.damages))
+
+
+def short(learner: str) -> str:
+    """Its name without the number of its iterations."""
+    return learner.removesuffix("_200")
 
 
 def station(damaged: DamagedArm, condition: str, gears: Gears, seed: int) -> PhysicsStation:
@@ -167,24 +172,20 @@ def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
 def drawn(curves: pd.DataFrame) -> None:
     """Both errors over iterations: the mean of the seeds, and all between the least and largest."""
     plt.rcParams.update(STYLE)
-    figure, panels = plt.subplots(2, 2, figsize=(9, 6.5), sharex="col", sharey="row")
-    for column, (learners, its) in zip(panels.T, ITERATIONS.items(), strict=True):
-        for axes, (error, unit) in zip(column, ERRORS.items(), strict=True):
+    figure, panels = plt.subplots(2, 2, figsize=(9, 7), sharex="col", sharey="row")
+    for column, learners in zip(panels.T, ITERATIONS, strict=True):
+        for axes, error in zip(column, ERRORS, strict=True):
             for learner, (condition, dashes) in product(learners, LINES.items()):
                 rows = curves[(curves.learner == learner) & (curves.condition == condition)]
-                groups = rows.groupby("iteration")[error]
-                style, low, high = (
-                    COMPETITORS[learner.removesuffix("_200")],
-                    groups.min(),
-                    groups.max(),
-                )
+                errors, style = rows.groupby("iteration")[error], COMPETITORS[short(learner)]
                 name = f"{style.label}, {condition}"
-                axes.plot(groups.mean(), color=style.color, linestyle=dashes, label=name)
-                axes.fill_between(low.index, low, high, color=style.color, alpha=0.15, linewidth=0)
+                axes.plot(errors.mean(), color=style.color, linestyle=dashes, label=name)
+                ends = errors.min(), errors.max()
+                axes.fill_between(ends[0].index, *ends, color=style.color, alpha=0.15, linewidth=0)
             logarithmic(axes.yaxis, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10)
-            axes.legend(fontsize=7.5)
         column[0].set_title(TITLES[learners])
-        column[1].set_xlabel(f"iterations, of {MOVES if learners == MAPS else 'one'} moves each")
+        column[1].legend(fontsize=8)
+        column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
         axes.set_ylabel(f"mean {error.split('_')[0]} error, test poses [{unit}]")
     save(figure, FIGURE)
@@ -198,7 +199,7 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: dict[str, float])
         for learner, condition in product(learners, (KINEMATICS, *PHYSICS)):
             of = curves[(curves.learner == learner) & (curves.condition == condition)]
             cells = [_both(of[of.iteration == iteration]) for iteration in when]
-            rows.append([label_of(learner.removesuffix("_200")), condition, *cells])
+            rows.append([label_of(short(learner)), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
     last = curves[
         curves.iteration
@@ -206,7 +207,7 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: dict[str, float])
     ]
     pairs = last.set_index(["learner", "condition", "seed"]).position_error_cm.unstack("condition")
     ratios = {
-        (label_of(learner.removesuffix("_200")), condition): _spread(
+        (label_of(short(learner)), condition): _spread(
             pairs.loc[learner][condition] / pairs.loc[learner][KINEMATICS]
         )
         for learner in (*MAPS, *TODAY)
