@@ -28,6 +28,7 @@ from recalib.loop.training import History, train
 from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
+from recalib.station.camera import UPWARDS, PicturedStation
 from recalib.station.physics import Gears, PhysicsStation
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.study import Study
@@ -40,6 +41,9 @@ from recalib.study.scenarios.assignments import assign
 from recalib.study.scenarios.nominal import nominal
 from recalib.study.scenarios.plants import nominal_controller
 from recalib.study.studies import read_studies
+from recalib.vision.boards import printable
+from recalib.vision.detection import find_corners
+from recalib.vision.views import board_pose
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 KEPT = ROOT / "results" / "live_paper"
@@ -48,16 +52,18 @@ SEEDS, TESTS, NOISE = 5, 200, Noise(2e-4, np.radians(0.02))  # m, rad
 MAPS, TODAY = ("improved_200", "ritter_200"), ("geometric", "hybrid")
 ITERATIONS = {MAPS: range(0, 201, 10), TODAY: (0, 5, 10, 20, 30, 50, 100)}
 SHOWN = {MAPS: (0, 10, 50, 100, 200), TODAY: (0, 10, 20, 30, 100)}
-KINEMATICS = "kinematics"
-SOFT = (
-    3.7e3  # N m/rad: softer than an industrial arm's joints, so that droop is as large as asked for
-)
+KINEMATICS, MASSES, PICTURES = "kinematics", "physics, other masses", "physics, by pictures"
+BOARD = printable("charuco", 7, 5, 0.05)
+SOFT = 3.7e3  # N m/rad, softer than joints in industry: so soft an arm droops by 12 mm
 PHYSICS = {
     "physics": Gears(SOFT),
     "physics, rough": Gears(SOFT, friction=2.0, play=3e-4),
-    "physics, other masses": Gears(SOFT),
+    MASSES: Gears(SOFT),
+    PICTURES: Gears(SOFT),
 }
-MASSES = 0.2  # standard deviation of the logarithm of each link's mass, of the arm with others
+LEARNERS = dict.fromkeys((KINEMATICS, *PHYSICS), (*MAPS, *TODAY))
+LEARNERS |= {MASSES: TODAY, PICTURES: ("improved_200", "hybrid")}  # a picture takes 0.3 s
+UNSURE = 0.2  # standard deviation of the logarithm of each link's mass, of the arm with others
 DRAWS, POSTURES = 10, 30
 # Standard deviations of a link's errors along each axis [m, rad], a tenth of a joint's; N m/rad:
 # together they make an arm err by 12 mm
@@ -91,7 +97,7 @@ def short(learner: str) -> str:
 def station(damaged: DamagedArm, condition: str, gears: Gears, seed: int) -> PhysicsStation:
     """The arm in MuJoCo, with masses of its own where the condition is so."""
     its = DamagedArm(damaged.arm.copy(), damaged.offsets)
-    if "masses" in condition:
+    if condition == MASSES:
         factors = np.exp(
             MASSES * np.random.default_rng([seed, 7]).standard_normal(its.arm.model.nv)
         )
@@ -101,15 +107,39 @@ def station(damaged: DamagedArm, condition: str, gears: Gears, seed: int) -> Phy
     return PhysicsStation(its, gears)
 
 
+class Pictures(Disturbances):
+    """Of pictures, in place of poses: the lens and the places of camera and board are known.
+
+    The camera is 1.5 m before the workspace and sees the board anywhere in it.
+    """
+
+    def __init__(self, moving: DamagedArm, gears: Gears, centre: np.ndarray, seed: int):
+        super().__init__()
+        place, camera = UPWARDS.copy(), centre @ UPWARDS
+        place[:3, 3] = *(BOARD.size / [-2, 2]), 0.02
+        camera[:3, 3] = centre[:3, 3] + 1.5 * centre[:3, 2]
+        station = PicturedStation(moving, camera, place, BOARD, KEPT, gears, seed=seed)
+        vars(self).update(station=station, before=camera, behind=np.linalg.inv(place))
+
+    def measure(self, generators, poses: np.ndarray) -> np.ndarray:
+        """The pose (1, 1, 4, 4) [m] of the tool after the last move."""
+        view = find_corners(BOARD, self.station.picture())
+        seen = board_pose(BOARD, self.station.lens, view)
+        return (self.before @ seen @ self.behind)[None, None]
+
+
 def plant(condition: str, seed: int) -> Plant:
     """The robot behind the untouched controller: its kinematics, or its dynamics."""
     controller, damaged = scenario()
-    moving = (
-        damaged
-        if condition == KINEMATICS
-        else station(damaged, condition, PHYSICS[condition], seed)
-    )
-    return Plant(controller, moving, Disturbances(NOISE), [np.random.default_rng([seed, 8])])
+    rngs = [np.random.default_rng([seed, 8])]
+    if condition == KINEMATICS:
+        return Plant(controller, damaged, Disturbances(NOISE), rngs)
+    if condition == PICTURES:
+        centre = controller.robot.workspace.centre
+        pictures = Pictures(damaged, PHYSICS[condition], centre, seed)
+        return Plant(controller, pictures.station, pictures, rngs)
+    moving = station(damaged, condition, PHYSICS[condition], seed)
+    return Plant(controller, moving, Disturbances(NOISE), rngs)
 
 
 def trained(condition: str, learner: str, seed: int) -> History:
@@ -191,30 +221,26 @@ def drawn(curves: pd.DataFrame) -> None:
     save(figure, FIGURE)
 
 
-def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: dict[str, float]) -> dict:
+def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> dict:
     """What the page says."""
-    tables = {}
+    tables, ratios = {}, {}
     for learners, when in SHOWN.items():
         rows = []
         for learner, condition in product(learners, (KINEMATICS, *PHYSICS)):
-            of = curves[(curves.learner == learner) & (curves.condition == condition)]
-            cells = [_both(of[of.iteration == iteration]) for iteration in when]
-            rows.append([label_of(short(learner)), condition, *cells])
+            own = curves[(curves.learner == learner) & (curves.condition == condition)]
+            if len(own):
+                cells = [_both(own[own.iteration == iteration]) for iteration in when]
+                rows.append([label_of(short(learner)), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
-    last = curves[
-        curves.iteration
-        == curves.learner.map({name: its[-1] for names, its in SHOWN.items() for name in names})
-    ]
-    pairs = last.set_index(["learner", "condition", "seed"]).position_error_cm.unstack("condition")
-    ratios = {
-        (label_of(short(learner)), condition): _spread(
-            pairs.loc[learner][condition] / pairs.loc[learner][KINEMATICS]
-        )
-        for learner in (*MAPS, *TODAY)
-        for condition in PHYSICS
-    }
+        last = curves[curves.iteration == when[-1]].set_index(["learner", "condition", "seed"])
+        for learner, condition in product(learners, PHYSICS):
+            if (learner, condition) in last.index:
+                own, kinematic = (last.loc[learner, its] for its in (condition, KINEMATICS))
+                ratios[label_of(short(learner)), condition] = [
+                    _spread(own[error] / kinematic[error]) for error in ERRORS
+                ]
     bars = {
-        condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]
+        condition: [_spread(rows[name], 3) for name in ("droop", "before", "geometry", "after")]
         for condition, rows in draws.groupby("condition", sort=False)
     }
     numbers = {"seeds": SEEDS, "tests": TESTS, "draws": DRAWS, "postures": POSTURES}
@@ -222,34 +248,46 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: dict[str, float])
         "tables": tables,
         "ratios": ratios,
         "bars": bars,
-        "droops": {name: f"{droop:.1f}" for name, droop in droops.items()},
+        "droops": dict(zip(droops.condition, droops.droop, strict=True)),
     }
 
 
 def _both(rows: pd.DataFrame) -> str:
-    return "; ".join(f"{_spread(rows[error])}" for error in ERRORS)
+    position, orientation = (_spread(rows[error]) for error in ERRORS)
+    return f"{position}; {orientation}"
 
 
-def _spread(values: pd.Series) -> str:
-    return f"{values.mean():.2g} ({values.min():.2g}-{values.max():.2g})"
+def _spread(values: pd.Series, digits: int = 2) -> str:
+    low, mean, high = (
+        f"{its:#.{digits}g}".rstrip(".") for its in (values.min(), values.mean(), values.max())
+    )
+    return f"{mean} ({low}-{high})"
 
 
-def main() -> None:
-    """Measure, and write the tables, the figure and the page."""
+def measured() -> None:
+    """Make the tables."""
     KEPT.mkdir(parents=True, exist_ok=True)
-    conditions = KINEMATICS, *PHYSICS
+    trainings = [(condition, name) for condition, names in LEARNERS.items() for name in names]
+    jobs = [(*training, seed) for training, seed in product(trainings, range(SEEDS))]
+    told = [name for name in PHYSICS if name != PICTURES]
     with ProcessPoolExecutor(2) as pool:
-        jobs = product(conditions, (*MAPS, *TODAY), range(SEEDS))
         curves = pd.concat(pool.map(curve, jobs), ignore_index=True)
-        draws = pd.DataFrame(pool.map(calibrated, product(PHYSICS, range(DRAWS))))
-        droops = dict(zip(PHYSICS, pool.map(droop, PHYSICS), strict=True))
-    curves.to_csv(KEPT / "curves.csv", index=False)
-    draws.to_csv(KEPT / "draws.csv", index=False)
-    drawn(curves)
+        curves.to_csv(KEPT / "curves.csv", index=False)
+        draws = pd.DataFrame(pool.map(calibrated, product(told, range(DRAWS))))
+        draws.to_csv(KEPT / "draws.csv", index=False)
+        droops = pd.DataFrame({"condition": told, "droop": [*pool.map(droop, told)]})
+        droops.to_csv(KEPT / "droops.csv", index=False)
+
+
+def written() -> None:
+    """Draw the figure and write the page, from the tables."""
+    tables = [pd.read_csv(KEPT / f"{name}.csv") for name in ("curves", "draws", "droops")]
+    drawn(tables[0])
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined, keep_trailing_newline=True)
     template = environment.from_string((HERE / "paper_live.md.j2").read_text(encoding="utf-8"))
-    PAGE.write_text(template.render(context(curves, draws, droops)), encoding="utf-8")
+    PAGE.write_text(template.render(context(*tables)), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    measured()
+    written()
