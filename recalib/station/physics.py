@@ -6,13 +6,9 @@ which stands exactly where the controller wants it. The gear is a spring, which 
 gravity, with friction and play. So only the instrument sees how far a joint droops.
 """
 
-import os
-import sys
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
-
-os.environ.setdefault("MUJOCO_GL", "egl" if sys.platform == "linux" else "")  # without a screen
 
 import mujoco
 import numpy as np

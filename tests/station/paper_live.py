@@ -8,7 +8,7 @@ figures/live_paper.png and tables in results/live_paper (6 minutes on 2 cores).
 """
 
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
 from pathlib import Path
@@ -52,17 +52,48 @@ SEEDS, TESTS, NOISE = 5, 200, Noise(2e-4, np.radians(0.02))  # m, rad
 MAPS, TODAY = ("improved_200", "ritter_200"), ("geometric", "hybrid")
 ITERATIONS = {MAPS: range(0, 201, 10), TODAY: (0, 5, 10, 20, 30, 50, 100)}
 SHOWN = {MAPS: (0, 10, 50, 100, 200), TODAY: (0, 10, 20, 30, 100)}
-KINEMATICS, MASSES, PICTURES = "kinematics", "physics, other masses", "physics, by pictures"
 BOARD = printable("charuco", 7, 5, 0.05)
 SOFT = 3.7e3  # N m/rad, softer than joints in industry: so soft an arm droops by 12 mm
-PHYSICS = {
-    "physics": Gears(SOFT),
-    "physics, rough": Gears(SOFT, friction=2.0, play=3e-4),
-    MASSES: Gears(SOFT),
-    PICTURES: Gears(SOFT),
+ROUGH = {"friction": 2.0, "play": 3e-4}  # N m, rad
+KINEMATICS, NOISY = "kinematics", Disturbances(NOISE)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What moves, and how it is measured.
+
+    Attributes:
+        gears: of the arm in MuJoCo; None: kinematics alone.
+        learners: that are trained with it.
+        beside: the condition with which it is compared.
+        scenario: of the study, that says what the damage is.
+        noise: of measured poses.
+        other_masses: whether its links have masses that the URDF does not tell.
+        pictures: whether a camera measures it.
+    """
+
+    gears: Gears | None = None
+    learners: tuple[str, ...] = (*MAPS, *TODAY)
+    beside: str = KINEMATICS
+    scenario: str = "links_encoders"
+    noise: Disturbances = NOISY
+    other_masses: bool = False
+    pictures: bool = False
+
+
+SILENT, MOVED = {"learners": MAPS, "noise": Disturbances()}, "translation_rotation"
+CONDITIONS = {
+    KINEMATICS: Condition(),
+    "physics": Condition(Gears(SOFT)),
+    "physics, rough": Condition(Gears(SOFT, **ROUGH)),
+    "physics, other masses": Condition(Gears(SOFT), TODAY, other_masses=True),
+    "physics, by pictures": Condition(Gears(SOFT), ("improved_200", "hybrid"), pictures=True),
+    "kinematics, no noise": Condition(**SILENT),
+    "physics, no noise": Condition(Gears(SOFT), beside="kinematics, no noise", **SILENT),
+    "moved, kinematics": Condition(None, ("improved_200",), scenario=MOVED),
+    "moved, physics": Condition(Gears(SOFT), ("improved_200",), "moved, kinematics", MOVED),
 }
-LEARNERS = dict.fromkeys((KINEMATICS, *PHYSICS), (*MAPS, *TODAY))
-LEARNERS |= {MASSES: TODAY, PICTURES: ("improved_200", "hybrid")}  # a picture takes 0.3 s
+CALIBRATED = "physics", "physics, rough", "physics, other masses"
 UNSURE = 0.2  # standard deviation of the logarithm of each link's mass, of the arm with others
 DRAWS, POSTURES = 10, 30
 # Standard deviations of a link's errors along each axis [m, rad], a tenth of a joint's; N m/rad:
@@ -81,12 +112,13 @@ def study() -> Study:
 
 
 @cache
-def scenario() -> tuple[Controller, DamagedArm]:
-    """The controller of the study's robot, and the arm with the paper's damage."""
-    its = nominal(study(), study().robot)
-    _, assignment = assign(its, study().paper_damage, study().seed)
+def scenario(name: str) -> tuple[Controller, DamagedArm]:
+    """The controller of the study's robot, and its arm with the damage of a scenario."""
+    its, damages = nominal(study(), study().robot), study().scenarios[name]
+    if name == study().scenario:
+        damages = assign(its, study().paper_damage, study().seed)[1].damages
     controller = nominal_controller(its)
-    return controller, apply(controller.robot, damages_among(assignment.damages))
+    return controller, apply(controller.robot, damages_among(damages))
 
 
 def short(learner: str) -> str:
@@ -94,17 +126,14 @@ def short(learner: str) -> str:
     return learner.removesuffix("_200")
 
 
-def station(damaged: DamagedArm, condition: str, gears: Gears, seed: int) -> PhysicsStation:
-    """The arm in MuJoCo, with masses of its own where the condition is so."""
+def weighed(damaged: DamagedArm, seed: int) -> DamagedArm:
+    """The same with other masses."""
     its = DamagedArm(damaged.arm.copy(), damaged.offsets)
-    if condition == MASSES:
-        factors = np.exp(
-            MASSES * np.random.default_rng([seed, 7]).standard_normal(its.arm.model.nv)
-        )
-        for inertia, factor in zip(list(its.arm.model.inertias)[1:], factors, strict=True):
-            inertia.mass *= factor
-            inertia.inertia *= factor
-    return PhysicsStation(its, gears)
+    factors = np.random.default_rng([seed, 7]).lognormal(sigma=UNSURE, size=its.arm.model.nv)
+    for inertia, factor in zip(list(its.arm.model.inertias)[1:], factors, strict=True):
+        inertia.mass *= factor
+        inertia.inertia *= factor
+    return its
 
 
 class Pictures(Disturbances):
@@ -128,48 +157,46 @@ class Pictures(Disturbances):
         return (self.before @ seen @ self.behind)[None, None]
 
 
-def plant(condition: str, seed: int) -> Plant:
+def plant(its: Condition, seed: int) -> Plant:
     """The robot behind the untouched controller: its kinematics, or its dynamics."""
-    controller, damaged = scenario()
-    rngs = [np.random.default_rng([seed, 8])]
-    if condition == KINEMATICS:
-        return Plant(controller, damaged, Disturbances(NOISE), rngs)
-    if condition == PICTURES:
-        centre = controller.robot.workspace.centre
-        pictures = Pictures(damaged, PHYSICS[condition], centre, seed)
-        return Plant(controller, pictures.station, pictures, rngs)
-    moving = station(damaged, condition, PHYSICS[condition], seed)
-    return Plant(controller, moving, Disturbances(NOISE), rngs)
+    controller, damaged = scenario(its.scenario)
+    noise, moving = its.noise, weighed(damaged, seed) if its.other_masses else damaged
+    if its.pictures:
+        noise = Pictures(moving, its.gears, controller.robot.workspace.centre, seed)
+        moving = noise.station
+    elif its.gears is not None:
+        moving = PhysicsStation(moving, its.gears)
+    return Plant(controller, moving, noise, [np.random.default_rng([seed, 8])])
 
 
-def trained(condition: str, learner: str, seed: int) -> History:
+def trained(its: Condition, name: str, seed: int) -> History:
     """A learner's training with the poses, and the search's winner, of a seed of the study."""
-    controller, _ = scenario()
-    iterations, when = 100, ITERATIONS[TODAY]
-    if learner in MAPS:
-        iterations, when = 200, ITERATIONS[MAPS]
-        sample = ROOT / "workflow" / "search" / f"{learner}.csv"
-        its = build_tuned(rules(study(), learner), sample, [seed + 1])
+    names = MAPS if name in MAPS else TODAY
+    if names == MAPS:
+        sample = ROOT / "workflow" / "search" / f"{name}.csv"
+        learner = build_tuned(rules(study(), name), sample, [seed + 1])
     else:
-        its = make_peer(learner, 1, controller)
-    poses = Stream.SCENARIO.draw(study().seed, [seed], iterations, TESTS, scenario=study().scenario)
-    return train(plant(condition, seed), its, poses.desired, poses.tests, when)
+        learner = make_peer(name, 1, scenario(its.scenario)[0])
+    when, words = ITERATIONS[names], {"scenario": its.scenario}
+    poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **words)
+    return train(plant(its, seed), learner, poses.desired, poses.tests, when)
 
 
 def curve(job: tuple[str, str, int]) -> pd.DataFrame:
     """The history of a training, with what it is of."""
     condition, learner, seed = job
-    table = pd.DataFrame(trained(*job).columns()).drop(columns="run")
+    table = pd.DataFrame(trained(CONDITIONS[condition], learner, seed).columns())
     return table.assign(condition=condition, learner=learner, seed=seed)
 
 
 def droop(condition: str) -> float:
     """The mean distance [mm] between dynamics and kinematics on the first seed's test poses."""
-    controller, damaged = scenario()
-    poses = Stream.SCENARIO.draw(study().seed, [0], 1, TESTS, scenario=study().scenario)
+    its = CONDITIONS[condition]
+    controller, damaged = scenario(its.scenario)
+    poses = Stream.SCENARIO.draw(study().seed, [0], 1, TESTS, scenario=its.scenario)
     angles = controller.targets(poses.tests).angles[0]
-    moving = station(damaged, condition, PHYSICS[condition], 0)
-    return 1e3 * float(position_error(moving.forward(angles), damaged.forward(angles)).mean())
+    dynamic, _ = plant(its, 0).achieve(poses.tests)
+    return 1e3 * float(position_error(dynamic[0], damaged.forward(angles)).mean())
 
 
 def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
@@ -181,10 +208,12 @@ def calibrated(job: tuple[str, int]) -> dict[str, str | float]:
     errors = np.append(links, np.full(count, 10 * ANGLE))
     errors *= rng.standard_normal(len(errors))
     damaged = DamagedArm(model.arm(errors), errors[-count:])
-    moving = station(damaged, condition, replace(PHYSICS[condition], stiffness=STIFF), draw)
+    its = CONDITIONS[condition]
+    real = weighed(damaged, draw) if its.other_masses else damaged
+    moving = PhysicsStation(real, replace(its.gears, stiffness=STIFF))
     joints = rng.uniform(-np.pi, np.pi, (POSTURES + TESTS, count))
     poses = moving.forward(joints)
-    measured = Disturbances(NOISE).measure([rng], poses[None, :POSTURES])[0]
+    measured = NOISY.measure([rng], poses[None, :POSTURES])[0]
     observations = Observations(joints[:POSTURES], measured)
     predictions = {
         "droop": damaged.forward,
@@ -217,7 +246,7 @@ def drawn(curves: pd.DataFrame) -> None:
         column[1].legend(fontsize=8)
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
-        axes.set_ylabel(f"mean {error.split('_')[0]} error, test poses [{unit}]")
+        axes.set_ylabel(f"{error.split('_')[0]} error [{unit}]")
     save(figure, FIGURE)
 
 
@@ -226,24 +255,28 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
     tables, ratios = {}, {}
     for learners, when in SHOWN.items():
         rows = []
-        for learner, condition in product(learners, (KINEMATICS, *PHYSICS)):
+        for learner, condition in product(learners, CONDITIONS):
             own = curves[(curves.learner == learner) & (curves.condition == condition)]
             if len(own):
-                cells = [_both(own[own.iteration == iteration]) for iteration in when]
+                cells = [_means(own[own.iteration == iteration]) for iteration in when]
+                cells[-1] = "; ".join(
+                    _spread(own[own.iteration == when[-1]][its]) for its in ERRORS
+                )
                 rows.append([label_of(short(learner)), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
         last = curves[curves.iteration == when[-1]].set_index(["learner", "condition", "seed"])
-        for learner, condition in product(learners, PHYSICS):
-            if (learner, condition) in last.index:
-                own, kinematic = (last.loc[learner, its] for its in (condition, KINEMATICS))
+        for learner, (condition, its) in product(learners, CONDITIONS.items()):
+            if learner in its.learners and its.gears is not None:
+                own, kinematic = (last.loc[learner, name] for name in (condition, its.beside))
                 ratios[label_of(short(learner)), condition] = [
                     _spread(own[error] / kinematic[error]) for error in ERRORS
                 ]
     bars = {
-        condition: [_spread(rows[name], 3) for name in ("droop", "before", "geometry", "after")]
+        condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]
         for condition, rows in draws.groupby("condition", sort=False)
     }
     numbers = {"seeds": SEEDS, "tests": TESTS, "draws": DRAWS, "postures": POSTURES}
+    numbers["unsure"] = f"{100 * UNSURE:g}"
     return numbers | {
         "tables": tables,
         "ratios": ratios,
@@ -252,31 +285,33 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
     }
 
 
-def _both(rows: pd.DataFrame) -> str:
-    position, orientation = (_spread(rows[error]) for error in ERRORS)
-    return f"{position}; {orientation}"
+def _means(rows: pd.DataFrame) -> str:
+    return "; ".join(_short(rows[error].mean()) for error in ERRORS)
 
 
-def _spread(values: pd.Series, digits: int = 2) -> str:
-    low, mean, high = (
-        f"{its:#.{digits}g}".rstrip(".") for its in (values.min(), values.mean(), values.max())
-    )
-    return f"{mean} ({low}-{high})"
+def _spread(values: pd.Series) -> str:
+    return f"{_short(values.mean())} ({_short(values.min())}-{_short(values.max())})"
+
+
+def _short(value: float) -> str:
+    return f"{value:.1f}" if value >= 10 else f"{value:.2f}" if value >= 0.1 else f"{value:.2g}"
 
 
 def measured() -> None:
     """Make the tables."""
     KEPT.mkdir(parents=True, exist_ok=True)
-    trainings = [(condition, name) for condition, names in LEARNERS.items() for name in names]
-    jobs = [(*training, seed) for training, seed in product(trainings, range(SEEDS))]
-    told = [name for name in PHYSICS if name != PICTURES]
+    jobs = [
+        (condition, learner, seed)
+        for condition, its in CONDITIONS.items()
+        for learner, seed in product(its.learners, range(SEEDS))
+    ]
     with ProcessPoolExecutor(2) as pool:
         curves = pd.concat(pool.map(curve, jobs), ignore_index=True)
         curves.to_csv(KEPT / "curves.csv", index=False)
-        draws = pd.DataFrame(pool.map(calibrated, product(told, range(DRAWS))))
+        draws = pd.DataFrame(pool.map(calibrated, product(CALIBRATED, range(DRAWS))))
         draws.to_csv(KEPT / "draws.csv", index=False)
-        droops = pd.DataFrame({"condition": told, "droop": [*pool.map(droop, told)]})
-        droops.to_csv(KEPT / "droops.csv", index=False)
+        droops = {"condition": CALIBRATED, "droop": [*pool.map(droop, CALIBRATED)]}
+        pd.DataFrame(droops).to_csv(KEPT / "droops.csv", index=False)
 
 
 def written() -> None:
