@@ -147,11 +147,12 @@ class PhysicsStation:
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """True poses (n, 4, 4) of the tool [m], after moves to each of angles (n, joints) [rad].
 
-        So a station is what moves in a `Plant`.
+        So a station is what moves in a `Plant`, which also passes on what its controller refuses:
+        joints go to their limits and no farther.
         """
         poses = np.empty((len(angles), 4, 4))
         for pose, goal in zip(poses, angles, strict=True):
-            self.move(goal)
+            self.move(np.clip(goal, *self.limits))
             pose[:] = self.pose()
         return poses
 

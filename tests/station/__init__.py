@@ -1,0 +1,1 @@
+import recalib.station  # noqa: F401  # before anything imports MuJoCo
