@@ -275,9 +275,12 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
         condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]
         for condition, rows in draws.groupby("condition", sort=False)
     }
-    numbers = {"seeds": SEEDS, "tests": TESTS, "draws": DRAWS, "postures": POSTURES}
-    numbers["unsure"] = f"{100 * UNSURE:g}"
-    return numbers | {
+    return {
+        "seeds": SEEDS,
+        "tests": TESTS,
+        "draws": DRAWS,
+        "postures": POSTURES,
+        "unsure": f"{100 * UNSURE:g}",
         "tables": tables,
         "ratios": ratios,
         "bars": bars,
