@@ -5,12 +5,12 @@ from os import PathLike
 from pathlib import Path
 
 import cv2
-import mujoco
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.nominal.kinematics import tool_frame
+from recalib.station.engine import mujoco
 from recalib.station.physics import Gears, PhysicsStation, placed
 from recalib.vision.boards import Board
 from recalib.vision.detection import Unusable, find_corners

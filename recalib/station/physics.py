@@ -10,13 +10,13 @@ import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import mujoco
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.station.engine import mujoco
 from recalib.station.interface import StationFailed
 
 STEP = 0.004  # s

@@ -1,1 +1,0 @@
-import recalib.station  # noqa: F401  # before anything imports MuJoCo
