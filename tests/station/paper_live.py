@@ -2,7 +2,7 @@
 
 Robot, damage, learners, poses and searches are those of the study. The controller is untouched, and
 both arms are measured with the same noise. Only what moves differs. It writes docs/live_paper.md,
-figures/live_paper.png and tables in results/live_paper (6 minutes on 2 cores).
+figures/live_paper.png and tables in results/live_paper (15 minutes on 2 cores).
 
     python -m tests.station.paper_live
 """
@@ -264,13 +264,11 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
                 )
                 rows.append([label_of(short(learner)), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
-        last = curves[curves.iteration == when[-1]].set_index(["learner", "condition", "seed"])
         for learner, (condition, its) in product(learners, CONDITIONS.items()):
             if learner in its.learners and its.gears is not None:
-                own, kinematic = (last.loc[learner, name] for name in (condition, its.beside))
-                ratios[label_of(short(learner)), condition] = [
-                    _spread(own[error] / kinematic[error]) for error in ERRORS
-                ]
+                own, beside = (_ends(curves, learner, name) for name in (condition, its.beside))
+                name = label_of(short(learner)), condition
+                ratios[name] = [_spread(ratio) for _, ratio in (own / beside).items()]
     bars = {
         condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]
         for condition, rows in draws.groupby("condition", sort=False)
@@ -286,6 +284,14 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
         "bars": bars,
         "droops": dict(zip(droops.condition, droops.droop, strict=True)),
     }
+
+
+def _ends(curves: pd.DataFrame, learner: str, condition: str) -> pd.DataFrame:
+    """A row for each seed: the last errors, and what parts of the first ones they are."""
+    own = curves[(curves.learner == learner) & (curves.condition == condition)]
+    first, last = (own[own.iteration == its].set_index("seed") for its in (0, own.iteration.max()))
+    shares = {f"{error}, share": last[error] / first[error] for error in ERRORS}
+    return last[[*ERRORS]].assign(**shares)
 
 
 def _means(rows: pd.DataFrame) -> str:
