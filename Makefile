@@ -14,7 +14,7 @@ PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster vision lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -45,6 +45,9 @@ cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see
 
 vision: setup ## install OpenCV for pictures of a board, not pinned; see docs/pictures.md
 	$(PIP) --no-build-isolation --editable .[vision]
+
+live: setup ## install MuJoCo for an arm with dynamics, not pinned; see docs/live_paper.md
+	$(PIP) --no-build-isolation --editable .[live]
 
 test: lint ## the linters and all tests except whole workflows, examples, sites and environments
 	.venv/bin/python -m pytest -m "not slow"
