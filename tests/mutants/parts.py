@@ -21,8 +21,8 @@ EVIDENCE = tuple(
     f"tests/study/evidence/test_{name}.py"
     for name in (
         *("words", "tables", "contexts", "criteria", "evidence", "claims", "report_texts"),
-        *("across", "factor", "findings", "outcome", "planted_effects", "reference", "verdicts"),
-        "kept",
+        *("across", "deviations", "factor", "findings", "outcome", "planted_effects"),
+        *("reference", "verdicts", "kept"),
     )
 )
 OF_STATISTICS = (
@@ -43,7 +43,10 @@ PARTS = {
         ("recalib/identification", "recalib/numerics"),
         ("tests/identification", "tests/test_regression.py"),
     ),
-    "laboratory": Part(("recalib/laboratory",), ("tests/laboratory", "tests/vision")),
+    "laboratory": Part(
+        ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station")
+    ),
+    "station": Part(("recalib/station",), ("tests/station",)),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
     "nominal": Part(

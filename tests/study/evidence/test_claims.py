@@ -285,6 +285,15 @@ def test_a_condition_that_is_met_nowhere_decides_nothing(few, tmp_path):
     json.dumps(judged, allow_nan=False)
 
 
+def test_updates_that_are_equal_but_for_rounding_are_said_to_be(few, tmp_path):
+    made_up = MadeUp(tmp_path, few)
+    for gap, equal in ((1e-9, True), (1e-3, False)):
+        table = made_up.propagation(0.5).assign(to_constant=1.0)
+        table.loc[table["start"] == "intact", "to_original"] = 1 - gap
+        made_up.write("mapping/propagation.parquet", table)
+        assert ("so both updates are equal" in made_up.judged("jacobian-reason")["note"]) == equal
+
+
 @pytest.mark.parametrize(("better", "verdict"), [(95, "supported"), (94, "contradicted")])
 def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, better, verdict):
     """Others say nothing of it."""

@@ -74,13 +74,13 @@ def test_of_scaled_damages_the_larger_part_that_is_left_counts():
 
 
 def test_the_power_of_the_campaign_is_read_from_its_table():
-    effects, own = (1.0, 0.95, 0.9), (0.0, 0.1, 0.2)
+    effects, own = (1.0, 0.95, 0.9), (0.0, 0.1, 0.2, 0.3)
     rows = [
         {
             "effect": effect,
             "heterogeneity": spread,
             "supported": {1.0: 0.01, 0.95: 0.5, 0.9: 0.99}[effect],
-            "found": {0.0: 0.03, 0.1: 0.7, 0.2: 0.9}[spread],
+            "found": {0.0: 0.03, 0.1: 0.7, 0.2: 0.9, 0.3: 0.95}[spread],
         }
         for effect in effects
         for spread in own
