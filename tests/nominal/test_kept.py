@@ -257,7 +257,7 @@ CHANGES = {
     "limits": ('lower="-2"', 'lower="3"'),
     "far": ("0.35 0 0", "1350 0 0"),
     "heavy": ('mass value="0.0"', 'mass value="1e7"'),
-    "lever": ("<inertial>", '<inertial><origin xyz="0 1350 0"/>'),
+    "lever": ('<mass value="0.0"/>', '<origin xyz="0 1350 0"/><mass value="1"/>'),
     "xacro": ('<link name="base"/>', '<link name="base"/><xacro:if xmlns:xacro="a/xacro"/>'),
     "forked": ("</robot>", GRIPPER),
     "no urdf": ("</robot>", ""),
