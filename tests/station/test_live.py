@@ -333,3 +333,25 @@ def test_a_command_takes_the_target_where_it_should_be(calibrated):
         corrector.command(np.array([9.0, 0, 0]), near)
     with pytest.raises(UnknownName, match="unknown target"):
         corrector.command(goal, near, target="the board")
+
+
+@pytest.mark.parametrize("angles", [[0.0] * 5 + [np.nan], [0.0] * 7, "none", [np.inf] * 6])
+def test_angles_that_are_none_stop_it(angles, tmp_path):
+    station = Simulated()
+    station.angles = lambda: angles
+    with pytest.raises(StationFailed, match="the station's angles are .*; expected: (6 )?numbers"):
+        run(station, tmp_path)
+
+
+def test_the_error_by_the_last_rows_is_the_mean_of_predictions_by_those_before(tmp_path):
+    kept = []
+    watch = lambda rows, running: kept.append((rows, running))  # noqa: E731
+    run(Simulated(noise=(5e-5, np.radians(0.01))), tmp_path, most=20, on_row=watch)
+    rows, running = kept[-1]
+    off = []
+    for row in range(len(rows) - 8, len(rows)):
+        before = running.calibration(rows[:row])
+        gap = before.predict(rows.joints[row : row + 1])[0] - rows.measured[row]
+        off.append(np.linalg.norm(gap[:3, 3]))
+    assert len(rows) == 20 and np.ptp(off) > 0
+    assert running.error(rows).by_rows == pytest.approx(np.mean(off))

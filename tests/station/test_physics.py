@@ -106,6 +106,21 @@ def test_the_same_seed_has_the_same_noise():
     assert rows[0] == rows[1] != rows[2]
 
 
+def test_motors_go_straight_and_slowly_from_start_to_goal(monkeypatch):
+    """At most as fast as the fastest joint may be, which takes it the whole way."""
+    damaged, asked = intact("panda"), []
+    station = PhysicsStation(damaged)
+    start, goal = postures(damaged, 2)
+    station.move(start)
+    monkeypatch.setattr(station, "_hold", lambda angles, missed=0.0: asked.append(angles.copy()))
+    station.move(goal, 0.5)
+    shares = (np.array(asked) - start) / (goal - start)
+    assert np.ptp(shares, axis=1).max() < 1e-9  # all joints together
+    assert shares[0, 0] == 0 and shares[-1, 0] == 1 and (np.diff(shares[:, 0]) >= 0).all()
+    speeds = np.abs(np.diff(asked[:-1], axis=0)).max(axis=0) / physics.STEP
+    assert (speeds / damaged.arm.model.velocityLimit).max() == pytest.approx(0.5, rel=0.01)
+
+
 def test_what_was_stopped_moves_no_more():
     damaged = bent()
     station = PhysicsStation(damaged)
@@ -126,6 +141,17 @@ def test_it_refuses_what_it_cannot_do():
         PhysicsStation(DamagedArm(table, np.zeros(1)))
 
 
+@pytest.fixture(scope="module")
+def drawing():
+    """Skip where MuJoCo cannot draw at all."""
+    mujoco = physics.mujoco
+    try:
+        mujoco.Renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 8, 8)
+    except Exception as error:  # of EGL, which has many
+        pytest.skip(f"no pictures here: {error}")
+
+
+@pytest.mark.usefixtures("drawing")
 def test_a_picture_shows_the_board_where_it_is(tmp_path):
     pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
     from recalib.station.camera import UPWARDS, PicturedStation
@@ -140,10 +166,7 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     place[:3, 3] = *(board.size / [-2, 2]), 0.02
     camera = tool @ UPWARDS
     camera[:3, 3] = tool[:3, 3] + tool[:3, 2]
-    try:
-        station = PicturedStation(damaged, camera, place, board, tmp_path)
-    except Exception as error:  # of EGL, which has many
-        pytest.skip(f"no pictures here: {error}")
+    station = PicturedStation(damaged, camera, place, board, tmp_path)
     assert station.measure() is None or (tmp_path / "000.png").exists()
     station.move(angles, 1.0)
     assert station.measure()["picture"].endswith(".png")
