@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from recalib.nominal.descriptions import find_urdf
 from recalib.station.interface import StationFailed
 from tests.conftest import ROOT
 from tests.identification.real import ARMS
+from tests.kept import plain
 from tests.logged import logged
 from tests.station import simulated
 from tests.station.simulated import HOMES, Simulated
@@ -355,3 +357,14 @@ def test_the_error_by_the_last_rows_is_the_mean_of_predictions_by_those_before(t
         off.append(np.linalg.norm(gap[:3, 3]))
     assert len(rows) == 20 and np.ptp(off) > 0
     assert running.error(rows).by_rows == pytest.approx(np.mean(off))
+    for far, believed in ((0.045, True), (0.055, False)):  # m
+        measured = rows.measured.copy()
+        measured[-1, 2, 3] += far
+        assert (running.check(replace(rows, measured=measured)) is None) == believed
+
+
+def test_the_same_postures_are_drawn_tomorrow(data_regression):
+    """A calibration that was killed goes on with them."""
+    station = Simulated()
+    postures = AllowedPostures(station.arm, station.stands, station.limits, 0.5, AROUND)
+    data_regression.check(plain(postures.joints))

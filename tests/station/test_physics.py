@@ -106,6 +106,15 @@ def test_the_same_seed_has_the_same_noise():
     assert rows[0] == rows[1] != rows[2]
 
 
+def test_its_noise_is_that_of_its_seed():
+    damaged, random = bent(), Disturbances(Noise(1e-3, 1e-3))
+    station, rng = PhysicsStation(damaged, disturbances=random, seed=5), np.random.default_rng(5)
+    station.move(postures(damaged, 1)[0])
+    rng.standard_normal(6)  # by which its joints miss their angles, if they do
+    expected = random.measure([rng], station.pose()[None, None])[0, 0, :3, 3]
+    assert [*station.measure().values()][:3] == pytest.approx(expected)
+
+
 def test_motors_go_straight_and_slowly_from_start_to_goal(monkeypatch):
     """At most as fast as the fastest joint may be, which takes it the whole way."""
     damaged, asked = intact("panda"), []
@@ -157,7 +166,7 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     from recalib.station.camera import UPWARDS, PicturedStation
     from recalib.vision.boards import printable
     from recalib.vision.detection import find_corners
-    from recalib.vision.views import board_pose
+    from recalib.vision.views import board_pose, reprojection
 
     damaged, board = bent(), printable("charuco", 7, 5, 0.036)
     angles = np.array([0.0, -1.4, 2.1, -2.9, -1.57, 0.0])
@@ -179,6 +188,8 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     assert (
         np.linalg.norm((seen - expected)[:3, 3]) < 2e-3 and orientation_error(seen, expected) < 5e-3
     )
+    gaps = reprojection(board, station.lens, view, expected)
+    assert np.abs(gaps.mean(axis=0)).max() < 0.2  # px
 
 
 def test_identification_explains_droop():
