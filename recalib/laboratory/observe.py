@@ -16,6 +16,7 @@ from recalib.laboratory.columns import Table, read_table
 from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.laboratory.outputs import new
 from recalib.vision.boards import Board, read_board
+from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Corners, Unusable, find_corners
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import FEWEST, board_pose, find_lens, good_corners, reprojection
@@ -250,6 +251,9 @@ def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:
     if picture.corners is None:
         return picture
     corners = good_corners(board, lens, picture.corners)
+    if len(corners.numbers) < FEWEST_CORNERS:
+        all_, valid = len(picture.corners.numbers), f"at least {FEWEST_CORNERS}"
+        return picture.refused(f"{len(corners.numbers)} of {all_} corners fit; expected: {valid}")
     pose = board_pose(board, lens, corners)
     squares = np.sum(reprojection(board, lens, corners, pose) ** 2, axis=1)
     return replace(picture, corners=corners, pose=pose, error=float(np.sqrt(squares.mean())))

@@ -51,7 +51,9 @@ class PicturedStation(PhysicsStation):
         disturbances: Disturbances | None = None,
         seed: int = 0,
     ):
-        self._board, self._folder, self._taken = board, Path(folder), 0
+        self._board, self._folder = board, Path(folder)
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._taken = len([*self._folder.glob("*.png")])  # what is there stays
         x, y = (side / 2 - 0.5 for side in size)
         matrix = np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]])
         self.lens = Lens(size, matrix, np.zeros(5))
@@ -112,3 +114,7 @@ class PicturedStation(PhysicsStation):
         cv2.imwrite(str(path), picture)
         self._taken += 1
         return {"picture": str(path)}
+
+    def close(self) -> None:
+        """Give back what it draws with: by the thread that made it, as `Station` has it."""
+        self._renderer.close()

@@ -1,8 +1,9 @@
 """What a live calibration has to show, measured: python -m tests.station.bars prints the tables.
 
-Simulated arms are off as in tests/identification/real.py, with gears that are right or eccentric;
-the instrument's noise is 0.05 mm and 0.01 degrees along an axis. Errors are means over 200 postures
-of the same workspace; before, those of the nominal arm with instrument and target where they are.
+Simulated arms are off as in tests/identification/real.py, with gears that are right or eccentric.
+Those in MuJoCo have bent links and shifted encoders, and droop. The instrument's noise is 0.05 mm
+and 0.01 degrees along an axis. Errors are means over 200 postures of the same workspace; before,
+those of the nominal arm with instrument and target where they are.
 """
 
 import os
@@ -11,10 +12,14 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
 
 import tempfile
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 
+from recalib.damaged.damage import DamagedArm
+from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.identification.calibration import calibrate
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Observations
@@ -26,36 +31,46 @@ from recalib.laboratory.description import Description
 from recalib.laboratory.live import LiveSettings, calibrate_live
 from recalib.laboratory.record import Record
 from recalib.laboratory.running import RunningCalibration
+from recalib.nominal.arms import load_arm
+from recalib.nominal.kinematics import Arm
+from recalib.station.interface import Station
+from recalib.station.physics import Gears, PhysicsStation
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import HOMES, Simulated
 
+Forward = Callable[[np.ndarray], np.ndarray]
 FINE = 5e-5, np.radians(0.01)  # m, rad
 DRAWS, ERROR, GEARS = 10, 3e-4, np.radians(0.03)
+STIFFNESS, FRICTION = 5e3, 2.0  # N m/rad, of each gear; N m
 TIMES = 20  # that are measured, for a median
 
 
 class Live:
-    """A live calibration of one arm, from where it stands to its end."""
+    """A live calibration of one arm, from where it stands to its end.
 
-    def __init__(self, name: str, seed: int, gears: float):
-        station = Simulated(name, seed, FINE)
-        station.real = Real(station.arm, seed, gears=gears)
+    Args:
+        arm: the nominal one.
+        station: the real one.
+        true, nominal: from postures to poses (n, 4, 4) [m] of the target in the instrument's frame.
+    """
+
+    def __init__(self, arm: Arm, station: Station, true: Forward, nominal: Forward):
+        home, began = station.angles(), time.process_time()
         with tempfile.TemporaryDirectory() as folder:
             table, settings = Path(folder) / "table.csv", LiveSettings(ERROR)
             self.reason = calibrate_live(
-                lambda: station, station.arm, table, settings, lambda posture: True
+                lambda: station, arm, table, settings, lambda posture: True
             )
-            record = Record(table, station.arm, Description())
+            self.seconds = time.process_time() - began
+            record = Record(table, arm, Description())
             self.rows = record.observations
             record.close()
-        home = np.array(HOMES[name], dtype=float)
-        postures = AllowedPostures(station.arm, home, station.limits, settings.span, None)
-        self.running = RunningCalibration(station.arm, Description(), postures)
+        postures = AllowedPostures(arm, home, station.limits, settings.span, None)
+        self.running = RunningCalibration(arm, Description(), postures)
         self.fresh = postures.joints[-200:]
-        self.true = station.real.poses(self.fresh, noise=(0, 0))
+        self.true = true(self.fresh)
         self.predicted = 1e3 * self.running.error(self.rows).total
-        nominal = station.real.base @ station.arm.forward(self.fresh) @ station.real.targets[0]
-        self.before = self.error(nominal)
+        self.before = self.error(nominal(self.fresh))
         self.after = self.error(self.running.calibration(self.rows).predict(self.fresh))
 
     def error(self, poses: np.ndarray) -> float:
@@ -64,21 +79,43 @@ class Live:
         return 1e3 * float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
 
-def outcomes() -> None:
-    print(f"{DRAWS} draws each, until the predicted error is {1e3 * ERROR:g} mm or more is no use")
-    heads = "arm", "eccentric gears", "rows (most)", "before", "after (largest)"
-    print(f"| {' | '.join(heads)} | predicted over true (least) |")
-    for name in ARMS:
-        for gears in (0.0, GEARS):
-            live = [Live(name, seed, gears) for seed in range(DRAWS)]
-            rows = [len(its.rows) for its in live]
-            before, after = ([getattr(its, what) for its in live] for what in ("before", "after"))
-            ratio = [its.predicted / its.after for its in live]
-            print(
-                f"| {name} | {np.degrees(gears):.2f} deg | {np.median(rows):.0f} ({max(rows)})"
-                f" | {np.median(before):.1f} mm | {np.median(after):.2f} mm ({max(after):.2f})"
-                f" | {np.median(ratio):.1f} ({min(ratio):.1f}) |"
-            )
+def kinematic(name: str, seed: int, gears: float) -> Live:
+    """With eccentric gears [rad]."""
+    station = Simulated(name, seed, FINE)
+    real = station.real = Real(station.arm, seed, gears=gears)
+    return Live(
+        station.arm,
+        station,
+        lambda joints: real.poses(joints, noise=(0, 0)),
+        lambda joints: real.base @ station.arm.forward(joints) @ real.targets[0],
+    )
+
+
+def physical(name: str, seed: int, friction: float = 0.0) -> Live:
+    """In MuJoCo, with bent links, shifted encoders and droop; friction in N m."""
+    nominal, arm, random = load_arm(*ARMS[name]), load_arm(*ARMS[name]), np.random.default_rng(seed)
+    placements = arm.model.jointPlacements
+    for joint in range(1, len(placements)):
+        bent = np.repeat([1e-3, np.radians(0.1)], 3) * random.standard_normal(6)  # m, rad
+        placements[joint] = placements[joint] * pin.exp6(pin.Motion(bent))
+    damaged = DamagedArm(arm, np.radians(0.5) * random.standard_normal(len(arm.joints)))
+    gears = Gears(STIFFNESS, friction)
+    noisy = PhysicsStation(damaged, gears, disturbances=Disturbances(Noise(*FINE)), seed=seed)
+    noisy.move(np.array(HOMES[name], dtype=float))
+    return Live(nominal, noisy, PhysicsStation(damaged, gears).forward, nominal.forward)
+
+
+def outcomes(kind: str, live: Sequence[Live]) -> None:
+    """A row of the table."""
+    rows, seconds = [len(its.rows) for its in live], [its.seconds for its in live]
+    before, after = ([getattr(its, what) for its in live] for what in ("before", "after"))
+    ratio = [its.predicted / its.after for its in live]
+    print(
+        f"| {kind} | {np.median(rows):.0f} ({max(rows)})"
+        f" | {np.median(before):.1f} mm | {np.median(after):.2f} mm ({max(after):.2f})"
+        f" | {np.median(ratio):.1f} ({min(ratio):.1f}) | {max(seconds):.0f} s |",
+        flush=True,
+    )
 
 
 def median(call) -> float:
@@ -137,4 +174,14 @@ def latencies(name: str) -> None:
 if __name__ == "__main__":
     for name in ARMS:
         latencies(name)
-    outcomes()
+    print(f"{DRAWS} draws each, until the predicted error is {1e3 * ERROR:g} mm or more is no use")
+    heads = "arm", "rows (most)", "before", "after (largest)", "predicted over true (least)"
+    print(f"| {' | '.join(heads)} | processor time (most) |")
+    seeds = range(DRAWS)
+    for name in ARMS:
+        for gears in (0.0, GEARS):
+            kind = f"{name}, gears eccentric by {np.degrees(gears):.2f} deg"
+            outcomes(kind, [kinematic(name, seed, gears) for seed in seeds])
+        for friction in (0.0, FRICTION):
+            kind = f"{name} in MuJoCo, friction {friction:g} N m"
+            outcomes(kind, [physical(name, seed, friction) for seed in seeds])

@@ -222,6 +222,17 @@ def test_reprojection_errors_are_root_mean_squares(taken):
     assert result.error == pytest.approx(np.sqrt(np.mean(squares) / 2), rel=1e-6)
 
 
+def test_a_picture_of_which_few_corners_fit_is_refused(taken):
+    """The rest would be too few for `recalib calibrate`."""
+    _, views, files = taken(12)
+    few = [0, 2, 5, 9, 12, 15, 20, 23]
+    pixels = views[4].pixels[few]
+    pixels[3] += 2.0
+    views[4] = Corners(views[4].numbers[few], pixels, 1.0)
+    refused = observe(*files).pictures[4]
+    assert re.search(r"[4-7] of 8 corners fit; expected: at least 8", refused.reason)
+
+
 def test_nine_pictures_are_too_few(taken):
     with pytest.raises(RecalibError, match="9 of 9 pictures can be used; expected: at least 10"):
         observe(*taken(9)[2])

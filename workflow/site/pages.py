@@ -11,7 +11,7 @@ SHOWN = (
     "*.md",
     "docs/*.md",
     "figures/*.[psw][nve]*",
-    "examples/*.py",
+    "examples/**/*.py",
     "CITATION.cff",
     "config.yaml",
     "LICENSE",
