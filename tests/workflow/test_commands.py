@@ -62,9 +62,8 @@ EXECUTED |= {  # with another folder
         ('"node examples/station.js"', "test_the_example_in_another_language_is_a_station"),
     )
 }
-EXECUTED |= {  # one after the other, on an arm in MuJoCo
-    command: "tests/station/test_panda.py::rehearsed"
-    for command in (
+EXECUTED |= dict.fromkeys(
+    (
         "python examples/rehearsal/panda.py",
         "recalib observe pictures/ joints.csv --out lens",
         "recalib live examples/rehearsal/panda.py:BentPanda panda.urdf --tool panda_link8"
@@ -72,8 +71,9 @@ EXECUTED |= {  # one after the other, on an arm in MuJoCo
         "recalib observe . measurements.csv --out observed",
         "recalib calibrate panda.urdf observed --tool panda_link8 --out by_pixels",
         "recalib correct by_pixels observed/measurements.csv --frame instrument --out commands.csv",
-    )
-}
+    ),
+    "tests/station/test_panda.py::rehearsed",
+)
 PLANNED = {  # Snakemake or make says what would run, and the reason why it does not
     "make setup": "whoever runs this has set it up",
     "make cluster": "what it installs is not pinned",
