@@ -141,6 +141,14 @@ def test_what_was_stopped_moves_no_more():
     assert np.allclose(station.pose(), before, atol=1e-6)
 
 
+def test_an_arm_that_never_stands_is_told_after_how_long(monkeypatch):
+    station = PhysicsStation(bent())
+    monkeypatch.setattr(physics, "STILL", -1.0)
+    monkeypatch.setattr(physics, "PATIENCE", 50)  # chunks of 25 steps of 4 ms
+    with pytest.raises(StationFailed, match="it does not stand still after 5 s"):
+        station.move(postures(bent(), 1)[0])
+
+
 def test_it_refuses_what_it_cannot_do():
     station = PhysicsStation(bent())
     with pytest.raises(StationFailed, match="limits"):
@@ -163,7 +171,7 @@ def drawing():
 @pytest.mark.usefixtures("drawing")
 def test_a_picture_shows_the_board_where_it_is(tmp_path):
     pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
-    from recalib.station.camera import UPWARDS, PicturedStation
+    from recalib.station.camera import MARGIN, UPWARDS, PicturedStation
     from recalib.vision.boards import printable
     from recalib.vision.detection import find_corners
     from recalib.vision.views import board_pose, reprojection
@@ -190,6 +198,12 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     )
     gaps = reprojection(board, station.lens, view, expected)
     assert np.abs(gaps.mean(axis=0)).max() < 0.2  # px
+    # half of the white paper about the board, which markers at its edge need
+    beside = np.append(board.size * [1, 0.5] + [MARGIN / 2, 0], [0, 1])
+    x, y, depth = (np.linalg.inv(camera) @ station.pose() @ place @ beside)[:3]
+    focal, middle = station.lens.matrix[0, 0], station.lens.matrix[:2, 2]
+    column, row = np.round(focal * np.array([x, y]) / depth + middle).astype(int)
+    assert station.picture()[row, column] > 150
 
 
 def test_identification_explains_droop():
