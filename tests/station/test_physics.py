@@ -163,7 +163,7 @@ def drawing():
     """Skip where MuJoCo cannot draw at all."""
     mujoco = physics.mujoco
     try:
-        mujoco.Renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 8, 8)
+        mujoco.Renderer(mujoco.MjModel.from_xml_string("<mujoco/>"), 8, 8).close()
     except Exception as error:  # of EGL, which has many
         pytest.skip(f"no pictures here: {error}")
 
@@ -204,6 +204,7 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     focal, middle = station.lens.matrix[0, 0], station.lens.matrix[:2, 2]
     column, row = np.round(focal * np.array([x, y]) / depth + middle).astype(int)
     assert station.picture()[row, column] > 150
+    station.close()
 
 
 def test_identification_explains_droop():
