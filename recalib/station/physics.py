@@ -106,7 +106,7 @@ class PhysicsStation:
             raise StationFailed(f"{angles} is not within the limits of the joints")
         start, way = self._angles, angles - self._angles
         seconds = np.pi / 2 * np.max(np.abs(way) / self._speeds) / speed
-        missed = self._disturbances.of_joints([self._rng], (1, len(way)))[0, 0]
+        errors = self._disturbances.of_joints([self._rng], (1, len(way)))[0, 0]
         for time in np.arange(0.0, seconds, STEP):
             if self._stopped.is_set():
                 break
@@ -114,15 +114,15 @@ class PhysicsStation:
             mujoco.mj_step(self._model, self._data)
         else:
             if not self._stopped.is_set():
-                self._hold(angles, missed)
+                self._hold(angles, errors)
         self._settle()
         if self._stopped.is_set():
             raise StationFailed("it was stopped")
 
-    def _hold(self, angles: np.ndarray, missed: np.ndarray | float = 0.0) -> None:
+    def _hold(self, angles: np.ndarray, errors: np.ndarray | float = 0.0) -> None:
         """Have the encoders say these angles (joints,), of motors that miss them by a little."""
         self._angles = angles.copy()
-        self._motors = self._damaged.standing(angles[None])[0] + missed
+        self._motors = self._damaged.standing(angles[None])[0] + errors
         self._model.tendon_lengthspring[:] = self._motors[:, None] + self._gaps
 
     def _settle(self) -> None:

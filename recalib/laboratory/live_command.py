@@ -1,0 +1,91 @@
+"""`recalib live`: its options become a calibration that moves the arm; see docs/live.md."""
+
+import argparse
+import math
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from recalib.errors import InvalidSetting
+from recalib.files.quantities import ANGLE, LENGTH, TIME
+from recalib.files.storage import read_file
+from recalib.laboratory.allowed import Box
+from recalib.laboratory.description import read_description
+from recalib.laboratory.live import LiveSettings, calibrate_live
+from recalib.nominal.arms import load_arm
+from recalib.nominal.descriptions import MOST, find_urdf
+from recalib.nominal.kinematics import Arm
+from recalib.station.interface import Station
+from recalib.station.opening import open_station
+
+if TYPE_CHECKING:
+    from recalib.laboratory.live_view import LiveView
+
+
+def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> str:
+    """Move, measure and write rows as the options say; the reason why they are enough.
+
+    Raises RecalibError, as `calibrate_live` and as what reads the options.
+    """
+    arm = load_arm(given.urdf, given.tool, given.base)
+    settings = LiveSettings(
+        None if given.error is None else LENGTH.read(given.error),
+        given.most,
+        ANGLE.read(given.span),
+        None if given.box is None else Box.read(given.box),
+        given.speed,
+        TIME.read(given.patience),
+    )
+    for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
+        signal.signal(number, signal.default_int_handler)
+    opening: Callable[[], Station] = partial(open_station, given.station)
+    if given.board is not None:
+        opening = _with_board(opening, given)
+    return calibrate_live(
+        opening,
+        arm,
+        given.table,
+        settings,
+        (lambda posture: True)
+        if given.yes
+        else partial(_ask_to_move, arm.joints, arm.slides.tolist()),
+        given.description and read_description(given.description),
+        on_progress,
+        _view(given.urdf, arm).show if given.view else lambda rows, running: None,
+    )
+
+
+def _with_board(opening: Callable[[], Station], given: argparse.Namespace) -> Callable[[], Station]:
+    """What opens a station that takes pictures, as one that measures the board in them."""
+    from recalib.laboratory.observe import IN_HAND
+    from recalib.station.pictures import PicturesOfABoard
+    from recalib.vision.boards import read_board
+    from recalib.vision.lenses import read_lens
+
+    if given.lens is None:
+        raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
+    board, lens = read_board(given.board), read_lens(given.lens)
+    return lambda: PicturesOfABoard(opening(), board, lens, given.camera == IN_HAND)
+
+
+def _view(urdf: str, arm: Arm) -> "LiveView":
+    from recalib.laboratory.live_view import LiveView
+
+    path = find_urdf(urdf)
+    return LiveView(arm, read_file(path, MOST), path)
+
+
+def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:
+    """Whether a person lets the arm move to a posture (joints,) [rad, m]."""
+    goals = (
+        f"{joint} {1e3 * goal:.1f} mm" if slide else f"{joint} {math.degrees(goal):.1f} deg"
+        for joint, slide, goal in zip(joints, slides, posture, strict=True)
+    )
+    print(f"Move to {', '.join(goals)}? Enter: yes; anything else: end ", file=sys.stderr, end="")
+    sys.stderr.flush()
+    answer = sys.stdin.readline()
+    if not answer:
+        raise InvalidSetting("an answer", None, "a person at the terminal, or --yes")
+    return not answer.strip()
