@@ -12,9 +12,11 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
+LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --no-emit-index-url \
+  --python-version 3.11 --custom-compile-command "make lock"
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -30,7 +32,9 @@ study: setup ## a study of workflow/studies or of your own: make study STUDY=my_
 	$(SNAKEMAKE) --quiet rules reason host
 	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
-setup: .venv/installed ## the environment, from the lock file
+setup: .venv/installed ## the environment of the studies, from requirements.lock
+
+tools: .venv/tools ## what tests, pages and the article need besides, from requirements-dev.lock
 
 .venv/installed: requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; (3, 11) <= sys.version_info < (3, 14) or sys.exit(f"$(PYTHON) is Python \
@@ -38,6 +42,10 @@ setup: .venv/installed ## the environment, from the lock file
 	$(PYTHON) -m venv .venv
 	$(PIP) --require-hashes -r requirements.lock
 	$(PIP) --no-index --no-build-isolation --no-deps --editable .
+	touch $@
+
+.venv/tools: .venv/installed requirements-dev.lock
+	$(PIP) --require-hashes -r requirements-dev.lock
 	touch $@
 
 cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
@@ -55,7 +63,7 @@ test: lint ## the linters and all tests except whole workflows, examples, sites 
 test-all: lint ## the linters and all tests
 	.venv/bin/python -m pytest
 
-lint: setup ## the linters and the types of the library
+lint: tools ## the linters and the types of the library
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
@@ -65,7 +73,7 @@ lines: ## count the lines of Python
 	@echo "recalib and workflow: $$(git ls-files 'recalib/*.py' 'workflow/*.py' | xargs cat | wc -l)"
 	@echo "tests: $$(git ls-files 'tests/*.py' | xargs cat | wc -l)"
 
-dist: setup ## build what is released, the sources and the wheel, in dist/
+dist: tools ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
 	$(UV) tool run twine check --strict dist/*
@@ -74,25 +82,25 @@ elsewhere: dist ## unpack the released sources elsewhere, and run make test and 
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
 	  make --directory "$$folder" PYTHON=$(PYTHON) test quick
 
-lowest: setup ## the library's tests with the lowest versions that pyproject.toml allows
+lowest: tools ## the library's tests with the lowest versions that pyproject.toml allows
 	$(ELSEWHERE) && $(UV) venv --python .venv/bin/python "$$folder" && \
 	  $(UV) pip install --python "$$folder" --resolution lowest-direct .[laboratory,study,dev] && \
 	  "$$folder/bin/python" -m pytest -m "not slow" $(addprefix tests/,damaged identification laboratory learners nominal)
 
-slurm: setup ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
+slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: setup ## kill runs, start two at once, damage files, fill the disk
+faults: tools ## kill runs, start two at once, damage files, fill the disk
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
 verify: setup ## remove results that have changed since they were written
 	.venv/bin/python -m workflow.digests results
 
-mutants: setup ## plant small random errors in the code, and list those that no test notices: docs/mutants.md
+mutants: tools ## plant small random errors in the code, and list those that no test notices: docs/mutants.md
 	$(PIP) --no-build-isolation --editable .[mutants]
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
-peers: setup ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
+peers: tools ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
 
 check: setup ## only compare the final errors with their bands
@@ -104,7 +112,7 @@ bench: setup ## measure moves per second, and their ratio to a bare loop
 report: all ## write all results into one page, results/report.html
 	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)
 
-article: all ## the article, results/article.pdf
+article: tools all ## the article, results/article.pdf
 	$(SNAKEMAKE) -- results/article.pdf
 
 archive: report article ## code, results, recordings and article in one file, results/archive.zip
@@ -114,7 +122,7 @@ reproduce: archive ## unpack the archive elsewhere, and check that it reproduces
 	$(ELSEWHERE) && archive="$$PWD/results/archive.zip" && cd "$$folder" && $(PYTHON) -m zipfile --extract "$$archive" . && \
 	  cd recalib-* && make PYTHON=$(PYTHON) CORES=$(CORES) && cd results && sha256sum --check --quiet ../published/SHA256SUMS
 
-docs: setup ## these pages and a reference as a site, results/site/index.html
+docs: tools ## these pages and a reference as a site, results/site/index.html
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
 	@echo "the site: results/site/index.html"
 
@@ -164,10 +172,9 @@ horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 
 ship: setup ## make the present config.yaml the shipped study
 	.venv/bin/python -m recalib.study.ship
 
-lock: setup ## pin the dependencies of pyproject.toml anew
-	.venv/bin/uv pip compile pyproject.toml --extra study --extra dev --extra docs --extra article --universal --generate-hashes \
-	  --no-emit-index-url --python-version 3.11 --custom-compile-command "make lock" \
-	  --output-file requirements.lock
+lock: tools ## pin the dependencies of pyproject.toml anew
+	$(LOCK) --extra study --output-file requirements.lock
+	$(LOCK) $(addprefix --extra ,study dev docs article) --constraint requirements.lock --output-file requirements-dev.lock
 
 clean: ## remove results, keep the environment
 	rm -rf results .snakemake
