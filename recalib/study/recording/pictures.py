@@ -1,10 +1,13 @@
 """Pictures and films of recordings, taken by the real viewer without a screen."""
 
+import subprocess
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -28,6 +31,17 @@ FRAME, LAST = 100, 2000  # milliseconds
 
 class ViewerUnavailable(RecalibError):
     """The viewer does not run here, most often for want of a Vulkan driver."""
+
+
+class _Patient:
+    """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
+
+    def __init__(self, process: subprocess.Popen, client: ViewerClient):
+        self._process, self._client = process, client
+
+    def __getattr__(self, method: str) -> Callable[..., Any]:
+        ask = getattr(self._client, method)
+        return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
 
 
 def before_and_after(recording: Path, before: Path, after: Path) -> None:
@@ -100,7 +114,7 @@ def ends(recording: Path) -> tuple[int, int]:
 
 
 @contextmanager
-def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
+def _client(window: tuple[int, int]) -> Iterator[_Patient]:
     """A viewer without a screen. `ViewerClient.spawn` would listen to the whole network."""
     port = free_port()
     options = "--headless", "--hide-welcome-screen", "--port", port
@@ -108,7 +122,8 @@ def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
     with tempfile.TemporaryFile("w+", encoding="utf-8") as log:
         try:
             with viewer(*options, *size, log=log) as process:
-                yield answer(process, lambda: _connect(port))
+                url = f"rerun+http://{HERE}:{port}/proxy"
+                yield _Patient(process, answer(process, lambda: ViewerClient(url)))
         except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
             log.seek(0)
             reason = next((line.strip() for line in log if "panicked" in line), "no answer")
@@ -118,13 +133,7 @@ def _client(window: tuple[int, int]) -> Iterator[ViewerClient]:
             ) from None
 
 
-def _connect(port: str) -> ViewerClient:
-    client = ViewerClient(f"rerun+http://{HERE}:{port}/proxy")
-    client.get_state()
-    return client
-
-
-def _load(client: ViewerClient, recording: Path) -> None:
+def _load(client: _Patient, recording: Path) -> None:
     client.open(str(recording.resolve()))
     deadline = time.monotonic() + PATIENCE
     while (state := client.get_state()).loading or not state.recordings:
@@ -133,7 +142,7 @@ def _load(client: ViewerClient, recording: Path) -> None:
         time.sleep(0.1)
 
 
-def _show(client: ViewerClient, frame: int) -> None:
+def _show(client: _Patient, frame: int) -> None:
     client.set_time(CLOCK, sequence=frame, play_state="paused")
     time.sleep(0.05)
 

@@ -90,3 +90,19 @@ def test_a_recording_that_is_still_loading_is_waited_for(tmp_path):
     client = SimpleNamespace(open=lambda _: None, get_state=lambda: next(states))
     pictures._load(client, tmp_path / "arm.rrd")
     assert next(states, None) is None
+
+
+def test_a_viewer_that_is_busy_is_asked_again():
+    answers = iter([RuntimeError("Deadline expired before operation could complete"), "shown"])
+
+    def show(frame, play_state):
+        assert (frame, play_state) == (7, "paused")
+        match next(answers):
+            case RuntimeError() as busy:
+                raise busy
+            case shown:
+                return shown
+
+    process = SimpleNamespace(poll=lambda: None)
+    client = pictures._Patient(process, SimpleNamespace(set_time=show))
+    assert client.set_time(7, play_state="paused") == "shown"
