@@ -123,7 +123,7 @@ def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) 
 
 def legend_under(axes: Axes) -> None:
     """The legend of a panel with signs of its own, under it."""
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 
 def line_across(

@@ -13,14 +13,14 @@ from recalib.study.configuration.universes import Factors
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.words import level_in_words
-from recalib.study.plots.registry import draw, drawn, possible
+from recalib.study.plots.registry import FIGURES, draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt
 from tests.conftest import ROOT
 from tests.made_up import MadeUp, evidence_of, few_resamples
 
 PAGE = 830  # pixels: as wide as pages show figures
 LEAST = 9  # pixels
-LEGIBLE = "figure2", "figure4", "figure6", "figure9", "figure14", "figure15", "multiverse"
+LEGIBLE = [name for name, its in FIGURES.items() if its.part != "ideas"]
 COLUMNS = "maps_improved", "maps_ritter"
 MOVED = 1.6  # times, by the effort of the search
 
