@@ -11,10 +11,13 @@ import sys
 import tarfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import recalib
+from recalib.nominal.descriptions import find_urdf
 from tests.conftest import ROOT
+from tests.laboratory.conftest import in_degrees, in_millimetres, read, write
 
 # the robot and the station of the examples, and tests/test_notebook.py
 ALONE = "ur10", "station", "notebook"
@@ -146,3 +149,43 @@ runpy.run_path("save_and_load.py")
     only = os.environ | {"PYTHONPATH": str(tmp_path)}
     told = subprocess.check_output([sys.executable, "-c", code], cwd=examples, env=only, text=True)
     assert "commanded corrected: mean error 0.0000" in told
+
+
+@pytest.mark.slow
+def test_the_page_on_ones_own_arm_holds_where_only_the_wheel_is(released, tmp_path):
+    """In an environment that begins empty, away from the sources."""
+    (wheel,) = released.glob("*.whl")
+    programs = tmp_path / "environment" / "bin"
+    uv = Path(sys.executable).with_name("uv")
+    subprocess.run([uv, "venv", "--quiet", "--python", sys.executable, programs.parent], check=True)
+    lock = f"--constraint={ROOT / 'requirements.lock'}"
+    into = "--quiet", "--python", programs / "python", lock
+    subprocess.run([uv, "pip", "install", *into, f"{wheel}[laboratory]"], check=True)
+
+    description = find_urdf("ur10_robot.urdf")
+    shutil.copy(description, tmp_path / "ARM.urdf")
+    arm = recalib.load_arm(description, "tool0")
+    random = np.random.default_rng(4)
+    joints = np.array([0, -1.2, 1.5, -0.3, 1.5, 0]) + random.uniform(-0.6, 0.6, (40, 6))
+    offsets = np.array([0, -0.02, 0.015, 0.02, -0.01, 0])
+    reached = arm.forward(joints + offsets)[:, :3, 3]
+    write(tmp_path / "measurements.csv", in_degrees(arm, joints) | in_millimetres(reached))
+    write(tmp_path / "desired.csv", in_millimetres(reached[:5]))
+
+    page = (ROOT / "docs" / "own_arm.md").read_text(encoding="utf-8")
+    block = re.search(r"```sh\n(.*?)```", page, re.DOTALL)[1]
+    commands = [line.partition("#")[0].split() for line in block.splitlines()]
+    assert [its[:2] for its in commands[1:]] == [
+        ["recalib", "calibrate"],
+        ["recalib", "next"],
+        ["recalib", "correct"],
+    ]
+    clean = {name: its for name, its in os.environ.items() if name != "PYTHONPATH"}
+    for program, *arguments in commands[1:]:
+        subprocess.run([programs / program, *arguments], cwd=tmp_path, env=clean, check=True)
+    sent = read(tmp_path / "commands.csv")
+    commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
+    hit = arm.forward(commanded + offsets)[:, :3, 3]
+    assert np.abs(hit - reached[:5]).max() < 1e-3 < np.ptp(arm.forward(commanded)[:, :3, 3] - hit)
+    made = {path.name for path in (tmp_path / "calibration").iterdir()}
+    assert {"page.html", "recording.rrd", "summary.txt"} <= made
