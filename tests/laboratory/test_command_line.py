@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import load_correction
+from recalib.laboratory.measurements import Measurements
 from tests.laboratory.conftest import (
     ARM,
     NOISE,
@@ -99,6 +101,18 @@ def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
     assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
+
+
+@pytest.mark.parametrize(("margins", "leaves"), [(0.9, False), (1.1, True)])
+def test_a_twentieth_of_the_measured_range_is_not_beyond_it(calibrated, margins, leaves):
+    correction = load_correction(calibrated / "correction.npz")
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    joints = (low + high) / 2
+    joints[0] = high[0] + margins * 0.05 * (high[0] - low[0])
+    goals = correction.calibration.forward(joints[None])[:, :3, 3]
+    commands = correct(correction, Measurements(1, joints[None], goals))
+    assert commands.joints[0] == pytest.approx(joints, abs=1e-6)
+    assert commands.beyond.tolist() == [[leaves, False, False]]
 
 
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):

@@ -15,6 +15,7 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.identification.validation import HYBRID
+from recalib.laboratory import places
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.files import write_files
 from recalib.laboratory.measurements import POSITION
@@ -45,11 +46,11 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, positions):
         calibration = Calibration(model, identify(model, seen))
         unidentifiable = unidentifiable or unidentifiable_parameters(calibration, seen)
         drawn.append(found_places(calibration, unidentifiable, ["the target"], [], TOOL))
-    for places, truth in zip(
+    for found, truth in zip(
         zip(*drawn, strict=True), [np.linalg.inv(real.base), real.targets[0]], strict=True
     ):
-        last = places[-1]
-        moves = np.array([displacements(last.pose[None], one.pose[None])[0] for one in places])
+        last = found[-1]
+        moves = np.array([displacements(last.pose[None], one.pose[None])[0] for one in found])
         length, turn = moves.std(axis=0).reshape(2, 3).max(axis=1)
         assert 0.6 < last.deviations[0] / length < 1.7
         off = displacements(last.pose[None], truth[None])[0]
@@ -63,6 +64,20 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, positions):
         ("the instrument", arm.base),
         ("the target", TOOL),
     ]
+
+
+def test_uncertainties_of_places_do_not_depend_on_the_step_of_their_slopes(arm, monkeypatch):
+    real = Real(arm, 3)
+    joints = real.postures(40)
+    seen = Observations(joints, real.poses(joints))
+    model = ErrorModel(arm, OFFSETS, initial_frames(arm, seen))
+    calibration = Calibration(model, identify(model, seen))
+    given = calibration, unidentifiable_parameters(calibration, seen), ["the target"], [], TOOL
+    usual = found_places(*given)
+    monkeypatch.setattr(places, "STEP", places.STEP / 2)
+    for one, other in zip(usual, found_places(*given), strict=True):
+        assert one.deviations == pytest.approx(other.deviations, rel=1e-6)
+        assert one.real_deviations == pytest.approx(other.real_deviations, rel=1e-6)
 
 
 @pytest.fixture(scope="module")

@@ -202,6 +202,16 @@ def test_a_torn_row_is_dropped_and_nothing_else(tmp_path):
         assert table.read_bytes() == whole
 
 
+def test_a_row_for_which_there_is_no_room_leaves_the_table_as_it_was(tmp_path, monkeypatch):
+    run(Simulated(), tmp_path, most=7)
+    table, write = tmp_path / "table.csv", os.write
+    whole = table.read_bytes()
+    monkeypatch.setattr(os, "write", lambda file, row: write(file, row[: len(row) // 2]))
+    with pytest.raises(InvalidFile, match="there is no room for a row"):
+        run(Simulated(), tmp_path, most=8)
+    assert table.read_bytes() == whole
+
+
 def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
     station, table = Simulated(), tmp_path / "table.csv"
 

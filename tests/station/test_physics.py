@@ -208,6 +208,25 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     station.close()
 
 
+@pytest.mark.usefixtures("drawing")
+def test_a_picture_has_the_noise_of_its_seed(tmp_path, monkeypatch):
+    pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
+    from recalib.station import camera
+    from recalib.vision.boards import printable
+
+    board, seen = printable("charuco", 7, 5, 0.036), []
+    for noise in (camera.NOISE, 0.0):
+        monkeypatch.setattr(camera, "NOISE", noise)
+        place = np.eye(4), np.eye(4), board, tmp_path
+        station = camera.PicturedStation(bent(), *place, size=(64, 48), seed=5)
+        seen.append(station.picture().astype(float))
+        station.close()
+    expected = np.random.default_rng(5).standard_normal((48, 64))
+    inside = (np.abs(seen[1] - 127) < 110).ravel()
+    its = (seen[0] - seen[1]).ravel()[inside], expected.ravel()[inside]
+    assert inside.sum() > 100 and np.corrcoef(*its)[0, 1] > 0.9
+
+
 def test_identification_explains_droop():
     pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
     from tests.station.paper_live import calibrated

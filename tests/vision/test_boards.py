@@ -10,7 +10,7 @@ from pypdf import PdfReader
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.vision.boards import printable, read_board
-from recalib.vision.detection import find_corners
+from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import read_lens
 from recalib.vision.printing import draw_board
 from tests.vision.rendering import LENS
@@ -145,3 +145,18 @@ def test_a_lens_is_written_as_ros_reads_it():
         ("projection_matrix", 3, 4, [fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0]),
     ):
         assert said[name] == {"rows": rows, "cols": columns, "data": pytest.approx(data)}
+
+
+def test_four_markers_are_enough_and_eight_corners_are_needed():
+    board = printable("charuco", 7, 5, 0.036)
+    picture = np.kron(np.where(board.modules, 0, 255), np.ones((12, 12))).astype(np.uint8)
+    square = picture.shape[1] // 7
+    for columns, corners in ((3, 8), (2, 4)):
+        part = cv2.copyMakeBorder(
+            picture[:, : columns * square], *4 * [50], cv2.BORDER_CONSTANT, value=255
+        )
+        if corners < 8:
+            with pytest.raises(Unusable, match=f"it shows {corners} corners; expected: at least 8"):
+                find_corners(board, part)
+        else:
+            assert len(find_corners(board, part).numbers) == corners
