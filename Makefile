@@ -16,7 +16,7 @@ LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --n
   --python-version 3.11 --custom-compile-command "make lock"
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench latency report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -108,6 +108,9 @@ check: setup ## only compare the final errors with their bands
 
 bench: setup ## measure moves per second, and their ratio to a bare loop
 	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
+
+latency: live ## measure how fast a live calibration answers, and a corrected command
+	.venv/bin/python -m tests.station.latency
 
 report: all ## write all results into one page, results/report.html
 	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)

@@ -50,4 +50,6 @@ def test_files_that_name_the_version_name_the_same():
     }
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     named["CHANGELOG.md"] = re.search(r"^## \[(.+?)\]", changelog, re.MULTILINE)[1]
+    published = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("## Publish")[2]
+    (named["CONTRIBUTING.md"],) = {*re.findall(r"\d+\.\d+\.\d+", published)}
     assert named == dict.fromkeys(named, recalib.__version__)

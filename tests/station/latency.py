@@ -1,0 +1,86 @@
+"""How fast a live calibration is beside an arm that waits: python -m tests.station.latency.
+
+Wall times of an update with one more row, of the next proposal, and of a corrected command, in a
+process that has begun. Each is a median.
+"""
+
+import os
+
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
+
+import time
+
+import numpy as np
+
+from recalib.identification.calibration import calibrate
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
+from recalib.identification.validation import CANDIDATES, HYBRID
+from recalib.laboratory.allowed import AllowedPostures
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.corrector import Corrector
+from recalib.laboratory.description import Description
+from recalib.laboratory.running import RunningCalibration
+from tests.identification.real import ARMS, Real
+from tests.station.bars import FINE, GEARS
+from tests.station.simulated import Simulated
+
+TIMES = 20  # that are measured, for a median
+
+
+def median(call) -> float:
+    """Of the times [ms] that a call takes."""
+    times = []
+    for _ in range(TIMES):
+        began = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - began)
+    return 1e3 * float(np.median(times))
+
+
+def latencies(name: str) -> None:
+    station = Simulated(name, 1, FINE)
+    home, random = station.stands, np.random.default_rng(1)
+    postures = AllowedPostures(station.arm, home, station.limits, np.radians(45), None)
+    joints = random.uniform(*(home + side * np.radians(45) for side in (-1, 1)), (202, len(home)))
+    rows = Observations(joints, station.real.poses(joints, noise=FINE))
+    for count in (50, 100, 200):
+        before, now = rows[:count], rows[: count + 1]
+
+        def running():
+            its = RunningCalibration(station.arm, Description(), postures)
+            its.error(before)  # noqa: B023
+            return its
+
+        fresh = iter([running() for _ in range(TIMES)])
+        update = median(lambda: next(fresh).error(now))  # noqa: B023
+        last = running()
+        last.error(now)
+        proposal = median(lambda: last.next_posture(now, []))  # noqa: B023
+        print(f"{name}, {count} rows: an update {update:.0f} ms, a proposal {proposal:.0f} ms")
+    eccentric = Real(station.arm, 1, gears=GEARS)
+    uneven = Observations(joints, eccentric.poses(joints, noise=FINE))
+    for its in (rows, uneven):
+        frames = initial_frames(station.arm, its)
+        calibration = calibrate(station.arm, CANDIDATES[HYBRID], its, frames)
+        corrector = Corrector(Correction(b"", calibration, joints))
+        path = joints[:1] + np.linspace(0, 0.2, TIMES + 1)[:, None]
+        pattern = "no pattern" if calibration.pattern is None else "a pattern"
+        for frame, target, poses in (
+            ("base", None, calibration.forward(path)),
+            ("instrument", "the target", calibration.predict(path)),
+        ):
+            near, goals = [joints[0]], iter(poses)
+
+            def command():
+                near[0] = corrector.command(next(goals), near[0], target)  # noqa: B023
+
+            command()
+            print(
+                f"{name}, {pattern} of residuals: a command in the {frame} {median(command):.2f} ms"
+            )
+
+
+if __name__ == "__main__":
+    for name in ARMS:
+        latencies(name)
