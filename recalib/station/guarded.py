@@ -35,7 +35,7 @@ class Guarded:
     """
 
     def __init__(self, opening: Callable[[], Station], joints: Sequence[str], patience: float):
-        self._patience, self._stopped = patience, False
+        self._patience, self._stopped, self._hangs = patience, False, False
         self._calls: queue.SimpleQueue[Call | None] = queue.SimpleQueue()
         self._station: Station | None = None
         threading.Thread(target=self._work, name="station", daemon=True).start()
@@ -93,10 +93,19 @@ class Guarded:
             self._at_last(lambda station: station.stop())
 
     def close(self) -> None:
-        """Let go of it: its method `close` is called, if it has one."""
-        self._stopped = True
+        """Let go of it: its method `close` is called, if it has one.
+
+        Graphics have to be closed where they were opened: in its own thread, unless that hangs.
+        """
+        self._stopped, station = True, self._station
+        if station is not None:
+            answer: queue.SimpleQueue[Any] = queue.SimpleQueue()
+            self._calls.put((lambda: _close(station), answer))
+            try:
+                answer.get(timeout=0 if self._hangs else STOPPING)
+            except queue.Empty:
+                self._at_last(_close)
         self._calls.put(None)
-        self._at_last(lambda station: getattr(station, "close", lambda: None)())
 
     def _at_last(self, do: Callable[[Station], None]) -> None:
         """Whatever it is doing: from a thread of its own, for a limited time."""
@@ -124,6 +133,7 @@ class Guarded:
         try:
             value, error = answer.get(timeout=self._patience)
         except queue.Empty:
+            self._hangs = True
             raise StationFailed(
                 f"for {self._patience:g} s the station has not answered when asked to {what}"
             ) from None
@@ -165,3 +175,7 @@ def _quietly(do: Callable[[], None]) -> None:
         do()
     except Exception:
         return
+
+
+def _close(station: Station) -> None:
+    getattr(station, "close", lambda: None)()

@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import replace
 
@@ -22,6 +23,7 @@ from recalib.laboratory.corrector import Corrector
 from recalib.laboratory.live import Interrupted, LiveSettings, calibrate_live
 from recalib.laboratory.live_view import LiveView
 from recalib.nominal.descriptions import find_urdf
+from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
 from tests.conftest import ROOT
 from tests.identification.real import ARMS
@@ -230,6 +232,35 @@ def test_without_a_row_there_is_no_table(tmp_path):
     with pytest.raises(StationFailed):
         run(simulated.SeesNothing(), tmp_path)
     assert not (tmp_path / "table.csv").exists()
+
+
+@pytest.mark.parametrize("hangs", [False, True])
+def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs, monkeypatch):
+    """Graphics are bound to a thread."""
+    monkeypatch.setattr("recalib.station.guarded.STOPPING", 5.0)
+
+    class Bound(Simulated):
+        closed, freed = None, threading.Event()
+
+        def __init__(self):
+            super().__init__()
+            self.opened = threading.get_ident()
+
+        def move(self, goal, speed):
+            self.freed.wait()
+
+        def close(self):
+            self.closed = threading.get_ident()
+
+    made = []
+    guarded = Guarded(lambda: made.append(Bound()) or made[0], Simulated().joints, 0.2)
+    (station,) = made
+    if hangs:
+        with pytest.raises(StationFailed, match="has not answered when asked to move"):
+            guarded.move(station.angles(), 1.0)
+    guarded.close()
+    station.freed.set()
+    assert station.closed is not None and (station.closed == station.opened) is not hangs
 
 
 LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
