@@ -1,12 +1,14 @@
-"""Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump.
+"""Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump, a slip.
 
 Rows in the order of measurement show such faults in their residuals. Each fault is modelled by
-parameters in addition to those of the arm: the delay of all poses as a part of a step, or a motion
-of the instrument relative to the base, over time or from some row on. A fault that no arm could
-explain instead, and that is too large for chance, is reported.
+parameters in addition to those of the arm: the delay of all poses as a part of a step; a motion of
+the instrument relative to the base, over time or from some row on; or one of a target on the tool.
+Of several cameras, each may have faults of its own. A fault that no arm could explain instead, and
+that is too large for chance, is reported.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -18,7 +20,7 @@ from recalib.identification.linearisation import Linearisation, displacements
 from recalib.identification.observations import Observations
 from recalib.identification.postures import find_postures
 
-LAG, DRIFT, JUMP = "lag", "drift", "jump"
+LAG, DRIFT, JUMP, SLIP = "lag", "drift", "jump", "slip"
 CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
 SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
 MOST = 3  # faults at once
@@ -31,20 +33,24 @@ class Fault:
     """Something that rows show by their order.
 
     Attributes:
-        kind: lag, drift or jump.
+        kind: lag, drift, jump (of the instrument) or slip (of a target).
         size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
             of the step to each; otherwise m, by how much the instrument moves against the base,
-            from the first row to the last or at once.
-        row: from 0, the first one after a jump.
+            from the first row to the last or at once, or the target against the tool.
+        row: from 0 in its series, the first one after a jump or a slip.
+        turn: rad, that goes with the size.
+        sight: its number, or that of the first row of the series.
     """
 
     kind: str
     size: float
     row: int = 0
+    turn: float = 0.0
+    sight: int = 0
 
 
 def faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
-    """What the rows show by their order, if that is the order in which they were measured.
+    """What the rows of each series show by their order, if they were measured in that order.
 
     Args:
         geometry: what was identified from them.
@@ -59,29 +65,61 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     residuals = np.concatenate([*linear.residuals], axis=1) * weights
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     times = np.arange(len(observations)) if observations.times is None else observations.times
-    late = observations.whitened(_late(geometry, observations, times))[..., None]
-    late = late * weights[..., None]
-    moved = observations.whitened(_moved(geometry, observations)) * weights[..., None]
-    drifted = moved * ((times - times[0]) / np.ptp(times))[:, None, None]
+    here = geometry.predict(observations.joints, observations.targets)
+    size = 3 * observations.kinds  # nobody sees how a point is turned about itself
+    moved = observations.whitened(_moved(here, observations.series)[:, :size])
+    slipped = observations.whitened(_slipped(here)[:, :size, :size])
+    moved, slipped = (columns * weights[..., None] for columns in (moved, slipped))
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
     alike = len(observations) / len(postures)
+    candidates = []
+    for number in np.unique(observations.series):
+        series = np.flatnonzero(observations.series == number)
+        first = int(observations.targets[series[0]])
+        its, clock = observations[series], times[series]
+        late = its.whitened(_late(geometry, its, clock))[..., None] * weights[series, :, None]
+        drifted = moved[series] * ((clock - clock[0]) / np.ptp(clock))[:, None, None]
+        candidates += [
+            (_Candidate(LAG, first, series, late), series),
+            (_Candidate(DRIFT, first, series, drifted), series),
+            (_Candidate(JUMP, first, series, moved[series], ENDS), series),
+        ]
+        for sight in np.unique(its.targets):
+            rows = series[its.targets == sight]
+            candidates.append((_Candidate(SLIP, int(sight), rows, slipped[rows], ENDS), series))
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it does not explain
         rest = _Unexplained(residuals, arm, alike)
-        tried = [
-            rest.plainest(LAG, late),
-            rest.plainest(DRIFT, drifted),
-            rest.plainest(JUMP, moved, ENDS),
-        ]
-        share, fault = max(tried, key=lambda one: one[0])
+        tried = [(*rest.plainest(candidate), candidate, series) for candidate, series in candidates]
+        share, after, by, (kind, sight, rows, columns, _), series = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
-        found.append(fault)
-        jumped = moved * (np.arange(len(observations)) >= fault.row)[:, None, None]
-        columns = {LAG: late, DRIFT: drifted, JUMP: jumped}[fault.kind]
-        arm = np.concatenate([arm, columns], axis=2)
+        size, turn = by[0] if kind == LAG else np.linalg.norm(by[:3]), np.linalg.norm(by[3:])
+        row = int(np.searchsorted(series, rows[after]))
+        found.append(Fault(kind, float(size), row, float(turn), sight))
+        further = np.zeros((*residuals.shape, columns.shape[-1]))
+        further[rows[after:]] = columns[after:]
+        arm = np.concatenate([arm, further], axis=2)
     return found
+
+
+class _Candidate(NamedTuple):
+    """A fault that there may be.
+
+    Attributes:
+        kind, sight: of the fault.
+        rows: (m,) numbers of the rows that it concerns, in their order.
+        columns: (m, k, c) slopes of their residuals by the fault's parameters.
+        ends: so many of them at least are on either side of where it begins; it does with the first
+            unless given.
+    """
+
+    kind: str
+    sight: int
+    rows: np.ndarray
+    columns: np.ndarray
+    ends: int = 0
 
 
 class _Unexplained:
@@ -103,22 +141,20 @@ class _Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def plainest(self, kind: str, columns: np.ndarray, ends: int = 0) -> tuple[float, Fault]:
-        """Its share of the unexplained squares, 0 where that may be chance, and the fault.
+    def plainest(self, candidate: _Candidate) -> tuple[float, int, np.ndarray]:
+        """A fault's share of the unexplained squares, 0 where that may be chance.
 
-        Args:
-            columns: (n, k, c) slopes of the residuals by the fault's parameters.
-            ends: so many rows at least are on either side of where the columns begin to matter;
-                they do from the first row on unless given.
+        Returns also with which of its rows it begins, and its parameters (c,).
         """
+        _, _, its, columns, ends = candidate
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
-            np.einsum("nkc,nkp->ncp", columns, self._arm),
-            np.einsum("nkc,nk->nc", columns, self._residuals),
+            np.einsum("nkc,nkp->ncp", columns, self._arm[its]),
+            np.einsum("nkc,nk->nc", columns, self._residuals[its]),
         )
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:
-            return 0.0, Fault(kind, 0.0)
+            return 0.0, 0, np.zeros(columns.shape[-1])
         own, across, gradient = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
         own = own - absorbed @ across.swapaxes(1, 2)
@@ -128,9 +164,8 @@ class _Unexplained:
         best, count = int(gains.argmax()), columns.shape[-1]
         gain, free = gains[best], (self._free - count) / self._alike
         ratio = gain / count / (self._squares - gain) * free
-        size = found[best, 0] if kind == LAG else np.linalg.norm(found[best, :3])
         plain = fdtrc(count, free, ratio) * len(rows) < CHANCE
-        return gain / self._squares if plain else 0.0, Fault(kind, float(size), int(rows[best]))
+        return gain / self._squares if plain else 0.0, int(rows[best]), found[best]
 
     def _solve(self, pulls: np.ndarray) -> np.ndarray:
         return scipy.linalg.cho_solve(self._factor, pulls)
@@ -148,11 +183,19 @@ def _late(geometry: Calibration, observations: Observations, times: np.ndarray) 
     return displacements(here, before)[:, : 3 * observations.kinds] / small
 
 
-def _moved(geometry: Calibration, observations: Observations) -> np.ndarray:
-    """What moves of the instrument by 1 m and 1 rad, about the middle, do to rows (n, k, 6)."""
-    places = geometry.predict(observations.joints, observations.targets)[:, :3, 3]
-    places = places - places.mean(axis=0)
-    columns = np.zeros((len(observations), 6, 6))
+def _moved(poses: np.ndarray, series: np.ndarray) -> np.ndarray:
+    """What moves of the instrument by 1 m and 1 rad do to poses (n, 6, 6), about the middle."""
+    columns = np.zeros((len(poses), 6, 6))
     columns[:] = np.eye(6)
-    columns[:, :3, 3:] = np.cross(np.eye(3), places[:, None]).swapaxes(1, 2)
-    return columns[:, : 3 * observations.kinds]
+    for number in np.unique(series):
+        places = poses[series == number, :3, 3]
+        levers = (places - places.mean(axis=0))[:, None]
+        columns[series == number, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
+    return columns
+
+
+def _slipped(poses: np.ndarray) -> np.ndarray:
+    """What moves of the target by 1 m and 1 rad, along its own axes, do to poses (n, 6, 6)."""
+    columns = np.zeros((len(poses), 6, 6))
+    columns[:, :3, :3] = columns[:, 3:, 3:] = poses[:, :3, :3]
+    return columns
