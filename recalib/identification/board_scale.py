@@ -7,8 +7,6 @@ links are held here, and only joint offsets, frames and optics are found.
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.frames import HELD, Frames

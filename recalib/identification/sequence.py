@@ -66,9 +66,9 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     times = np.arange(len(observations)) if observations.times is None else observations.times
     here = geometry.predict(observations.joints, observations.targets)
-    size = 3 * observations.kinds  # nobody sees how a point is turned about itself
-    moved = observations.whitened(_moved(here, observations.series)[:, :size])
-    slipped = observations.whitened(_slipped(here)[:, :size, :size])
+    seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
+    moved = observations.whitened(_moved(here, observations.series)[:, seen])
+    slipped = observations.whitened(_slipped(here)[:, seen, seen])
     moved, slipped = (columns * weights[..., None] for columns in (moved, slipped))
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
@@ -81,20 +81,21 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
         late = its.whitened(_late(geometry, its, clock))[..., None] * weights[series, :, None]
         drifted = moved[series] * ((clock - clock[0]) / np.ptp(clock))[:, None, None]
         candidates += [
-            (_Candidate(LAG, first, series, late), series),
-            (_Candidate(DRIFT, first, series, drifted), series),
-            (_Candidate(JUMP, first, series, moved[series], ENDS), series),
+            _Candidate(LAG, first, series, series, late),
+            _Candidate(DRIFT, first, series, series, drifted),
+            _Candidate(JUMP, first, series, series, moved[series], ENDS),
         ]
         for sight in np.unique(its.targets):
             rows = series[its.targets == sight]
-            candidates.append((_Candidate(SLIP, int(sight), rows, slipped[rows], ENDS), series))
+            candidates.append(_Candidate(SLIP, int(sight), series, rows, slipped[rows], ENDS))
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it does not explain
         rest = _Unexplained(residuals, arm, alike)
-        tried = [(*rest.plainest(candidate), candidate, series) for candidate, series in candidates]
-        share, after, by, (kind, sight, rows, columns, _), series = max(tried, key=lambda one: one[0])
+        tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
+        share, after, by, best = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
+        kind, sight, series, rows, columns, _ = best
         size, turn = by[0] if kind == LAG else np.linalg.norm(by[:3]), np.linalg.norm(by[3:])
         row = int(np.searchsorted(series, rows[after]))
         found.append(Fault(kind, float(size), row, float(turn), sight))
@@ -109,6 +110,7 @@ class _Candidate(NamedTuple):
 
     Attributes:
         kind, sight: of the fault.
+        series: (s,) numbers of the rows of its series.
         rows: (m,) numbers of the rows that it concerns, in their order.
         columns: (m, k, c) slopes of their residuals by the fault's parameters.
         ends: so many of them at least are on either side of where it begins; it does with the first
@@ -117,6 +119,7 @@ class _Candidate(NamedTuple):
 
     kind: str
     sight: int
+    series: np.ndarray
     rows: np.ndarray
     columns: np.ndarray
     ends: int = 0
@@ -146,7 +149,7 @@ class _Unexplained:
 
         Returns also with which of its rows it begins, and its parameters (c,).
         """
-        _, _, its, columns, ends = candidate
+        its, columns, ends = candidate.rows, candidate.columns, candidate.ends
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
             np.einsum("nkc,nkp->ncp", columns, self._arm[its]),
