@@ -7,6 +7,7 @@ Of several cameras, each may have faults of its own. A fault that no arm could e
 that is too large for chance, is reported.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -39,7 +40,7 @@ class Fault:
             from the first row to the last or at once, or the target against the tool.
         row: from 0 in its series, the first one after a jump or a slip.
         turn: rad, that goes with the size.
-        sight: its number, or that of the first row of the series.
+        sight: that of this row.
     """
 
     kind: str
@@ -64,40 +65,23 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
     residuals = np.concatenate([*linear.residuals], axis=1) * weights
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
-    times = np.arange(len(observations)) if observations.times is None else observations.times
-    here = geometry.predict(observations.joints, observations.targets)
-    seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
-    moved = observations.whitened(_moved(here, observations.series)[:, seen])
-    slipped = observations.whitened(_slipped(here)[:, seen, seen])
-    moved, slipped = (columns * weights[..., None] for columns in (moved, slipped))
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
     alike = len(observations) / len(postures)
-    candidates = []
-    for number in np.unique(observations.series):
-        series = np.flatnonzero(observations.series == number)
-        first = int(observations.targets[series[0]])
-        its, clock = observations[series], times[series]
-        late = its.whitened(_late(geometry, its, clock))[..., None] * weights[series, :, None]
-        drifted = moved[series] * ((clock - clock[0]) / np.ptp(clock))[:, None, None]
-        candidates += [
-            _Candidate(LAG, first, series, series, late),
-            _Candidate(DRIFT, first, series, series, drifted),
-            _Candidate(JUMP, first, series, series, moved[series], ENDS),
-        ]
-        for sight in np.unique(its.targets):
-            rows = series[its.targets == sight]
-            candidates.append(_Candidate(SLIP, int(sight), series, rows, slipped[rows], ENDS))
+    candidates = [
+        one._replace(columns=one.columns * weights[one.rows, :, None])
+        for one in _candidates(geometry, observations)
+    ]
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it does not explain
         rest = _Unexplained(residuals, arm, alike)
         tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
-        share, after, by, best = max(tried, key=lambda one: one[0])
+        share, after, by, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
-        kind, sight, series, rows, columns, _ = best
         size, turn = by[0] if kind == LAG else np.linalg.norm(by[:3]), np.linalg.norm(by[3:])
-        row = int(np.searchsorted(series, rows[after]))
+        series = observations.series == observations.series[rows[after]]
+        row, sight = int(series[: rows[after]].sum()), int(observations.targets[rows[after]])
         found.append(Fault(kind, float(size), row, float(turn), sight))
         further = np.zeros((*residuals.shape, columns.shape[-1]))
         further[rows[after:]] = columns[after:]
@@ -109,20 +93,48 @@ class _Candidate(NamedTuple):
     """A fault that there may be.
 
     Attributes:
-        kind, sight: of the fault.
-        series: (s,) numbers of the rows of its series.
-        rows: (m,) numbers of the rows that it concerns, in their order.
+        kind: of the fault.
+        rows: (m,) numbers of the rows that it concerns, in the order of their measurement.
         columns: (m, k, c) slopes of their residuals by the fault's parameters.
         ends: so many of them at least are on either side of where it begins; it does with the first
             unless given.
     """
 
     kind: str
-    sight: int
-    series: np.ndarray
     rows: np.ndarray
     columns: np.ndarray
     ends: int = 0
+
+
+def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_Candidate]:
+    """All of them, whose columns are those of whitened residuals."""
+    times = np.arange(len(observations)) if observations.times is None else observations.times
+    poses = geometry.predict(observations.joints, observations.targets)
+    instruments, targets = geometry.model.frames.sights[observations.targets].T
+    seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
+    moved = observations.whitened(_moved(poses, instruments)[:, seen])
+    slipped = observations.whitened(_slipped(poses)[:, seen, seen])
+    passed = np.empty(len(observations))
+    for number in np.unique(observations.series):
+        rows = np.flatnonzero(observations.series == number)
+        its, clock = observations[rows], times[rows]
+        passed[rows] = (clock - clock[0]) / np.ptp(clock)
+        yield _Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
+        yield _Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
+    along = passed if observations.times is None else times
+    for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
+        for number in np.unique(numbers):
+            for rows in _orders(np.flatnonzero(numbers == number), observations.series, along):
+                yield _Candidate(kind, rows, columns[rows], ENDS)
+
+
+def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator[np.ndarray]:
+    """Rows as they may have been measured: each series, one after the other, or side by side."""
+    parts = [rows[series[rows] == number] for number in np.unique(series[rows])]
+    yield from parts
+    if len(parts) > 1:
+        yield rows
+        yield rows[np.argsort(along[rows], kind="stable")]
 
 
 class _Unexplained:
@@ -186,14 +198,15 @@ def _late(geometry: Calibration, observations: Observations, times: np.ndarray) 
     return displacements(here, before)[:, : 3 * observations.kinds] / small
 
 
-def _moved(poses: np.ndarray, series: np.ndarray) -> np.ndarray:
-    """What moves of the instrument by 1 m and 1 rad do to poses (n, 6, 6), about the middle."""
+def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
+    """What moves of their instruments (n,) by 1 m and 1 rad do to poses (n, 6, 6)."""
     columns = np.zeros((len(poses), 6, 6))
     columns[:] = np.eye(6)
-    for number in np.unique(series):
-        places = poses[series == number, :3, 3]
+    for number in np.unique(instruments):
+        rows = instruments == number
+        places = poses[rows, :3, 3]
         levers = (places - places.mean(axis=0))[:, None]
-        columns[series == number, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
+        columns[rows, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
     return columns
 
 

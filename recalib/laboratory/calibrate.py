@@ -12,6 +12,7 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.board_scale import board_scales
 from recalib.identification.calibration import Calibration, turned
+from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
@@ -223,7 +224,11 @@ def calibrate_arm(
         scales = dict(zip(boards, board_scales(arm, observations, frames), strict=True))
         observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
     check_distances(arm, observations, frames, sockets)
-    validation = validate(arm, observations, frames, on_progress)
+    try:
+        validation = validate(arm, observations, frames, on_progress)
+    except Untrustworthy as error:
+        ranges = rows_of(observations, names) if len(tables) > 1 else []
+        raise Untrustworthy("; ".join([str(error), *ranges])) from None
     return Calibrated(
         path,
         source,
@@ -247,6 +252,13 @@ def sight_names(
     if sights is None or len(instruments) == 1:
         return [*targets]
     return [f"{targets[target]} by {instruments[instrument]}" for instrument, target in sights]
+
+
+def rows_of(observations: Observations, names: Sequence[str]) -> list[str]:
+    """Which rows are of each sight of cameras, in words."""
+    ends = np.cumsum(np.bincount(observations.targets)).tolist()
+    parts = zip([0, *ends[:-1]], ends, names, strict=True)
+    return [f"rows {before + 1} to {last}: {name}" for before, last, name in parts]
 
 
 def _check_several(paths: Sequence[Path], given: Description) -> None:

@@ -60,6 +60,8 @@ def _sentence(fault: Fault, result: Calibrated) -> str:
     moved = f"{size} and {np.degrees(fault.turn):.2g} deg"
     between = f"between rows {fault.row} and {fault.row + 1}"
     parts = f"try rows 1 to {fault.row} and {fault.row + 1} to {rows} each by themselves"
+    if not fault.row:
+        between, parts = "before row 1", "try each folder by itself"
     lag = f"{100 * late:.2g} % of a step" if observations.times is None else f"{1e3 * late:.2g} ms"
     sentences = {
         LAG: f"poses seem to be {lag} {'behind' if fault.size > 0 else 'ahead of'} the joints; try"

@@ -14,7 +14,7 @@ from recalib.identification.validation import (
     RANDOM,
     WAYS,
 )
-from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.calibrate import Calibrated, rows_of
 from recalib.laboratory.doubts import doubts
 from recalib.laboratory.hand_eye import pixel_error
 from recalib.laboratory.parameters import unidentifiable_directions
@@ -103,9 +103,7 @@ def _notes(result: Calibrated) -> Iterator[str]:
     rows = f"{len(result.observations)} rows of {files}"
     yield rows if len(postures) == len(result.observations) else f"{len(postures)} postures, {rows}"
     if len(tables) > 1:
-        ends = np.cumsum(np.bincount(result.observations.series)).tolist()
-        for name, table, before, last in zip(result.sights, tables, [0, *ends], ends, strict=False):
-            yield f"rows {before + 1} to {last}: {name}, in {table.parent}"
+        yield from rows_of(result.observations, result.sights)
     if result.between is not None:
         yield f"nominal positions are those of the URDF, with {result.between}"
     if arm.massless:
