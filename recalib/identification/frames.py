@@ -49,9 +49,8 @@ class Frames:
     targets_unknown: bool = False
     optics_deviations: np.ndarray = field(default_factory=lambda: np.empty(0))
     further: np.ndarray = field(default_factory=lambda: np.empty((0, 4, 4)))
-    # __post_init__ makes these
-    optics_kinds: np.ndarray = None  # type: ignore[assignment]
-    sights: np.ndarray = None  # type: ignore[assignment]
+    optics_kinds: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
+    sights: np.ndarray = None  # type: ignore[assignment]  # likewise
 
     def __post_init__(self) -> None:
         if self.optics_kinds is None:

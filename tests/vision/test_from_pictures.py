@@ -13,7 +13,7 @@ from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.hand_eye import hand_eye
-from recalib.laboratory.observe import observe, write_observed
+from recalib.laboratory.observe import observe
 from recalib.laboratory.summary import verdict
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners
@@ -190,15 +190,16 @@ def taken(tmp_path, monkeypatch):
     return take
 
 
-def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path):
+def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path, capsys):
     _, _, (folder, joints, board, lens) = taken(12)
     named = board.rename(board.with_name("on the table.toml"))
-    result = observe(folder, joints, named, lens, camera="left-1")
-    write_observed(result, tmp_path / "observed", lambda path, _: path.write_text("no page"))
+    files = [str(folder), str(joints), f"--board={named}", f"--lens={lens}"]
+    out = f"--out={tmp_path / 'observed'}"
+    assert main(["observe", *files, "--name=left-1", out]) == DONE
     setup = tomllib.loads((tmp_path / "observed" / "setup.toml").read_text())
     assert (setup["camera_name"], setup["board_name"]) == ("left-1", "on_the_table")
-    with pytest.raises(RecalibError, match="--name is 'left 1'; expected: letters, digits, _ and"):
-        observe(folder, joints, named, lens, camera="left 1")
+    assert main(["observe", *files, "--name=left 1", f"{out}_again"]) == REFUSED
+    assert "--name is 'left 1'; expected: letters, digits, _ and -" in capsys.readouterr().err
 
 
 def test_reprojection_errors_are_root_mean_squares(taken):
