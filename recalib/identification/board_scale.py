@@ -1,12 +1,11 @@
-"""How large a board is, by an arm whose links are as long as they are described.
+"""How large boards are, by an arm whose links are as long as they are described.
 
 An arm whose links may have any length explains a board of any size: both scale together. So the
 links are held here, and only joint offsets, frames and optics are found.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
@@ -20,18 +19,21 @@ ANY = 0.5  # standard deviation of a scale that may be anything
 LINKS = 2e-3  # rad, times a lever m: so far links that are held make an arm miss
 
 
-def board_scale(arm: Arm, observations: Observations, frames: Frames) -> float:
-    """The size of a board over that of its description; simulated arms tell it to 0.3 percent.
+def board_scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[float]:
+    """The size of each board over that of its description; simulated arms tell it to 0.3 percent.
+
+    Args:
+        frames: an initial estimate of them, with optics.
 
     Raises BadMeasurement, as `identify`.
     """
     assert observations.optics is not None
-    deviations = observations.optics.deviations.copy()
-    deviations[: len(BOARD)] = ANY
-    model = ErrorModel(arm, OFFSETS, replace(frames, optics_deviations=deviations))
+    model, boards = ErrorModel(arm, OFFSETS, frames), frames.optics_kinds < len(BOARD)
+    model.deviations[model.optics_columns][boards] = ANY
     held = ~model.free
     held[model.offset_columns] = False
     model.deviations[held] = HELD
     optics = observations.optics.with_noise(LINKS**2 * COVARIANCE)
     found = identify(model, replace(observations, optics=optics))
-    return 1 + float(np.mean(found.parameters[model.optics_columns][: len(BOARD)]))
+    scales = found.parameters[model.optics_columns][boards].reshape(-1, len(BOARD))
+    return (1 + scales.mean(axis=1)).tolist()

@@ -65,9 +65,10 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m in which the controller believes.
-            targets: (n,) their numbers; the first unless given.
+            targets: (n,) the numbers of the sights; the first unless given.
         """
-        return self._shifted(self.model.predict(self.estimate.parameters, joints, targets), joints)
+        poses = self.model.predict(self.estimate.parameters, joints, targets)
+        return self._shifted(poses, joints, targets)
 
     def predict_and_jacobian(
         self, joints: np.ndarray, targets: np.ndarray
@@ -80,7 +81,7 @@ class Calibration:
             rows = targets == target
             arm = self._arms_to_targets[target]
             poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
-        return self._shifted(poses, joints), jacobians
+        return self._shifted(poses, joints, targets), jacobians
 
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
@@ -118,15 +119,22 @@ class Calibration:
         """Where the instrument stands and where the targets sit."""
         return self.model.found(self.estimate.parameters)
 
+    def axes(self, targets: np.ndarray) -> np.ndarray:
+        """From the first instrument's axes to those of a sight's instrument (n, 3, 3)."""
+        turns = self.frames.bases[:, :3, :3]
+        between = turns @ turns[0].T
+        between[0] = np.eye(3)  # but for rounding
+        return between[self.model.frames.sights[targets, 0]]
+
     @cached_property
     def _arm(self) -> Arm:
         return self.model.own_arm(self.estimate.parameters)
 
     @cached_property
     def _arms_to_targets(self) -> list[Arm]:
-        """From the instrument to each target: to make one takes longer than to ask it."""
-        numbers = range(len(self.model.frames.targets))
-        return [self.model.arm(self.estimate.parameters, target) for target in numbers]
+        """Of each sight: to make one takes longer than to ask it."""
+        numbers = range(len(self.model.frames.sights))
+        return [self.model.arm(self.estimate.parameters, sight) for sight in numbers]
 
     def _standing(self, joints: np.ndarray) -> np.ndarray:
         return self.model.standing(self.estimate.parameters, joints, self.model.terms(joints))
@@ -139,10 +147,15 @@ class Calibration:
         shifted = self._shifted(base @ poses @ target, joints)
         return np.linalg.inv(base) @ shifted @ np.linalg.inv(target)
 
-    def _shifted(self, poses: np.ndarray, joints: np.ndarray) -> np.ndarray:
+    def _shifted(
+        self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
+    ) -> np.ndarray:
+        """By the pattern, which has the axes of the first instrument."""
         if self.pattern is None:
             return poses
         by = self.pattern.predict(joints) * np.repeat(self.estimate.noise, 3)
+        if targets is not None:
+            by = turned(self.axes(targets), by)
         moved = poses.copy()
         moved[:, :3, 3] += by[:, :3]
         if by.shape[1] == 6:
@@ -168,6 +181,13 @@ class Calibration:
         if estimate.parameters.shape != shape or estimate.covariance.shape != 2 * shape:
             raise ValueError("parameters of another error model")
         return cls(model, estimate, pattern and Process(**pattern))
+
+
+def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
+    """Residuals (n, 3) or (n, 6) along other axes, by rotations (n, 3, 3)."""
+    return np.einsum("nij,nkj->nki", turns, residuals.reshape(len(turns), -1, 3)).reshape(
+        residuals.shape
+    )
 
 
 def angles_for(
@@ -287,6 +307,8 @@ def _with_pattern(
         return calibration
     if len(good) > MOST:
         good = np.sort(generator(0, "residual").permutation(good)[:MOST])
-    residuals = calibration.residuals(observations[good]) / np.repeat(noise, 3)
+    axes = calibration.axes(observations.targets[good])
+    residuals = turned(axes.swapaxes(1, 2), calibration.residuals(observations[good]))
+    residuals /= np.repeat(noise, 3)
     process = Process(observations.joints[good], residuals, hyperparameters)
     return replace(calibration, pattern=process) if process.gain > 0 else calibration

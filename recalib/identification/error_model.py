@@ -5,9 +5,9 @@ The parameters are small and zero for the nominal arm. In their order:
 - twists (joints + targets, 6): xi_k = (v, w) [m, rad] moves what link k carries, in the frame of
   link k: the placement of joint k + 1 becomes exp(xi_k) M. Link 0 is the base, whose twist moves
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
-  is the only target where frames are known.
+  is the only target where frames are known. Further instruments have further twists of the base.
 - centres (socket, 3): displacements [m] of the sockets from their initial estimate.
-- optics (o,): of the camera that measured; see `recalib.identification.optics`.
+- optics (o,): of the cameras that measured; see `recalib.identification.optics`.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -84,12 +84,14 @@ class ErrorModel:
         self._terms, self.names = terms, tuple(terms)
         targets, sockets = self.frames.targets, self.frames.sockets
         self._joints = arm.model.nv
-        self._twists = 6 * (self._joints + len(targets))  # how many parameters are those of twists
+        ends = self._joints + len(targets)  # where the twists of further instruments begin
+        self._twists = 6 * (ends + len(self.frames.further))  # how many parameters are of twists
         self._optics = self._twists + sockets.size
         self._geometry = self._optics + len(self.frames.optics_deviations)
         links = [LINK] * (self._joints - 1)
-        ends = [self.frames.target_deviations] * len(targets)
-        twists = np.repeat([self.frames.base_deviations, *links, *ends], 3, axis=1).ravel()
+        links += [self.frames.target_deviations] * len(targets)
+        links += [self.frames.base_deviations] * len(self.frames.further)
+        twists = np.repeat([self.frames.base_deviations, *links], 3, axis=1).ravel()
         self.deviations = np.concatenate(
             [
                 twists,
@@ -100,8 +102,8 @@ class ErrorModel:
         )
         self.free = np.zeros(len(self.deviations), dtype=bool)
         self.free[:6] = self.frames.base_unknown
-        self.free[6 * self._joints : self._twists] = self.frames.targets_unknown
-        self.free[self._twists : self._geometry] = True
+        self.free[6 * self._joints : 6 * ends] = self.frames.targets_unknown
+        self.free[6 * ends : self._geometry] = True
         if not terms:
             self.deviations[~self.free] = HELD
         self._base = pin.SE3(self.frames.base)
@@ -109,6 +111,11 @@ class ErrorModel:
         first, *others = arm.model.jointPlacements[1:]
         self._placements = [self._base * first, *others]
         self._placements += [self._tool * pin.SE3(target) for target in targets]
+        self._placements += [pin.SE3(base) * first for base in self.frames.further]
+        self._ends = [  # of each sight, the numbers of its twists
+            (ends + instrument - 1 if instrument else 0, self._joints + target)
+            for instrument, target in self.frames.sights.tolist()
+        ]
 
     def _coefficient_deviations(self) -> np.ndarray:
         """Standard deviations (term, joints) of the joint terms' coefficients."""
@@ -124,7 +131,7 @@ class ErrorModel:
         return np.where(np.array(scales) > HELD, deviations, HELD)
 
     def twists(self, parameters: np.ndarray) -> np.ndarray:
-        """The twists (joints + targets, 6) [m, rad] in the parameters (P,)."""
+        """The twists (joints + targets + further instruments, 6) [m, rad] in parameters (P,)."""
         return parameters[: self._twists].reshape(-1, 6)
 
     def sockets(self, parameters: np.ndarray) -> np.ndarray:
@@ -172,10 +179,10 @@ class ErrorModel:
         arm.model.frames[tool_frame(arm.model, arm.tool)].placement = tool
         return arm
 
-    def arm(self, parameters: np.ndarray, target: int = 0) -> Arm:
-        """From the instrument to a target: the arm with the twists of the parameters done to it."""
-        placed = self._placed(parameters)
-        return self._with(placed[: self._joints], placed[self._joints + target])
+    def arm(self, parameters: np.ndarray, sight: int = 0) -> Arm:
+        """From instrument to target of a sight: the arm with the parameters' twists done to it."""
+        placed, (start, end) = self._placed(parameters), self._ends[sight]
+        return self._with([placed[start], *placed[1 : self._joints]], placed[end])
 
     def own_arm(self, parameters: np.ndarray) -> Arm:
         """From the arm's own base to its own tool: the same without instrument and target."""
@@ -190,8 +197,13 @@ class ErrorModel:
         found = replace(self.frames, sockets=self.sockets(parameters))
         if found.base_unknown:
             found = replace(found, base=(base * self._base).homogeneous)
+        if len(found.further):
+            moved = zip(twists[-len(found.further) :], found.further, strict=True)
+            further = [(twist * pin.SE3(pose)).homogeneous for twist, pose in moved]
+            found = replace(found, further=np.array(further))
         if found.targets_unknown:
-            ends = zip(twists[self._joints :], self._placements[self._joints :], strict=True)
+            its = slice(self._joints, self._joints + len(found.targets))
+            ends = zip(twists[its], self._placements[its], strict=True)
             targets = [self._tool.inverse() * twist * placement for twist, placement in ends]
             found = replace(found, targets=np.array([pose.homogeneous for pose in targets]))
         return found
@@ -219,12 +231,12 @@ class ErrorModel:
         Args:
             parameters: (P,) of the model.
             joints: (n, joints) rad, m in which the controller believes.
-            targets: (n,) their numbers; the first unless given.
+            targets: (n,) the numbers of the sights; the first unless given.
         """
         standing = self.standing(parameters, joints, self.terms(joints))
         poses = np.empty((len(joints), 4, 4))
-        for target, rows in _by_target(targets, len(joints)):
-            poses[rows] = self.arm(parameters, target).forward(standing[rows])
+        for sight, rows in _by_sight(targets, len(joints)):
+            poses[rows] = self.arm(parameters, sight).forward(standing[rows])
         return poses
 
     def linearise(
@@ -249,23 +261,23 @@ class ErrorModel:
         count, links = self._joints, 6 * self._joints
         poses = np.empty((len(joints), 4, 4))
         jacobians = np.zeros((len(joints), 6, len(parameters)))
-        for target, rows in _by_target(targets, len(joints)):
-            arm = self.arm(parameters, target)
+        for sight, rows in _by_sight(targets, len(joints)):
+            arm, (start, end) = self.arm(parameters, sight), self._ends[sight]
             poses[rows], by_joint, placements = arm.forward_and_all_jacobians(standing[rows])
-            own = np.stack([*motions[:count], motions[count + target]])
+            own = np.stack([motions[start], *motions[1:count], motions[end]])
             by_link = placements.reshape(-1, count + 1, 6).swapaxes(0, 1) @ own
             by_link = by_link.swapaxes(0, 1).reshape(len(by_joint), 6, -1)
-            jacobians[rows, :, :links] = by_link[..., :links]
-            end = links + 6 * target
-            jacobians[rows, :, end : end + 6] = by_link[..., links:]
+            jacobians[rows, :, 6:links] = by_link[..., 6:links]
+            jacobians[rows, :, 6 * start : 6 * start + 6] = by_link[..., :6]
+            jacobians[rows, :, 6 * end : 6 * end + 6] = by_link[..., links:]
             jacobians[rows, :, self._geometry :] = (
                 by_joint[:, :, None] * terms[rows][:, None]
             ).reshape(len(by_joint), 6, -1)
         return poses, jacobians
 
 
-def _by_target(targets: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
-    """Each target that is measured, with its rows."""
-    if targets is None or not np.any(targets):
+def _by_sight(sights: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
+    """Each sight that there are rows of, with its rows."""
+    if sights is None or not np.any(sights):
         return [(0, slice(count))]
-    return [(target, np.flatnonzero(targets == target)) for target in np.unique(targets)]
+    return [(sight, np.flatnonzero(sights == sight)) for sight in np.unique(sights)]

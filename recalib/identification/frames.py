@@ -1,8 +1,10 @@
-"""The frames of instrument and targets: known, or parameters like the rest."""
+"""The frames of instruments and targets: known, or parameters like the rest."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+
+from recalib.identification.optics import Optics
 
 # Standard deviations of the parameters before anything is known: what wear and mounting plausibly
 # do to the base of an arm and to a link.
@@ -20,15 +22,22 @@ class Frames:
     the arm. Where it is not, that is a better estimate of it, and the arm's own base or last link
     stays nominal: nobody could tell.
 
+    What a row is of is a sight: an instrument, and a target that it measures.
+
     Attributes:
-        base: (4, 4) m, the pose of the arm's base in the frame of the instrument.
+        base: (4, 4) m, the pose of the arm's base in the frame of the (first) instrument.
         targets: (target, 4, 4) m, their poses in the frame of the tool.
         sockets: (socket, 3) m, estimates of their centres in the frame of the instrument, which is
             the arm's base there.
         base_deviations, target_deviations: of translation [m] and turn [rad], before anything is
             known.
         base_unknown, targets_unknown: whether they are estimates.
-        optics_deviations: (o,) of the optics of a camera, of which there are none unless given.
+        optics_deviations: (o,) of the optics of cameras, of which there are none unless given.
+        further: (i, 4, 4) m, the pose of the base in the frames of further instruments, if there
+            are any: then all frames are estimates.
+        optics_kinds: (o,) which of `OPTICS` they are; the first of them unless given.
+        sights: (s, 2) the numbers of the instrument and of the target of each sight; the first
+            instrument's of each target unless given.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -39,6 +48,25 @@ class Frames:
     base_unknown: bool = False
     targets_unknown: bool = False
     optics_deviations: np.ndarray = field(default_factory=lambda: np.empty(0))
+    further: np.ndarray = field(default_factory=lambda: np.empty((0, 4, 4)))
+    optics_kinds: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
+    sights: np.ndarray = None  # type: ignore[assignment]  # likewise
+
+    def __post_init__(self) -> None:
+        if self.optics_kinds is None:
+            object.__setattr__(self, "optics_kinds", np.arange(len(self.optics_deviations)))
+        if self.sights is None:
+            each = np.arange(len(self.targets))
+            object.__setattr__(self, "sights", np.stack([0 * each, each], axis=1))
+
+    @property
+    def bases(self) -> np.ndarray:
+        """The poses (instrument, 4, 4) [m] of the arm's base in the frame of each instrument."""
+        return np.concatenate([self.base[None], self.further])
+
+    def with_optics(self, optics: Optics) -> "Frames":
+        """The same, with the optics of cameras as parameters."""
+        return replace(self, optics_deviations=optics.deviations, optics_kinds=optics.kinds)
 
 
 def nearest_rotation(matrix: np.ndarray) -> np.ndarray:

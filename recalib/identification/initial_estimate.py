@@ -4,7 +4,8 @@ Closed forms are solved for all rows and for many small sets of them, of which a
 spoil only some. The best, by their median error, are refined by robust least squares.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -87,6 +88,19 @@ def initial_frames(
     return best
 
 
+def joined_frames(parts: Sequence[Frames], sights: np.ndarray) -> Frames:
+    """The frames of several instruments and targets, each of which the first part decides.
+
+    Args:
+        parts: the frames by each sight alone.
+        sights: (s, 2) the numbers of its instrument and its target.
+    """
+    instruments, targets = (np.unique(column, return_index=True)[1] for column in sights.T)
+    bases = np.array([parts[sight].base for sight in instruments])
+    ends = np.array([parts[sight].targets[0] for sight in targets])
+    return replace(parts[0], base=bases[0], further=bases[1:], targets=ends, sights=sights)
+
+
 def _some(observations: Observations, order: np.ndarray) -> np.ndarray:
     """The first rows of an order, and all rows of groups that none of these is of."""
     group = observations.groups
@@ -114,7 +128,8 @@ def _is_open(tool: np.ndarray, observations: Observations, target: np.ndarray | 
 
 def median_error(frames: Frames, tool: np.ndarray, observations: Observations) -> float:
     """The median error [m] with these frames and the nominal poses (n, 4, 4) of the tool."""
-    predicted = frames.base @ tool @ frames.targets[observations.targets]
+    instruments, targets = frames.sights[observations.targets].T
+    predicted = frames.bases[instruments] @ tool @ frames.targets[targets]
     residuals = displacements(predicted, observations.reached(frames.sockets))
     residuals[:, 3:] *= LEVER
     return float(np.median(np.linalg.norm(residuals, axis=1)))

@@ -42,7 +42,7 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
             valid = f"numbers up to {most:.3g} ({unit})"
             raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
     for what, numbers, most in (
-        ("target", observations.targets, len(model.frames.targets)),
+        ("target", observations.targets, len(model.frames.sights)),
         ("socket", observations.sockets, len(model.frames.sockets)),
     ):
         if numbers is not None and not (np.isin(numbers, np.arange(most))).all():

@@ -31,11 +31,12 @@ class Observations:
         joints: (n, joints) rad, or m where a joint slides, in which the controller believed.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None where a ball sat in sockets.
-        targets: (n,) the number of the target, or of the ball; 0 unless given.
+        targets: (n,) the number of the target, or of the ball; 0 unless given. Where there are
+            several instruments, that of the sight: see `Frames`.
         sockets: (n,) the number of the socket in which it sat; None where it was measured.
         distances: between sockets, where they are known.
         times: (n,) s, which do not decrease; None where nobody wrote them down.
-        optics: what poses are worth that a camera measured; None where all are worth the same.
+        optics: what poses are worth that cameras measured; None where all are worth the same.
     """
 
     joints: np.ndarray
@@ -95,6 +96,14 @@ class Observations:
     def kinds(self) -> int:
         """Of what is measured in a row: 2 for position and orientation, 1 for a position alone."""
         return 2 if self.measured is not None and self.measured.ndim == 3 else 1
+
+    @property
+    def series(self) -> np.ndarray:
+        """By number (n,): the series that a row is of, in whose order it was measured.
+
+        Each camera takes pictures of a board by itself; all other rows are one series.
+        """
+        return 0 * self.targets if self.optics is None else self.targets
 
     @property
     def groups(self) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Poses that were measured by a camera: how sure they are, and how they depend on its optics.
+"""Poses that were measured by cameras: how sure they are, and how they depend on their optics.
 
 What lens and board are beside what they were taken for moves all poses together: these are
 parameters of the fit, like those of the arm.
@@ -21,7 +21,10 @@ OPTICS = (
 
 @dataclass(frozen=True)
 class Optics:
-    """What a camera's poses are worth, row by row. A displacement is (6,) [m, rad].
+    """What poses by cameras are worth, row by row. A displacement is (6,) [m, rad].
+
+    The optics are those of each board, then those of each camera whose lens is sought. What a row
+    has nothing to do with has zeros there.
 
     Attributes:
         spread: (n, 6, 6) covariances of displacements, by the noise of the corners.
@@ -31,6 +34,8 @@ class Optics:
         pixels: (n, 6, 6) to vectors as long as the root mean square of what corners move [px].
         whitening: (n, 6, 6) to displacements whose components are independent, and as large as
             those of a typical row: in its first three m, then rad.
+        kinds: (o,) which of `OPTICS` each is; the first of them, of one board and one camera,
+            unless given.
     """
 
     spread: np.ndarray
@@ -39,22 +44,22 @@ class Optics:
     gradient: np.ndarray
     pixels: np.ndarray
     whitening: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
+    kinds: np.ndarray = None  # type: ignore[assignment]  # likewise
 
     def __post_init__(self) -> None:
         if self.whitening is None:  # of an arm that returns to a posture without any error
             object.__setattr__(self, "whitening", _whitening(self.spread))
+        if self.kinds is None:
+            object.__setattr__(self, "kinds", np.arange(self.slopes.shape[-1]))
 
     def with_noise(self, covariance: np.ndarray) -> "Optics":
         """The same, where displacements have further noise of a covariance (6, 6)."""
         return replace(self, whitening=_whitening(self.spread + covariance))
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Optics":
-        return Optics(*(its[rows] for its in vars(self).values()))
-
-    @property
-    def count(self) -> int:
-        """How many parameters it has: the first of `OPTICS`."""
-        return self.slopes.shape[-1]
+        by_row = vars(self) | {"kinds": None}
+        some = {name: its[rows] for name, its in by_row.items() if its is not None}
+        return Optics(**some, kinds=self.kinds)
 
     @property
     def length(self) -> float:
@@ -64,7 +69,7 @@ class Optics:
     @property
     def deviations(self) -> np.ndarray:
         """Standard deviations (o,) of them, before any picture is seen."""
-        return np.array([size * deviation for _, _, size, deviation in OPTICS[: self.count]])
+        return np.array([OPTICS[kind][2] * OPTICS[kind][3] for kind in self.kinds])
 
 
 def _whitening(spread: np.ndarray) -> np.ndarray:

@@ -32,18 +32,22 @@ class Parameter:
 
 
 def parameters_of(
-    model: ErrorModel, estimate: Estimate, targets: Sequence[str] = (), sockets: Sequence[str] = ()
+    model: ErrorModel,
+    estimate: Estimate,
+    targets: Sequence[str] = (),
+    sockets: Sequence[str] = (),
+    instruments: Sequence[str] = (),
 ) -> list[Parameter]:
     """All parameters, in the order of the model.
 
     Args:
-        targets, sockets: their names; their numbers unless given.
+        targets, sockets, instruments: their names; their numbers unless given.
     """
     errors = np.sqrt(np.diag(estimate.covariance))
     return [
         Parameter(name, unit, float(scale * value), float(scale * error))
         for (name, unit, scale), value, error in zip(
-            _names(model, targets, sockets), estimate.parameters, errors, strict=True
+            _names(model, targets, sockets, instruments), estimate.parameters, errors, strict=True
         )
     ]
 
@@ -62,7 +66,7 @@ def table_of(parameters: Collection[Parameter]) -> str:
 
 
 def _names(
-    model: ErrorModel, targets: Sequence[str], sockets: Sequence[str]
+    model: ErrorModel, targets: Sequence[str], sockets: Sequence[str], instruments: Sequence[str]
 ) -> Iterator[tuple[str, str, float]]:
     """Name, unit, and its number in an SI unit, of each parameter."""
     arm, frames = model.nominal, model.frames
@@ -70,14 +74,18 @@ def _names(
     ends = [f"of target {name}" for name in targets or range(len(frames.targets))]
     if len(ends) == 1:
         ends = ["of target" if frames.targets_unknown else "of tool"]
-    for where in [*links, *ends]:
+    seen = [f"of base to {name}" for name in instruments or range(len(frames.bases))]
+    for where in [*links, *ends, *seen[1:]]:
         for motion in MOTIONS:
             yield f"{motion} {where}", *_unit(slides=motion.startswith("shift"))
     for socket in sockets or range(len(frames.sockets)):
         for axis in "xyz":
             yield f"{axis} of socket {socket}, from its initial estimate", "mm", 1e3
-    for name, unit, size, _ in OPTICS[: len(frames.optics_deviations)]:
-        yield name, unit, 1 / size
+    kinds = frames.optics_kinds.tolist()
+    for column, kind in enumerate(kinds):
+        name, unit, size, _ = OPTICS[kind]
+        several = f", {kinds[:column].count(kind) + 1}" if kinds.count(kind) > 1 else ""
+        yield f"{name}{several}", unit, 1 / size
     for term in model.names:
         for joint, slides in zip(arm.joints, arm.slides, strict=True):
             unit, scale = _unit(slides)

@@ -1,12 +1,15 @@
-"""Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump.
+"""Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump, a slip.
 
 Rows in the order of measurement show such faults in their residuals. Each fault is modelled by
-parameters in addition to those of the arm: the delay of all poses as a part of a step, or a motion
-of the instrument relative to the base, over time or from some row on. A fault that no arm could
-explain instead, and that is too large for chance, is reported.
+parameters in addition to those of the arm: the delay of all poses as a part of a step; a motion of
+the instrument relative to the base, over time or from some row on; or one of a target on the tool.
+Of several cameras, each may have faults of its own. A fault that no arm could explain instead, and
+that is too large for chance, is reported.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -18,7 +21,7 @@ from recalib.identification.linearisation import Linearisation, displacements
 from recalib.identification.observations import Observations
 from recalib.identification.postures import find_postures
 
-LAG, DRIFT, JUMP = "lag", "drift", "jump"
+LAG, DRIFT, JUMP, SLIP = "lag", "drift", "jump", "slip"
 CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
 SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
 MOST = 3  # faults at once
@@ -31,20 +34,24 @@ class Fault:
     """Something that rows show by their order.
 
     Attributes:
-        kind: lag, drift or jump.
+        kind: lag, drift, jump (of the instrument) or slip (of a target).
         size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
             of the step to each; otherwise m, by how much the instrument moves against the base,
-            from the first row to the last or at once.
-        row: from 0, the first one after a jump.
+            from the first row to the last or at once, or the target against the tool.
+        row: from 0 in its series, the first one after a jump or a slip.
+        turn: rad, that goes with the size.
+        sight: that of this row.
     """
 
     kind: str
     size: float
     row: int = 0
+    turn: float = 0.0
+    sight: int = 0
 
 
 def faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
-    """What the rows show by their order, if that is the order in which they were measured.
+    """What the rows of each series show by their order, if they were measured in that order.
 
     Args:
         geometry: what was identified from them.
@@ -58,30 +65,76 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
     residuals = np.concatenate([*linear.residuals], axis=1) * weights
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
-    times = np.arange(len(observations)) if observations.times is None else observations.times
-    late = observations.whitened(_late(geometry, observations, times))[..., None]
-    late = late * weights[..., None]
-    moved = observations.whitened(_moved(geometry, observations)) * weights[..., None]
-    drifted = moved * ((times - times[0]) / np.ptp(times))[:, None, None]
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
     alike = len(observations) / len(postures)
+    candidates = [
+        one._replace(columns=one.columns * weights[one.rows, :, None])
+        for one in _candidates(geometry, observations)
+    ]
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it does not explain
         rest = _Unexplained(residuals, arm, alike)
-        tried = [
-            rest.plainest(LAG, late),
-            rest.plainest(DRIFT, drifted),
-            rest.plainest(JUMP, moved, ENDS),
-        ]
-        share, fault = max(tried, key=lambda one: one[0])
+        tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
+        share, after, by, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
-        found.append(fault)
-        jumped = moved * (np.arange(len(observations)) >= fault.row)[:, None, None]
-        columns = {LAG: late, DRIFT: drifted, JUMP: jumped}[fault.kind]
-        arm = np.concatenate([arm, columns], axis=2)
+        size, turn = by[0] if kind == LAG else np.linalg.norm(by[:3]), np.linalg.norm(by[3:])
+        series = observations.series == observations.series[rows[after]]
+        row, sight = int(series[: rows[after]].sum()), int(observations.targets[rows[after]])
+        found.append(Fault(kind, float(size), row, float(turn), sight))
+        further = np.zeros((*residuals.shape, columns.shape[-1]))
+        further[rows[after:]] = columns[after:]
+        arm = np.concatenate([arm, further], axis=2)
     return found
+
+
+class _Candidate(NamedTuple):
+    """A fault that there may be.
+
+    Attributes:
+        kind: of the fault.
+        rows: (m,) numbers of the rows that it concerns, in the order of their measurement.
+        columns: (m, k, c) slopes of their residuals by the fault's parameters.
+        ends: so many of them at least are on either side of where it begins; it does with the first
+            unless given.
+    """
+
+    kind: str
+    rows: np.ndarray
+    columns: np.ndarray
+    ends: int = 0
+
+
+def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_Candidate]:
+    """All of them, whose columns are those of whitened residuals."""
+    times = np.arange(len(observations)) if observations.times is None else observations.times
+    poses = geometry.predict(observations.joints, observations.targets)
+    instruments, targets = geometry.model.frames.sights[observations.targets].T
+    seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
+    moved = observations.whitened(_moved(poses, instruments)[:, seen])
+    slipped = observations.whitened(_slipped(poses)[:, seen, seen])
+    passed = np.empty(len(observations))
+    for number in np.unique(observations.series):
+        rows = np.flatnonzero(observations.series == number)
+        its, clock = observations[rows], times[rows]
+        passed[rows] = (clock - clock[0]) / np.ptp(clock)
+        yield _Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
+        yield _Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
+    along = passed if observations.times is None else times
+    for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
+        for number in np.unique(numbers):
+            for rows in _orders(np.flatnonzero(numbers == number), observations.series, along):
+                yield _Candidate(kind, rows, columns[rows], ENDS)
+
+
+def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator[np.ndarray]:
+    """Rows as they may have been measured: each series, one after the other, or side by side."""
+    parts = [rows[series[rows] == number] for number in np.unique(series[rows])]
+    yield from parts
+    if len(parts) > 1:
+        yield rows
+        yield rows[np.argsort(along[rows], kind="stable")]
 
 
 class _Unexplained:
@@ -103,22 +156,20 @@ class _Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def plainest(self, kind: str, columns: np.ndarray, ends: int = 0) -> tuple[float, Fault]:
-        """Its share of the unexplained squares, 0 where that may be chance, and the fault.
+    def plainest(self, candidate: _Candidate) -> tuple[float, int, np.ndarray]:
+        """A fault's share of the unexplained squares, 0 where that may be chance.
 
-        Args:
-            columns: (n, k, c) slopes of the residuals by the fault's parameters.
-            ends: so many rows at least are on either side of where the columns begin to matter;
-                they do from the first row on unless given.
+        Returns also with which of its rows it begins, and its parameters (c,).
         """
+        its, columns, ends = candidate.rows, candidate.columns, candidate.ends
         products = (
             np.einsum("nkc,nkd->ncd", columns, columns),
-            np.einsum("nkc,nkp->ncp", columns, self._arm),
-            np.einsum("nkc,nk->nc", columns, self._residuals),
+            np.einsum("nkc,nkp->ncp", columns, self._arm[its]),
+            np.einsum("nkc,nk->nc", columns, self._residuals[its]),
         )
         rows = np.arange(ends, len(columns) - ends + 1) if ends else np.zeros(1, int)
         if not len(rows) or self._free <= columns.shape[-1]:
-            return 0.0, Fault(kind, 0.0)
+            return 0.0, 0, np.zeros(columns.shape[-1])
         own, across, gradient = (np.cumsum(part[::-1], axis=0)[::-1][rows] for part in products)
         absorbed = self._solve(across.reshape(-1, across.shape[-1]).T).T.reshape(across.shape)
         own = own - absorbed @ across.swapaxes(1, 2)
@@ -128,9 +179,8 @@ class _Unexplained:
         best, count = int(gains.argmax()), columns.shape[-1]
         gain, free = gains[best], (self._free - count) / self._alike
         ratio = gain / count / (self._squares - gain) * free
-        size = found[best, 0] if kind == LAG else np.linalg.norm(found[best, :3])
         plain = fdtrc(count, free, ratio) * len(rows) < CHANCE
-        return gain / self._squares if plain else 0.0, Fault(kind, float(size), int(rows[best]))
+        return gain / self._squares if plain else 0.0, int(rows[best]), found[best]
 
     def _solve(self, pulls: np.ndarray) -> np.ndarray:
         return scipy.linalg.cho_solve(self._factor, pulls)
@@ -148,11 +198,20 @@ def _late(geometry: Calibration, observations: Observations, times: np.ndarray) 
     return displacements(here, before)[:, : 3 * observations.kinds] / small
 
 
-def _moved(geometry: Calibration, observations: Observations) -> np.ndarray:
-    """What moves of the instrument by 1 m and 1 rad, about the middle, do to rows (n, k, 6)."""
-    places = geometry.predict(observations.joints, observations.targets)[:, :3, 3]
-    places = places - places.mean(axis=0)
-    columns = np.zeros((len(observations), 6, 6))
+def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:
+    """What moves of their instruments (n,) by 1 m and 1 rad do to poses (n, 6, 6)."""
+    columns = np.zeros((len(poses), 6, 6))
     columns[:] = np.eye(6)
-    columns[:, :3, 3:] = np.cross(np.eye(3), places[:, None]).swapaxes(1, 2)
-    return columns[:, : 3 * observations.kinds]
+    for number in np.unique(instruments):
+        rows = instruments == number
+        places = poses[rows, :3, 3]
+        levers = (places - places.mean(axis=0))[:, None]
+        columns[rows, :3, 3:] = np.cross(np.eye(3), levers).swapaxes(1, 2)
+    return columns
+
+
+def _slipped(poses: np.ndarray) -> np.ndarray:
+    """What moves of the target by 1 m and 1 rad, along its own axes, do to poses (n, 6, 6)."""
+    columns = np.zeros((len(poses), 6, 6))
+    columns[:, :3, :3] = columns[:, 3:, 3:] = poses[:, :3, :3]
+    return columns

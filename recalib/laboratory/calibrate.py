@@ -1,7 +1,7 @@
 """From a URDF and a table of measurements to a calibration and its cross-validated errors."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -10,8 +10,9 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
-from recalib.identification.board_scale import board_scale
-from recalib.identification.calibration import Calibration
+from recalib.identification.board_scale import board_scales
+from recalib.identification.calibration import Calibration, turned
+from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.frames import Frames
@@ -22,10 +23,10 @@ from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.knowledge import check_distances, checked_frames
+from recalib.laboratory.knowledge import check_distances, frames_by_sights
 from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
-from recalib.laboratory.places import Place, found_places
+from recalib.laboratory.places import INSTRUMENT, Place, found_places
 from recalib.laboratory.urdf import corrected_urdf
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
@@ -40,28 +41,28 @@ class Calibrated:
         urdf: the file that describes the arm.
         source: its bytes, as they were read.
         origin: which file it is, in words.
-        table: the file with the measurements.
-        observations: what it says.
+        tables: the files with the measurements; several are each of another sight.
+        observations: what they say.
         targets, sockets: their names, in the order of their numbers.
-        instrument: its name.
-        board_scale: the size of the board, by links as they are described, over its description.
         between: what is between nominal positions and the nominal kinematics, in words.
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
+        instruments: their names, in the order of their numbers.
+        board_scales: the size of each board, by links as they are described, over its description.
     """
 
     urdf: Path
     source: bytes
     origin: str
-    table: Path
+    tables: tuple[Path, ...]
     observations: Observations
     targets: tuple[str, ...]
     sockets: tuple[str, ...]
     between: str | None
     frames: Frames
     validation: Validation
-    instrument: str = "the instrument"
-    board_scale: float = 1.0
+    instruments: tuple[str, ...] = INSTRUMENT
+    board_scales: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def arm(self) -> Arm:
@@ -86,11 +87,27 @@ class Calibrated:
     @cached_property
     def places(self) -> list[Place]:
         """Where instrument, targets and sockets are, of those that were not given."""
-        names = self.targets, self.sockets
         if not self.worthwhile:
-            return found_places(self.calibration, [], *names, self.arm.tool, self.instrument)
-        tool = self.corrected[1]
-        return found_places(self.geometry, self.unidentifiable, *names, tool, self.instrument)
+            return self.places_by(self.calibration, [], self.arm.tool)
+        return self.places_by(self.geometry, self.unidentifiable, self.corrected[1])
+
+    def places_by(
+        self, calibration: Calibration, unidentifiable: Sequence[Unidentifiable], tool: str
+    ) -> list[Place]:
+        """The same by a calibration; see `found_places`."""
+        names = self.ends, self.sockets, tool, self.instruments
+        return found_places(calibration, unidentifiable, *names)
+
+    @property
+    def ends(self) -> list[str]:
+        """What the targets are, in words."""
+        plain = len(self.targets) == 1 or self.observations.optics is not None
+        return [name if plain else f"target {name}" for name in self.targets]
+
+    @property
+    def sights(self) -> list[str]:
+        """The names of targets, by the instruments that see them if there are several."""
+        return sight_names(self.instruments, self.targets, self.frames.sights)
 
     @cached_property
     def unidentifiable(self) -> list[Unidentifiable]:
@@ -110,7 +127,9 @@ class Calibrated:
     @property
     def correction(self) -> Correction:
         """What corrects commands, with no other file."""
-        return Correction(self.source, self.calibration, self.observations.joints, self.targets)
+        return Correction(
+            self.source, self.calibration, self.observations.joints, tuple(self.sights)
+        )
 
     @property
     def counted(self) -> np.ndarray:
@@ -128,7 +147,13 @@ class Calibrated:
         """Where the targets should be (n, 3) [m] in the arm's base, of the rows that count."""
         rows = self.observations[self.counted]
         poses = self.calibration.predict(rows.joints, rows.targets)
-        return (np.linalg.inv(self.calibration.frames.base) @ poses)[:, :3, 3]
+        return (np.linalg.inv(self._bases) @ poses)[:, :3, 3]
+
+    @property
+    def _bases(self) -> np.ndarray:
+        """The arm's base in the instrument (n, 4, 4) [m], of each row that counts."""
+        frames = self.calibration.frames
+        return frames.bases[frames.sights[self.observations.targets[self.counted], 0]]
 
     @property
     def residuals(self) -> dict[str, np.ndarray]:
@@ -137,17 +162,14 @@ class Calibrated:
         (n, 3) m, or (n, 6) m and rad, along the axes of the arm's base.
         """
         kinds = {"before": NOTHING} | ({"after": self.validation.chosen} if self.worthwhile else {})
-        held_out, turn = self.validation.held_out[BLOCKWISE], self.calibration.frames.base[:3, :3]
+        held_out, turns = self.validation.held_out[BLOCKWISE], self._bases[:, :3, :3]
         rows = {name: held_out[kind][self.validation.counted] for name, kind in kinds.items()}
-        return {
-            name: (held.residuals.reshape(-1, 3) @ turn).reshape(held.residuals.shape)
-            for name, held in rows.items()
-        }
+        return {name: turned(turns.swapaxes(1, 2), its.residuals) for name, its in rows.items()}
 
 
 def calibrate_arm(
     urdf: str | PathLike[str],
-    table: str | PathLike[str],
+    table: str | PathLike[str] | Sequence[str | PathLike[str]],
     description: str | PathLike[str] | Description | None = None,
     tool: str | None = None,
     base: str | None = None,
@@ -157,7 +179,7 @@ def calibrate_arm(
 
     Args:
         urdf: a path, or a name that `recalib.nominal.arms.find_urdf` knows.
-        table: see docs/own_arm.md; or the folder that `recalib observe` wrote.
+        table: see docs/own_arm.md; or the folder that `recalib observe` wrote, or several.
         description: what the table does not say itself.
         tool, base: link names; guessed where there is only one choice.
         on_progress: called with what is being done, in a line each.
@@ -172,44 +194,84 @@ def calibrate_arm(
     if description is not None and not isinstance(description, Description):
         description = read_description(description)
     given = description or Description()
-    pictures = Path(table) if Path(table).is_dir() else None
-    table = Path(table) if pictures is None else pictures / OBSERVED
-    rows = read_measurements(table, arm, given)
+    paths = [Path(table)] if isinstance(table, str | PathLike) else [*map(Path, table)]
+    if len(paths) > 1:
+        _check_several(paths, given)
+    folders = [path for path in paths if path.is_dir()]
+    tables = tuple(path / OBSERVED if path in folders else path for path in paths)
+    measured = [read_measurements(path, arm, given) for path in tables]
     on_progress(its := origin(urdf, source))
-    on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
     between = None
-    if rows.nominal is not None:
-        stand = None if given.instrument is None else np.linalg.inv(given.instrument)
-        between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
-    observations, targets, sockets = observations_of(rows, given, table)
-    instrument, scale = "the instrument", 1.0
-    if pictures is not None:  # OpenCV is imported only for these
+    for rows in measured:
+        on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
+        if rows.nominal is not None:
+            stand = None if given.instrument is None else np.linalg.inv(given.instrument)
+            between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
+    read = [observations_of(rows, given, path) for rows, path in zip(measured, tables, strict=True)]
+    observations, targets, sockets = read[0]
+    instruments, sights, scales = INSTRUMENT, None, {}
+    if folders:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels
 
-        observations, instrument, targets = with_pixels(observations, pictures)
+        seen = with_pixels([rows for rows, *_ in read], folders)
+        observations, instruments, targets, sights, boards = seen
     on_progress("initial estimate of instrument and target")
-    poses = replace(observations, optics=None)
-    frames = checked_frames(arm, poses, given.instrument, given.target)
+    names = sight_names(instruments, targets, sights)
+    known = given.instrument, given.target
+    frames = frames_by_sights(arm, replace(observations, optics=None), sights, names, *known)
     if observations.optics is not None:
-        frames = replace(frames, optics_deviations=observations.optics.deviations)
-        scale = board_scale(arm, observations, frames)
+        frames = frames.with_optics(observations.optics)
+        scales = dict(zip(boards, board_scales(arm, observations, frames), strict=True))
         observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
     check_distances(arm, observations, frames, sockets)
-    validation = validate(arm, observations, frames, on_progress)
+    try:
+        validation = validate(arm, observations, frames, on_progress)
+    except Untrustworthy as error:
+        ranges = rows_of(observations, names) if len(tables) > 1 else []
+        raise Untrustworthy("; ".join([str(error), *ranges])) from None
     return Calibrated(
         path,
         source,
         its,
-        table,
+        tables,
         observations,
         targets,
         sockets,
         between,
         frames,
         validation,
-        instrument,
-        scale,
+        instruments,
+        scales,
     )
+
+
+def sight_names(
+    instruments: Sequence[str], targets: Sequence[str], sights: np.ndarray | None
+) -> list[str]:
+    """The names of targets, each by an instrument if there are several of them."""
+    if sights is None or len(instruments) == 1:
+        return [*targets]
+    return [f"{targets[target]} by {instruments[instrument]}" for instrument, target in sights]
+
+
+def rows_of(observations: Observations, names: Sequence[str]) -> list[str]:
+    """Which rows are of each sight of cameras, in words."""
+    ends = np.cumsum(np.bincount(observations.targets)).tolist()
+    parts = zip([0, *ends[:-1]], ends, names, strict=True)
+    return [f"rows {before + 1} to {last}: {name}" for before, last, name in parts]
+
+
+def _check_several(paths: Sequence[Path], given: Description) -> None:
+    """Raise InvalidFile unless they are folders of several cameras, and nothing else is known."""
+    for path in paths:
+        if not path.is_dir():
+            valid = "expected: one table, or the folders that observe wrote"
+            raise InvalidFile(path, f"it is not the only one and no folder; {valid}")
+    if given.instrument is not None or given.target is not None:
+        raise InvalidFile(
+            paths[1],
+            "the description has an instrument or a target, which is for one camera; try: without",
+        )
 
 
 def observations_of(

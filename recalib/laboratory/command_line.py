@@ -68,7 +68,10 @@ def _parser() -> argparse.ArgumentParser:
     own = add("calibrate", _calibrate, "identify the arm's parameters from measurements")
     own.add_argument("urdf", help=urdf)
     own.add_argument(
-        "measurements", type=Path, help="table (CSV), or the folder that observe wrote"
+        "measurements",
+        type=Path,
+        nargs="+",
+        help="table (CSV), or the folders that observe wrote, one for each camera",
     )
     add_arm(own)
 
@@ -167,6 +170,7 @@ def _parser() -> argparse.ArgumentParser:
         "--lens", type=Path, help="lens calibration (YAML); from the pictures unless given"
     )
     own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
+    own.add_argument("--name", default="camera", help="its name, if there are several cameras")
     own.add_argument("--out", default="observed", help="new folder to write (default: %(default)s)")
     return parser
 
@@ -198,17 +202,17 @@ def _live(given: argparse.Namespace) -> int:
     from recalib.laboratory.live_command import measure_live
 
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
-    return _calibrate_from(given, Path(given.table))
+    return _calibrate_from(given, [Path(given.table)])
 
 
-def _calibrate_from(given: argparse.Namespace, table: Path) -> int:
-    """Identify the arm from a table, and write and print what follows."""
+def _calibrate_from(given: argparse.Namespace, tables: Sequence[Path]) -> int:
+    """Identify the arm from tables, and write and print what follows."""
     from recalib.laboratory.calibrate import calibrate_arm
     from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
     result = calibrate_arm(
-        given.urdf, table, given.description, given.tool, given.base, _print_progress
+        given.urdf, tables, given.description, given.tool, given.base, _print_progress
     )
     further, missing = optional_outputs()
     _print_progress(f"files in {given.out}")
@@ -302,7 +306,7 @@ def _observe(given: argparse.Namespace) -> int:
     from recalib.laboratory.observed_page import write_observed_page
 
     files = given.pictures, given.joints, given.board, given.lens
-    result = observe(*files, given.camera == IN_HAND, _print_progress)
+    result = observe(*files, given.camera == IN_HAND, _print_progress, given.name)
     write_observed(result, given.out, write_observed_page)
     print(result.summary(), end="")
     print(f"\n{given.out}: see page.html; next: recalib calibrate ARM.urdf {given.out}")

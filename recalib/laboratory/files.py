@@ -21,7 +21,8 @@ from recalib.laboratory.universal_robots import kinematics_yaml
 from recalib.laboratory.urdf import angles_of
 from recalib.nominal.kinematics import Arm
 
-CORRECTION, HAND_EYE, LENS = "correction.npz", "hand_eye.toml", "lens.yaml"
+CORRECTION, HAND_EYE = "correction.npz", "hand_eye.toml"
+LENS, LENSES = "lens.yaml", "lens_{}.yaml"  # of the only camera, or of each by its name
 NAMES = (  # in the order in which they are listed
     *("summary.txt", "arm.urdf", CORRECTION, "frames.csv", "parameters.csv", "parameters.json"),
     *("joint_offsets.csv", "rows.csv", "kinematics.yaml", HAND_EYE, LENS),
@@ -57,7 +58,8 @@ def write_files(
             _write_calibration(made, result)
         for name, write in further:
             write(made / name, result)
-        return [name for name in NAMES if (made / name).exists()]
+        lenses = sorted(path.name for path in made.glob(LENSES.format("*")))
+        return [name for name in NAMES if (made / name).exists()] + lenses
 
 
 def optional_outputs() -> tuple[list[tuple[str, Callable[[Path, Calibrated], None]]], list[str]]:
@@ -104,6 +106,7 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
     offsets = [its for its in parameters if its["name"].startswith("offset of ")]
     _write_table(folder / "joint_offsets.csv", offsets)
     frames = geometry.frames
+    bases = dict(zip(result.instruments, frames.bases.tolist(), strict=True))
     values = {
         "verdict": verdict(result),
         "tool": tool,
@@ -111,7 +114,7 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
         "errors": errors_table(result),
         "fit": DOING[GEOMETRIC],  # of all that follows
         "noise": geometry.estimate.noise.tolist(),
-        "base_in_instrument": frames.base.tolist(),
+        "base_in_instrument": frames.base.tolist() if len(bases) == 1 else bases,
         "targets_in_tool": dict(zip(result.targets, frames.targets.tolist(), strict=True)),
         "sockets": dict(zip(result.sockets, frames.sockets.tolist(), strict=True)),
         "frames": [*_frames(result)],
@@ -122,14 +125,16 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
 
 
 def _write_hand_eye(folder: Path, result: Calibrated) -> None:
-    """Where camera and board are, and the lens that goes with it."""
-    from recalib.laboratory.observed import fitted_lens  # OpenCV is there where there are pictures
+    """Where cameras and boards are, and the lenses that go with it."""
+    from recalib.laboratory.observed import fitted_lenses  # OpenCV is there for pictures
 
     (folder / HAND_EYE).write_text(hand_eye(result), encoding="utf-8")
     calibration = result.geometry if result.worthwhile else result.calibration
     optics = calibration.estimate.parameters[calibration.model.optics_columns]
-    lens = fitted_lens(result.table.parent, optics)
-    (folder / LENS).write_text(lens.as_ros(), encoding="utf-8")
+    lenses = fitted_lenses([table.parent for table in result.tables], optics)
+    for name, lens in lenses.items():
+        file = LENS if len(lenses) == 1 else LENSES.format(name)
+        (folder / file).write_text(lens.as_ros(), encoding="utf-8")
 
 
 def _frames(result: Calibrated) -> Iterator[dict[str, Any]]:

@@ -7,17 +7,23 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.places import Place, found_places
+from recalib.laboratory.places import Place
 from recalib.laboratory.urdf import angles_of
 
 
-def pixel_error(result: Calibrated, way: str, kind: str) -> float:
-    """px, the mean over held-out pictures of how far corners are off, each a root mean square."""
-    optics = result.observations.optics
+def pixel_error(result: Calibrated, way: str, kind: str, sight: int | None = None) -> float:
+    """px, the mean over held-out pictures of how far corners are off, each a root mean square.
+
+    Args:
+        sight: the number of a camera's sight of a board; all of them unless given.
+    """
+    optics, counted = result.observations.optics, result.counted
     assert optics is not None
+    if sight is not None:
+        counted = counted[result.observations.targets[counted] == sight]
     residuals = result.validation.held_out[way][kind].residuals
     moved = np.einsum("nij,nj->ni", optics.pixels, residuals)
-    return float(np.linalg.norm(moved[result.counted], axis=1).mean())
+    return float(np.linalg.norm(moved[counted], axis=1).mean())
 
 
 def static_transform(place: Place) -> str:
@@ -32,9 +38,8 @@ def static_transform(place: Place) -> str:
 
 
 def hand_eye(result: Calibrated) -> str:
-    """A TOML with both frames, held-out errors, and the same with the arm taken as right."""
-    nominal, names = result.validation.full[NOTHING], (result.targets, result.sockets)
-    as_right = found_places(nominal, [], *names, result.arm.tool, result.instrument)
+    """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
+    as_right = result.places_by(result.validation.full[NOTHING], [], result.arm.tool)
     chosen = result.validation.chosen
     lines = [*_tables(result.places, ""), *_errors(result, chosen, "held_out")]
     lines += ["# the same with the arm taken as right: what its errors cost"]

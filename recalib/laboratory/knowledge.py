@@ -6,6 +6,7 @@ of something else would make another arm.
 
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -14,8 +15,10 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import RecalibError
 from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import (
+    FARTHEST,
     NoInitialEstimate,
     initial_frames,
+    joined_frames,
     median_error,
 )
 from recalib.identification.observations import Observations
@@ -68,6 +71,44 @@ def checked_frames(
     raise WrongKnowledge(
         f"the description's {parts} {where}; try: a description without it, for it to be estimated"
     )
+
+
+def frames_by_sights(
+    arm: Arm,
+    observations: Observations,
+    sights: np.ndarray | None,
+    names: Sequence[str],
+    instrument: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> Frames:
+    """The same from the sights of several cameras, each of which is enough by itself.
+
+    Args:
+        sights: (s, 2) the numbers of the instrument and of the target of each; None where there is
+            one instrument.
+        names: of the sights.
+
+    Raises WrongKnowledge and NoInitialEstimate, which name the sight.
+    """
+    if sights is None or len(sights) == 1:
+        return checked_frames(arm, observations, instrument, target)
+    parts = []
+    for number, name in enumerate(names):
+        own = observations[observations.targets == number]
+        try:
+            parts.append(initial_frames(arm, replace(own, targets=0 * own.targets)))
+        except NoInitialEstimate as error:
+            raise NoInitialEstimate(f"{name}: {error}") from None
+    frames = joined_frames(parts, sights)
+    for number, name in enumerate(names):
+        own = observations[observations.targets == number]
+        off = median_error(frames, arm.forward(own.joints), own)
+        if off > FARTHEST:
+            raise WrongKnowledge(
+                f"{name} is {1e3 * off:.0f} mm from where the other pictures put it; expected: a"
+                " camera or a board of one name in one place; try: another name"
+            )
+    return frames
 
 
 def check_distances(

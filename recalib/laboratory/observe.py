@@ -1,6 +1,7 @@
 """From pictures of a board, and the joints at each, to what `recalib calibrate` reads."""
 
 import csv
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -11,7 +12,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from recalib.errors import InvalidFile, RecalibError
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError
 from recalib.laboratory.columns import Table, read_table
 from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.laboratory.outputs import new
@@ -21,6 +22,7 @@ from recalib.vision.detection import Corners, Unusable, find_corners
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import FEWEST, board_pose, find_lens, good_corners, reprojection
 
+NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
 CORNERS, SETUP, LENS = "corners.csv", "setup.toml", "lens.yaml"
 FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 ENOUGH = 10  # pictures
@@ -72,6 +74,7 @@ class Observed:
         in_hand: whether the camera is on the hand.
         pictures: all of the table.
         strangers: names of files that are not in the table.
+        camera, board_name: what tells them from others.
     """
 
     table: Table
@@ -81,6 +84,8 @@ class Observed:
     in_hand: bool
     pictures: Sequence[Picture]
     strangers: Sequence[str]
+    camera: str = "camera"
+    board_name: str = "board"
 
     @property
     def used(self) -> list[Picture]:
@@ -122,19 +127,23 @@ def observe(
     lens: str | PathLike[str] | None = None,
     in_hand: bool = False,
     on_progress: Callable[[str], None] = lambda line: None,
+    camera: str = "camera",
 ) -> Observed:
     """Find a board in pictures.
 
     Args:
         folder: of the pictures.
         joints: a table (CSV) with a column `picture`, which names them.
-        board: its description (TOML).
+        board: its description (TOML); the file's name is that of the board.
         lens: a calibration of it (YAML of ROS or OpenCV); from the pictures unless given.
         in_hand: whether the camera is on the hand.
         on_progress: is told what is being done, in a line each.
+        camera: its name, among others.
 
-    Raises RecalibError: a file that cannot be used, or too few pictures that can.
+    Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
+    if not NAME.fullmatch(camera):
+        raise InvalidSetting("--name", camera, "letters, digits, _ and -")
     given = None if lens is None else read_lens(lens)
     sheet, table = read_board(board), read_table(joints)
     if PICTURE not in table:
@@ -154,7 +163,9 @@ def observe(
     found, pictures = _posed(_compared(pictures, size), sheet, size, given)
     files = sorted(path.name for path in Path(folder).iterdir() if path.is_file())
     strangers = [name for name in files if name not in names and name != table.path.name]
-    return Observed(table, sheet, found, given is None, in_hand, pictures, strangers)
+    named = "_".join(NAME.findall(Path(board).stem)) or "board"
+    fitted = given is None
+    return Observed(table, sheet, found, fitted, in_hand, pictures, strangers, camera, named)
 
 
 def write_observed(
@@ -166,8 +177,9 @@ def write_observed(
         (made / LENS).write_text(result.lens.as_ros(), encoding="utf-8")
         camera = IN_HAND if result.in_hand else FIXED
         fitted = str(result.fitted).lower()
-        setup = f'camera = "{camera}"\nlens_from_pictures = {fitted}\n\n{result.board.described()}'
-        (made / SETUP).write_text(setup, encoding="utf-8")
+        names = f'camera_name = "{result.camera}"\nboard_name = "{result.board_name}"\n'
+        setup = f'camera = "{camera}"\nlens_from_pictures = {fitted}\n{names}\n'
+        (made / SETUP).write_text(setup + result.board.described(), encoding="utf-8")
         _write(made / OBSERVED, *_measurements(result))
         header = ["row", "corner", "u [px]", "v [px]"]
         _write(

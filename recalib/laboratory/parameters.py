@@ -50,5 +50,5 @@ def unidentifiable_directions(result: Calibrated) -> list[tuple[str, bool]]:
 
 
 def _parameters(result: Calibrated) -> list[Parameter]:
-    geometry = result.geometry
-    return parameters_of(geometry.model, geometry.estimate, result.targets, result.sockets)
+    geometry, names = result.geometry, (result.targets, result.sockets, result.instruments)
+    return parameters_of(geometry.model, geometry.estimate, *names)

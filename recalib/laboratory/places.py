@@ -1,4 +1,4 @@
-"""The frames of instrument, targets and sockets, and their uncertainty.
+"""The frames of instruments, targets and sockets, and their uncertainty.
 
 The uncertainty is given relative to the calibrated arm and relative to the real one. No measurement
 distinguishes an offset of the first joint from a rotation of the instrument about its axis. The
@@ -17,6 +17,7 @@ from recalib.identification.frames import HELD, Frames
 from recalib.identification.identifiability import Unidentifiable
 from recalib.identification.linearisation import displacements
 
+INSTRUMENT: tuple[str, ...] = ("the instrument",)
 STEP = 1e-4  # of a parameter's prior deviation, to either side
 
 
@@ -47,22 +48,20 @@ def found_places(
     targets: Sequence[str],
     sockets: Sequence[str],
     tool: str,
-    instrument: str = "the instrument",
+    instruments: Sequence[str] = INSTRUMENT,
 ) -> list[Place]:
     """All that were not given.
 
     Args:
         unidentifiable: see `unidentifiable_parameters`.
-        targets, sockets: their names, in the order of their numbers.
+        targets, sockets, instruments: their names, in the order of their numbers.
         tool: the link that is the tool of the calibrated arm.
-        instrument: its name.
     """
     model, estimate = calibration.model, calibration.estimate
     frames, base, free = model.frames, model.nominal.base, np.flatnonzero(model.free)
     turned = frames.target_deviations[1] > HELD
-    what = [(instrument, base, True)] * _has_instrument(frames)
-    ends = targets if len(targets) == 1 else [f"target {name}" for name in targets]
-    what += [(name, tool, turned) for name in ends] * frames.targets_unknown
+    what = [(name, base, True) for name in instruments] * _has_instrument(frames)
+    what += [(name, tool, turned) for name in targets] * frames.targets_unknown
     what += [(f"socket {name}", base, False) for name in sockets]
     if not what:
         return []
@@ -88,7 +87,7 @@ def _has_instrument(frames: Frames) -> bool:
 def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
     """Poses (place, 4, 4) [m] of all that was not given."""
     frames = model.found(parameters)
-    poses = [np.linalg.inv(frames.base)] * _has_instrument(frames)
+    poses = [*np.linalg.inv(frames.bases)] * _has_instrument(frames)
     poses += [*frames.targets] * frames.targets_unknown
     for centre in frames.sockets:
         poses.append(np.eye(4))

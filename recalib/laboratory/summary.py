@@ -14,7 +14,7 @@ from recalib.identification.validation import (
     RANDOM,
     WAYS,
 )
-from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.calibrate import Calibrated, rows_of
 from recalib.laboratory.doubts import doubts
 from recalib.laboratory.hand_eye import pixel_error
 from recalib.laboratory.parameters import unidentifiable_directions
@@ -98,8 +98,12 @@ def _lines(result: Calibrated) -> Iterator[str]:
 def _notes(result: Calibrated) -> Iterator[str]:
     arm, estimate = result.arm, result.calibration.estimate
     postures = result.validation.postures
-    rows = f"{len(result.observations)} rows of {result.table.name}"
+    tables = result.tables
+    files = tables[0].name if len(tables) == 1 else f"{len(tables)} folders"
+    rows = f"{len(result.observations)} rows of {files}"
     yield rows if len(postures) == len(result.observations) else f"{len(postures)} postures, {rows}"
+    if len(tables) > 1:
+        yield from rows_of(result.observations, result.sights)
     if result.between is not None:
         yield f"nominal positions are those of the URDF, with {result.between}"
     if arm.massless:
@@ -115,11 +119,13 @@ def _notes(result: Calibrated) -> Iterator[str]:
     yield from _places(result)
     if result.observations.optics is not None:
         kinds = result.validation.chosen, NOTHING
-        found, right = (pixel_error(result, BLOCKWISE, kind) for kind in kinds)
-        yield (
-            f"corners in pictures that were not learned from: {found:.2g} px off; with the arm as"
-            f" it is described, {right:.2g} px"
-        )
+        for number, name in enumerate(result.sights):
+            of = f" of {name}" if len(result.tables) > 1 else ""
+            found, right = (pixel_error(result, BLOCKWISE, kind, number) for kind in kinds)
+            yield (
+                f"corners in pictures{of} that were not learned from: {found:.2g} px off; with the"
+                f" arm as it is described, {right:.2g} px"
+            )
         own = 1e3 * result.observations.optics.length
         yield f"a picture alone tells a position to {own:.2g} mm: part of each held-out error"
     if result.sockets:

@@ -5,8 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from recalib.identification.frames import Frames
 from recalib.identification.observations import Observations
-from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
+from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.doubts import doubts
@@ -14,6 +15,13 @@ from recalib.laboratory.summary import summary
 from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
 
 ROWS = 60
+NAMES = {
+    "instruments": ["the instrument"],
+    "ends": ["the target"],
+    "sights": ["the target"],
+    "frames": Frames(),
+    "tables": ["rows.csv"],
+}
 
 
 def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) -> SimpleNamespace:
@@ -23,7 +31,9 @@ def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) ->
         mean_error=lambda way, kind: errors[way, kind],
     )
     rows = Observations(np.zeros((ROWS, 6)), times=times)
-    return SimpleNamespace(validation=validation, faults=found, observations=rows, board_scale=1.0)
+    return SimpleNamespace(
+        validation=validation, faults=found, observations=rows, board_scales={}, **NAMES
+    )
 
 
 @pytest.mark.parametrize(
@@ -49,6 +59,7 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
         (Fault(LAG, 0.0203), np.arange(ROWS), "poses seem to be 20 ms behind the joints"),
         (Fault(DRIFT, 1e-3), None, "drift by 1 mm from the first row to the last"),
         (Fault(JUMP, 1e-3, 20), None, "between rows 20 and 21 instrument or base seem to have"),
+        (Fault(SLIP, 1e-3, 20, 0.01), None, "the target seems to have slipped on the tool by 1 mm"),
     ],
 )
 def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):

@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 from recalib.identification.observations import Distance, Observations
-from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault
+from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import HYBRID, KINDS, RANDOM
 from recalib.laboratory import doubts, watching
 from recalib.laboratory.calibrate import calibrate_arm
@@ -292,8 +292,8 @@ def test_corrections_and_proposals_are_as_kept(name, made, tmp_path, data_regres
 def test_doubts_are_as_kept(made, data_regression):
     its = made("poses")
     kinds = [Fault(LAG, 0.12), Fault(LAG, -0.034), Fault(DRIFT, 0.0012), Fault(JUMP, 0.0034, 17)]
-    untimed = made("targets").observations
-    found = [[doubts._sentence(one, seen) for seen in (its.observations, untimed)] for one in kinds]
+    kinds.append(Fault(SLIP, 0.0012, 17, 0.0034))
+    found = [[doubts._sentence(one, of) for of in (its, made("targets"))] for one in kinds]
     validation, told = its.validation, {}
     whole = replace(validation.held_out[RANDOM][HYBRID], residuals=np.full((ROWS, 6), 1e-4))
     held_out = validation.held_out | {RANDOM: validation.held_out[RANDOM] | {HYBRID: whole}}

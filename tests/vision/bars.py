@@ -57,7 +57,7 @@ class Draw:
         """By geometry alone."""
         frames = initial_frames(self.cell.arm, self.poses)
         if observations.optics is not None:
-            frames = replace(frames, optics_deviations=observations.optics.deviations)
+            frames = frames.with_optics(observations.optics)
         model = ErrorModel(self.cell.arm, OFFSETS, frames)
         if observations.optics is not None:
             observations = weigh(model, observations)
@@ -73,7 +73,7 @@ class Draw:
     def place(self, calibration: Calibration, shift: np.ndarray) -> float:
         """How far the one of camera and board that stands is off, over its stated deviation."""
         missing = unidentifiable_parameters(calibration, self.pixels)
-        there, _ = found_places(calibration, missing, ["moves"], [], self.cell.arm.tool, "stands")
+        there, _ = found_places(calibration, missing, ["moves"], [], self.cell.arm.tool, ["stands"])
         true = self.cell.sheet if self.in_hand else self.cell.eye
         off = displacements((shift @ there.pose)[None], true[None])[0, :3]
         return float(np.linalg.norm(off)) / there.deviations[0]

@@ -1,6 +1,5 @@
 """From a printed board and pictures to a calibrated arm, by the commands of docs/pictures.md."""
 
-import csv
 import re
 import sys
 import tomllib
@@ -12,17 +11,16 @@ import pytest
 from recalib.errors import RecalibError
 from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.hand_eye import hand_eye
-from recalib.laboratory.observe import Observed, Picture, observe, write_observed
+from recalib.laboratory.observe import observe
 from recalib.laboratory.summary import verdict
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import read_lens
-from recalib.vision.views import board_pose
 from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell
+from tests.vision.sessions import write_joints, write_views
 
 PICTURES = 30
 BAD = {  # of further pictures, by row
@@ -33,14 +31,6 @@ BAD = {  # of further pictures, by row
     35: "there is no such file",
     36: "it is no picture",
 }
-
-
-def write_joints(path, cell: Cell, joints: np.ndarray) -> None:
-    """The table, of pictures 000.png and so on."""
-    with path.open("w", newline="") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(["picture", *(f"{name} [rad]" for name in cell.arm.joints)])
-        writer.writerows([f"{row:03}.png", *its] for row, its in enumerate(joints))
 
 
 @pytest.fixture(scope="module", params=["fixed", "hand"])
@@ -104,22 +94,14 @@ def test_what_was_found_in_each_picture_is_told(session):
 def observed(tmp_path_factory):
     """A folder as observe writes it, of corners that nobody had to look for."""
     folder, draw = tmp_path_factory.mktemp("corners"), Draw(4, in_hand=False)
-    write_joints(folder / "joints.csv", draw.cell, draw.joints)
-    board, table = draw.cell.board, read_table(folder / "joints.csv")
-    pictures = [
-        Picture(row, name, corners=view, error=0.2, pose=board_pose(board, draw.lens, view))
-        for row, (name, view) in enumerate(zip(table.cells["picture"], draw.views, strict=True), 1)
-    ]
-    result = Observed(table, board, draw.lens, True, False, pictures, [])
-    write_observed(result, folder / "observed", lambda path, _: path.write_text("no page"))
-    return folder / "observed", draw
+    return write_views(folder, draw.cell, draw.joints, draw.views, draw.lens), draw
 
 
 def test_pixels_are_read_and_weighed(observed):
     folder, draw = observed
     result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
-    assert result.observations.optics is not None and result.instrument == "the camera"
-    assert abs(result.board_scale - 1) < 0.01 and "Careful" not in verdict(result)
+    assert result.observations.optics is not None and result.instruments == ("the camera",)
+    assert abs(result.board_scales["the board"] - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
     poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
     assert poses.observations.optics is None
@@ -151,7 +133,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
     text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
     (tmp_path / "setup.toml").write_text(text)
     result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
-    assert result.board_scale == pytest.approx(36 / 33, abs=0.01)
+    assert result.board_scales["the board"] == pytest.approx(36 / 33, abs=0.01)
     assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
 
 
@@ -206,6 +188,18 @@ def taken(tmp_path, monkeypatch):
         return cell, views, (tmp_path, *files)
 
     return take
+
+
+def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path, capsys):
+    _, _, (folder, joints, board, lens) = taken(12)
+    named = board.rename(board.with_name("on the table.toml"))
+    files = [str(folder), str(joints), f"--board={named}", f"--lens={lens}"]
+    out = f"--out={tmp_path / 'observed'}"
+    assert main(["observe", *files, "--name=left-1", out]) == DONE
+    setup = tomllib.loads((tmp_path / "observed" / "setup.toml").read_text())
+    assert (setup["camera_name"], setup["board_name"]) == ("left-1", "on_the_table")
+    assert main(["observe", *files, "--name=left 1", f"{out}_again"]) == REFUSED
+    assert "--name is 'left 1'; expected: letters, digits, _ and -" in capsys.readouterr().err
 
 
 def test_reprojection_errors_are_root_mean_squares(taken):

@@ -53,6 +53,23 @@ EXECUTED |= {  # with pictures that are rendered
         ),
     )
 }
+EXECUTED |= {  # with folders of the test's own
+    f"recalib {command}": f"tests/vision/{test}"
+    for command, test in (
+        (
+            "observe left/ left.csv --name left --out observed_left",
+            "test_from_pictures.py::test_a_camera_has_its_name_and_a_board_that_of_its_file",
+        ),
+        (
+            "observe right/ right.csv --name right --out observed_right",
+            "test_from_pictures.py::test_a_camera_has_its_name_and_a_board_that_of_its_file",
+        ),
+        (
+            "calibrate ARM.urdf observed_left/ observed_right/ --tool tool0",
+            "test_several_cameras.py::test_each_camera_is_written_by_its_name",
+        ),
+    )
+}
 EXECUTED |= {  # with another folder
     f"recalib live {station} ur10_robot.urdf --tool tool0 --yes": (
         f"tests/station/test_program.py::{test}"

@@ -1,0 +1,132 @@
+"""Several instruments that measure several targets: each row is of one sight."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import BadMeasurement
+from recalib.identification.calibration import Calibration, calibrate
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.frames import Frames
+from recalib.identification.held_out import random_folds
+from recalib.identification.initial_estimate import initial_frames, joined_frames
+from recalib.identification.linearisation import displacements
+from recalib.identification.observations import Observations
+from recalib.identification.parameters import parameters_of
+from recalib.identification.postures import find_postures
+from recalib.nominal.kinematics import Arm
+from tests.identification.real import Real, anywhere
+
+SIGHTS = np.array([[0, 0], [1, 0], [1, 1]])
+ELSEWHERE = anywhere(np.random.default_rng(9), 1.0)  # the first instrument, in the second one
+
+
+class Cell:
+    """Two instruments that see two targets, of which the first sees one only."""
+
+    def __init__(self, arm: Arm, seed: int, gears: float = 0.0):
+        self.arm, self.real = arm, Real(arm, seed, 2, gears)
+
+    def seen(self, count: int, **noise) -> Observations:
+        """Rows, so many of each sight."""
+        joints, sights = self.real.postures(3 * count), np.repeat(np.arange(3), count)
+        poses = self.real.poses(joints, SIGHTS[sights, 1], **noise)
+        second = SIGHTS[sights, 0] == 1
+        poses[second] = ELSEWHERE @ poses[second]
+        return Observations(joints, poses, sights)
+
+    def frames(self, seen: Observations) -> Frames:
+        alone = [
+            replace(its, targets=0 * its.targets)
+            for its in (seen[seen.targets == sight] for sight in range(3))
+        ]
+        return joined_frames([initial_frames(self.arm, its) for its in alone], SIGHTS)
+
+
+def test_slopes_agree_with_finite_differences(ur10):
+    rng = np.random.default_rng(1)
+    bases, targets = ([anywhere(rng, 0.5) for _ in range(2)] for _ in range(2))
+    frames = Frames(
+        bases[0],
+        np.array(targets),
+        base_unknown=True,
+        targets_unknown=True,
+        further=np.array(bases[1:]),
+        sights=SIGHTS,
+    )
+    model = ErrorModel(ur10, OFFSETS, frames)
+    assert np.count_nonzero(model.free) == 4 * 6
+    parameters = 0.1 * rng.standard_normal(len(model.deviations))
+    joints, sights = rng.uniform(-1, 1, (6, 6)), np.arange(6) % 3
+    poses, jacobians = model.linearise(parameters, joints, model.terms(joints), sights)
+    assert np.allclose(poses, model.predict(parameters, joints, sights), atol=1e-12)
+    found = model.found(parameters)
+    own = model.own_arm(parameters).forward(model.standing(parameters, joints, model.terms(joints)))
+    there = found.bases[SIGHTS[sights, 0]] @ own @ found.targets[SIGHTS[sights, 1]]
+    assert np.allclose(there, poses, atol=1e-12)
+    for index, unit in enumerate(1e-5 * np.eye(len(parameters))):
+        ends = (model.predict(parameters + sign * unit, joints, sights) for sign in (-1, 1))
+        assert np.allclose(jacobians[..., index], displacements(*ends) / 2e-5, atol=1e-6)
+
+
+def test_rows_of_all_sights_identify_one_arm(ur10):
+    cell = Cell(ur10, 3)
+    seen = cell.seen(20)
+    model = ErrorModel(ur10, OFFSETS, cell.frames(seen))
+    calibration = Calibration(model, identify(model, seen))
+    fresh = cell.seen(60, noise=(0, 0))
+    errors = np.linalg.norm(calibration.residuals(fresh)[:, :3], axis=1)
+    assert errors.mean() < 1.5e-4  # m
+    assert np.abs(calibration.frames.bases[1] - ELSEWHERE @ calibration.frames.base).max() < 2e-3
+    again = Calibration.restore(ur10, calibration.state())
+    assert np.array_equal(again.residuals(fresh), calibration.residuals(fresh))
+    assert len(calibration.parameters) == np.count_nonzero(model.deviations > 1e-9)
+    names = [its.name for its in parameters_of(model, calibration.estimate)]
+    assert names[8 * 6] == "shift x of base to 1" and len(set(names)) == len(names)
+
+
+def test_a_pattern_has_the_axes_of_the_instrument_that_measures(ur10):
+    cell = Cell(ur10, 3, gears=np.radians(0.2))
+    seen = cell.seen(80)
+    calibration = calibrate(ur10, [OFFSETS], seen, cell.frames(seen))
+    assert calibration.pattern is not None
+    fresh, plain = cell.seen(60, noise=(0, 0)), replace(calibration, pattern=None)
+    for sight in range(3):
+        rows = fresh[fresh.targets == sight]
+        errors = [
+            np.linalg.norm(its.residuals(rows)[:, :3], axis=1).mean()
+            for its in (calibration, plain)
+        ]
+        assert errors[0] < 0.85 * errors[1]
+
+
+def test_axes_are_those_of_each_instrument(ur10):
+    cell = Cell(ur10, 3)
+    seen = cell.seen(10)
+    model = ErrorModel(ur10, OFFSETS, cell.frames(seen))
+    calibration = Calibration(model, identify(model, seen))
+    axes = calibration.axes(np.arange(3))
+    assert np.array_equal(axes[0], np.eye(3))
+    for found in axes[1:]:
+        off = Rotation.from_matrix(found @ ELSEWHERE[:3, :3].T).magnitude()
+        assert off < 2e-3
+
+
+def test_each_sight_is_in_every_fold(ur10):
+    seen = Cell(ur10, 3).seen(10)
+    folds = random_folds(seen, find_postures(seen.joints, ur10.slides, 0.0))
+    for sight in range(3):
+        assert len(np.unique(folds[seen.targets == sight])) == 5
+
+
+@pytest.mark.parametrize("sight", [-1, 3])
+def test_a_sight_that_is_none_is_refused(ur10, sight):
+    cell = Cell(ur10, 3)
+    seen = cell.seen(10)
+    frames = cell.frames(seen)
+    seen.targets[4] = sight
+    with pytest.raises(BadMeasurement, match="target of measurement 4"):
+        identify(ErrorModel(ur10, OFFSETS, frames), seen)

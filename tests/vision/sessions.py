@@ -1,0 +1,92 @@
+"""Folders as observe writes them, of corners that nobody had to look for, in one arm's cell."""
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from recalib.laboratory.columns import read_table
+from recalib.laboratory.observe import Observed, Picture, write_observed
+from recalib.vision.boards import printable
+from recalib.vision.detection import Corners
+from recalib.vision.lenses import Lens
+from recalib.vision.views import board_pose, find_lens
+from tests.vision.rendering import LENS, Cell, frame
+
+PICTURES, NOISE = 30, 0.15  # px
+LONGER = Lens((1280, 960), LENS.matrix * [[1.1], [1.1], [1.0]], 0.5 * LENS.distortion)
+SMALL = printable("charuco", 8, 5, 0.03)
+SHIFT = frame([0, 0, 0], [6e-4, -6e-4, 5e-4])  # by 1 mm
+TURN = frame(np.radians(0.2) * np.array([0.6, -0.6, 0.5]), [0, 0, 0])  # by 0.2 deg
+
+
+def beside(seed: int) -> Cell:
+    """The cell of a fixed camera, as seen by another one that stands to the side of it."""
+    cell = Cell(seed, lens=LONGER)
+    cell.eye = frame([0, 0, 0.5], [0, 0, 0]) @ cell.eye
+    return cell
+
+
+def write_joints(path: Path, cell: Cell, joints: np.ndarray) -> None:
+    """The table, of pictures 000.png and so on."""
+    with path.open("w", newline="") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["picture", *(f"{name} [rad]" for name in cell.arm.joints)])
+        writer.writerows([f"{row:03}.png", *its] for row, its in enumerate(joints))
+
+
+def write_session(
+    folder: Path,
+    cell: Cell,
+    camera: str = "camera",
+    board: str = "board",
+    slip: tuple[str, np.ndarray] | None = None,
+    lens: Lens | None = None,
+    pictures: int = PICTURES,
+) -> Path:
+    """What observe would write to a folder.
+
+    Args:
+        slip: `eye` or `sheet`, and the motion (4, 4) [m] in its own frame after half of the rows.
+        lens: as given; found from the pictures unless given.
+    """
+    cell.random = np.random.default_rng([cell.seed, *camera.encode(), *board.encode()])
+    joints = cell.postures(pictures)
+    poses = cell.seen(joints)
+    if slip is not None:
+        place, motion = slip
+        before = getattr(cell, place)
+        setattr(cell, place, before @ motion)
+        poses[pictures // 2 :] = cell.seen(joints)[pictures // 2 :]
+        setattr(cell, place, before)
+    views = []
+    for pose in poses:
+        pixels = cell.project(pose)
+        pixels += NOISE * cell.random.standard_normal(pixels.shape)
+        views.append(Corners(np.arange(len(pixels)), pixels, 0.0))
+    found = lens or find_lens(cell.board, views, cell.lens.size)
+    return write_views(folder, cell, joints, views, found, lens is None, camera, board)
+
+
+def write_views(
+    folder: Path,
+    cell: Cell,
+    joints: np.ndarray,
+    views: Sequence[Corners],
+    lens: Lens,
+    fitted: bool = True,
+    camera: str = "camera",
+    board: str = "board",
+) -> Path:
+    """What observe would write to a folder that has these corners in its pictures."""
+    folder.mkdir(parents=True, exist_ok=True)
+    write_joints(folder / "joints.csv", cell, joints)
+    table = read_table(folder / "joints.csv")
+    shown = [
+        Picture(row, name, corners=view, error=0.2, pose=board_pose(cell.board, lens, view))
+        for row, (name, view) in enumerate(zip(table.cells["picture"], views, strict=True), 1)
+    ]
+    result = Observed(table, cell.board, lens, fitted, cell.in_hand, shown, [], camera, board)
+    write_observed(result, folder / "observed", lambda path, _: path.write_text("no page"))
+    return folder / "observed"

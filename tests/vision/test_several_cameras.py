@@ -1,0 +1,315 @@
+"""Several cameras and boards in one fit: their names, what they are worth, which one slipped."""
+
+import csv
+import json
+import re
+import tomllib
+
+import numpy as np
+import pytest
+
+from recalib.errors import RecalibError
+from recalib.identification.linearisation import displacements
+from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.command_line import DONE, main
+from recalib.laboratory.hand_eye import pixel_error
+from recalib.laboratory.observed import fitted_lenses
+from recalib.laboratory.summary import summary, verdict
+from recalib.vision.lenses import Lens, read_lens
+from tests.vision.bars import Draw
+from tests.vision.rendering import LENS, Cell, frame
+from tests.vision.sessions import LONGER, PICTURES, SHIFT, SMALL, TURN, beside, write_session
+
+SEED = 3
+
+
+def on_the_hand(board: bool = False) -> Cell:
+    """The same arm with a camera on the hand, which sees a board beside the arm, or another one."""
+    cell = Cell(SEED, True, SMALL if board else Cell(SEED).board)
+    if board:
+        cell.sheet = frame([0, 0, 0], [0.0, 0.25, 0.02]) @ cell.sheet
+    return cell
+
+
+def other_hand() -> Cell:
+    """A further camera on the hand, beside the first."""
+    cell = Cell(SEED, True, lens=LONGER)
+    cell.eye = frame([0, 0, 0], [0.0, -0.08, 0.0]) @ cell.eye
+    return cell
+
+
+# By what is in one fit, its sessions (cell, camera, board) and the places that should come out.
+SETUPS = {
+    "two fixed": (
+        [(Cell(SEED), "left", "board"), (beside(SEED), "right", "board")],
+        ["camera left", "camera right", "the board"],
+    ),
+    "fixed and hand": (
+        [(Cell(SEED), "left", "tool"), (on_the_hand(), "hand", "table")],
+        ["camera left", "board table", "board tool", "camera hand"],
+    ),
+    "two on the hand": (
+        [(on_the_hand(), "hand", "board"), (other_hand(), "other", "board")],
+        ["the board", "camera hand", "camera other"],
+    ),
+    "two boards": (
+        [(on_the_hand(), "camera", "near"), (on_the_hand(True), "camera", "far")],
+        ["board near", "board far", "the camera"],
+    ),
+}
+
+
+def calibrated(*folders):
+    return calibrate_arm("panda.urdf", folders, tool="panda_link8")
+
+
+def true_place(name: str, sessions) -> np.ndarray:
+    for cell, camera, board in sessions:
+        if name in (f"camera {camera}", "the camera"):
+            return cell.eye
+        if name in (f"board {board}", "the board"):
+            return cell.sheet
+    raise KeyError(name)
+
+
+@pytest.mark.parametrize("setup", SETUPS)
+def test_several_cameras_and_boards_are_found_in_one_fit(setup, tmp_path):
+    sessions, names = SETUPS[setup]
+    folders = [
+        write_session(tmp_path / str(number), *session) for number, session in enumerate(sessions)
+    ]
+    result, draw = calibrated(*folders), Draw(SEED, False)
+    assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.15  # of 4 mm
+    assert [place.name for place in result.places] == names
+    assert set(result.board_scales) == {name for name in names if "board" in name}
+    assert "Careful" not in verdict(result) and not len(result.doubted)
+    for sight in range(len(sessions)):
+        assert pixel_error(result, "in blocks", result.validation.chosen, sight) < 0.2
+    # what stands on one side, relative to the other things there: no gauge moves that
+    for side in {place.link for place in result.places}:
+        first, *others = (place for place in result.places if place.link == side)
+        for other in others:
+            found = np.linalg.inv(first.pose) @ other.pose
+            truth = [true_place(place.name, sessions) for place in (first, other)]
+            off = displacements(found[None], (np.linalg.inv(truth[0]) @ truth[1])[None])[0]
+            assert np.linalg.norm(off[:3]) < 4 * (first.deviations[0] + other.deviations[0])
+            assert np.linalg.norm(off[:3]) < 2e-3 and np.linalg.norm(off[3:]) < np.radians(0.1)
+
+
+def test_each_camera_is_written_by_its_name(tmp_path, capsys):
+    sessions, _ = SETUPS["two fixed"]
+    folders = [str(write_session(tmp_path / its[1], *its)) for its in sessions]
+    made = tmp_path / "calibration"
+    arguments = ["panda.urdf", *folders, "--tool=panda_link8", f"--out={made}"]
+    assert main(["calibrate", *arguments]) == DONE
+    told = capsys.readouterr().out
+    assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in told
+    assert "corners in pictures of the board by camera left that were not learned" in told
+    assert "lens_left.yaml, lens_right.yaml" in told and not (made / "lens.yaml").exists()
+    for name, lens in (("left", LENS), ("right", LONGER)):
+        its = read_lens(made / f"lens_{name}.yaml")
+        assert np.allclose(its.matrix, lens.matrix, atol=3)
+        assert np.allclose(its.distortion[:2], lens.distortion[:2], atol=0.03)
+    said = tomllib.loads((made / "hand_eye.toml").read_text())
+    assert said["camera_right"]["ros"].endswith("--child-frame-id camera_right")
+    assert {"camera_left", "camera_right", "board", "held_out"} < set(said)
+    parameters = json.loads((made / "parameters.json").read_text())
+    names = [its["name"] for its in parameters["parameters"]]
+    assert len(set(names)) == len(names) and "focal length along x, 2" in names
+    assert [*parameters["base_in_instrument"]] == ["camera left", "camera right"]
+    with (made / "frames.csv").open() as stream:
+        assert [row["frame"] for row in csv.DictReader(stream)] == [*SETUPS["two fixed"][1]]
+
+
+def test_commands_go_to_the_frame_of_the_camera_that_is_named(tmp_path):
+    sessions, _ = SETUPS["two fixed"]
+    folders = [write_session(tmp_path / its[1], *its) for its in sessions]
+    result = calibrated(*folders)
+    made, sight = tmp_path / "calibration", 1
+    result.correction.save(made.with_suffix(".npz"))
+    made.mkdir()
+    made.with_suffix(".npz").rename(made / "correction.npz")
+    joints = result.observations.joints[:1]
+    place = 1e3 * result.calibration.predict(joints, np.array([sight]))[0, :3, 3]
+    numbers = ",".join(f"{number:.6f}" for number in place)
+    text = f"x [mm],y [mm],z [mm],target\n{numbers},the board by camera right\n"
+    (tmp_path / "desired.csv").write_text(text)
+    files = [str(made), str(tmp_path / "desired.csv"), f"--out={tmp_path / 'commands.csv'}"]
+    assert main(["correct", *files, "--frame=instrument"]) == DONE
+    with (tmp_path / "commands.csv").open() as stream:
+        (row,) = csv.DictReader(stream)
+    sent = np.radians([[float(row[f"{name} [deg]"]) for name in result.arm.joints]])
+    reached = result.calibration.predict(sent, np.array([sight]))[0, :3, 3]
+    assert np.linalg.norm(1e3 * reached - place) < 1e-4
+
+
+def test_what_is_drawn_has_the_axes_of_the_base(tmp_path):
+    """Whichever camera saw it."""
+    sessions, _ = SETUPS["two fixed"]
+    result = calibrated(*(write_session(tmp_path / its[1], *its) for its in sessions))
+    rows, frames = result.observations[result.counted], result.calibration.frames
+    nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]
+    assert np.linalg.norm(result.positions - nominal, axis=1).max() < 0.05
+    held_out = result.validation.held_out["in blocks"][result.validation.chosen].residuals
+    for row, found in zip(result.counted, result.residuals["after"], strict=True):
+        back = frames.bases[rows.targets[row], :3, :3].T
+        expected = [back @ part for part in held_out[row].reshape(2, 3)]
+        assert np.allclose(found, np.concatenate(expected), atol=1e-12)
+
+
+def test_a_camera_has_one_lens_in_all_its_folders(tmp_path):
+    """Also where it starts beside the best one of their pictures."""
+    sessions, _ = SETUPS["two boards"]
+    folders = [write_session(tmp_path / its[2], *its) for its in sessions]
+    lens, matrices = read_lens(folders[0] / "lens.yaml"), []
+    for off in (0.0, 3.0):  # px
+        start = Lens(lens.size, lens.matrix + np.diag([off, off, 0.0]), lens.distortion)
+        (folders[0] / "lens.yaml").write_text(start.as_ros())
+        geometry = calibrated(*folders).geometry
+        optics = geometry.estimate.parameters[geometry.model.optics_columns]
+        assert len(optics) == 2 * 2 + 8
+        (found,) = fitted_lenses(folders, optics).values()
+        matrices.append(found.matrix)
+    assert np.allclose(matrices[0], LENS.matrix, atol=1)
+    assert np.allclose(*map(np.diag, matrices), atol=0.03)  # 0.05 were the pictures' own lens lost
+
+
+@pytest.mark.parametrize(
+    ("cell", "slip", "size", "turn", "said"),
+    [
+        (
+            Cell(SEED, True),
+            ("eye", SHIFT),
+            1.0,
+            0.0,
+            "the camera seems to have slipped on the tool",
+        ),
+        (Cell(SEED, True), ("eye", TURN), None, 0.2, "the camera seems to have slipped on the too"),
+        (Cell(SEED), ("sheet", SHIFT), 1.0, 0.0, "the board seems to have slipped on the tool"),
+        (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
+        (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
+        (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
+    ],
+)
+def test_what_slips_in_a_session_is_named_in_the_first_lines(
+    cell, slip, size, turn, said, tmp_path
+):
+    result = calibrated(write_session(tmp_path, cell, slip=slip, pictures=2 * PICTURES))
+    fault, *others = result.faults
+    assert not others and fault.row == PICTURES
+    assert size is None or 1e3 * fault.size == pytest.approx(size, rel=0.25)
+    assert np.degrees(fault.turn) == pytest.approx(turn, abs=0.05)
+    first = summary(result).splitlines()[1]
+    assert f"Careful: between rows {PICTURES} and {PICTURES + 1} {said}" in first
+
+
+@pytest.mark.parametrize("both", [False, True], ids=["pictures of one", "pictures of both"])
+def test_of_several_cameras_the_one_that_saw_the_slip_is_named(both, tmp_path):
+    """A board that slips before two cameras has slipped in both of their sessions."""
+    slip = "sheet", SHIFT
+    left = write_session(tmp_path / "left", Cell(SEED), "left", slip=slip if both else None)
+    right = write_session(tmp_path / "right", beside(SEED), "right", slip=slip)
+    (fault,) = calibrated(left, right).faults
+    assert (fault.kind, fault.row) == ("slip", PICTURES // 2)
+    assert 1e3 * fault.size == pytest.approx(1.0, rel=0.2)
+    assert both or fault.sight == 1
+
+
+def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
+    left = write_session(tmp_path / "left", Cell(SEED), "left", "tool")
+    hand = write_session(tmp_path / "hand", on_the_hand(), "hand", "table", ("eye", TURN))
+    told = verdict(calibrated(left, hand))
+    assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in told
+
+
+def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
+    moved = beside(SEED)
+    moved.sheet = moved.sheet @ frame([0, 0, 0], [0.003, 0, 0])
+    left = write_session(tmp_path / "left", Cell(SEED), "left")
+    right = write_session(tmp_path / "right", moved, "right")
+    told = verdict(calibrated(left, right))
+    assert f"in {right}, before row 1 the board seems to have slipped on the tool by 3" in told
+    assert "try each folder by itself" in told
+
+
+def test_pictures_that_the_others_contradict_are_told_by_camera_and_board(tmp_path):
+    moved = beside(SEED)
+    moved.sheet = moved.sheet @ frame([0, 0, 0], [0.02, 0, 0])
+    left = write_session(tmp_path / "left", Cell(SEED), "left", pictures=45)
+    right = write_session(tmp_path / "right", moved, "right", pictures=20)
+    told = verdict(calibrated(left, right))
+    assert re.search(r"Careful: \d+ of 20 pictures of the board by camera right contradict", told)
+
+
+def changed(number: int, **what):
+    """The second of two fixed cameras, or the first, with something else."""
+    cell = (Cell(SEED), beside(SEED))[number]
+    for name, value in what.items():
+        setattr(cell, name, value)
+    return cell
+
+
+FAR = frame([0, 0, 1.5], [0.05, 0, 0]) @ Cell(SEED).sheet
+NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
+
+
+@pytest.mark.parametrize(
+    ("session", "said"),
+    [
+        ((beside(SEED), "left"), "it is of camera 'left' and board 'board', as .* try: observe wi"),
+        ((on_the_hand(), "left", "other"), "it has camera 'left' on the hand, .* beside the arm"),
+        ((on_the_hand(), "right"), "its board 'board' is another one than that of "),
+        ((changed(1, board=SMALL), "right"), "its board 'board' is another one than that of "),
+        ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is .* mm from where the oth"),
+        ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
+    ],
+    ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
+)
+def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, said, tmp_path):
+    folders = [
+        write_session(tmp_path / "left", Cell(SEED), "left"),
+        write_session(tmp_path / "right", *session),
+    ]
+    with pytest.raises(RecalibError, match=said):
+        calibrated(*folders)
+
+
+def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
+    left = write_session(tmp_path / "left", Cell(SEED), "left")
+    right = write_session(tmp_path / "right", beside(SEED), "right")
+    lines = [line.split(",") for line in (right / "measurements.csv").read_text().splitlines()]
+    joints = slice(1, 8)
+    for row, line in enumerate(lines[1:PICTURES:2]):
+        line[joints] = lines[PICTURES - row][joints]
+    (right / "measurements.csv").write_text("\n".join(map(",".join, lines)))
+    with pytest.raises(RecalibError, match="the board by camera right: no place of instrument"):
+        calibrated(left, right)
+
+
+def test_several_tables_and_known_frames_are_refused(tmp_path):
+    left = write_session(tmp_path / "left", Cell(SEED), "left")
+    right = write_session(tmp_path / "right", beside(SEED), "right")
+    with pytest.raises(RecalibError, match="it is not the only one and no folder"):
+        calibrated(left, right / "measurements.csv")
+    (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
+    with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
+        calibrate_arm("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")
+
+
+@pytest.mark.parametrize("name", ["two words", "", 3])
+def test_a_name_that_was_changed_is_refused(name, tmp_path):
+    folder = write_session(tmp_path, Cell(SEED))
+    text = (folder / "setup.toml").read_text()
+    new = f"camera_name = {json.dumps(name)}"
+    (folder / "setup.toml").write_text(text.replace('camera_name = "camera"', new))
+    with pytest.raises(RecalibError, match="camera_name or board_name is not as observe wrote it"):
+        calibrated(folder)
+
+
+def test_a_folder_without_names_is_of_the_camera_and_the_board(tmp_path):
+    """As folders were before cameras had names."""
+    folder = write_session(tmp_path, Cell(SEED))
+    lines = (folder / "setup.toml").read_text().splitlines(keepends=True)
+    (folder / "setup.toml").write_text("".join(line for line in lines if "_name" not in line))
+    assert [place.name for place in calibrated(folder).places] == ["the camera", "the board"]
