@@ -88,7 +88,7 @@ def compete(
         learner = Timed(
             build_tuned(rules, sample, [run + 1 for run in runs])
             if rules
-            else make_peer(name, seeds, controller)
+            else make_peer(name, seeds, controller.robot)
         )
         poses = Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scenario.scenario)
         plant = scenario.plant(controller, seed, runs)

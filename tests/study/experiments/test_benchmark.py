@@ -8,7 +8,7 @@ from recalib.study.evidence.benchmark import moves_to_reach
 from recalib.study.evidence.guidance import moves_text, where_worse
 from recalib.study.experiments.benchmark import Timed, compete, measured_at
 from recalib.study.inference.measured import ERRORS
-from recalib.study.plan.competitors import PEERS, make_peer
+from recalib.study.plan.competitors import make_peer, peers
 from workflow.scripts.call import write
 
 
@@ -17,13 +17,13 @@ def test_a_map_is_measured_where_its_moves_meet_a_budget():
     assert measured_at([1, 2, 3, 500], iterations=400, moves=1) == [1, 2, 3]
 
 
-def test_every_peer_can_be_made_and_knows_nothing_yet(controller):
-    for name in PEERS:
+def test_every_peer_can_be_made_and_knows_nothing_yet(robot):
+    for name in peers():
         desired = np.zeros((2, 3, 6))
-        commands = make_peer(name, 2, controller).command(desired)
+        commands = make_peer(name, 2, robot).command(desired)
         assert np.allclose(commands, desired, atol=1e-9), name
     with pytest.raises(UnknownName, match="gaussian_process"):
-        make_peer("magic", 1, controller)
+        make_peer("magic", 1, robot)
 
 
 def test_scenarios_side_by_side_are_what_each_of_them_is_alone(plan, tmp_path):

@@ -167,7 +167,7 @@ def test_every_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
     write(scenario, resolve(**rules.arguments(study, "scenario", scenario=own) | {"damages": ()}))
     said = type("Said", (), {"target": np.eye(4)})
     monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
-    for name in ("read_of", "calibrate_hybrid", "Plant"):
+    for name in ("read_of", "identified", "Plant"):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
     search = rules.arguments(study, "search", training="improved_200", chunk=0) | {"last": 1}
     search["budget"] = search["budget"].model_copy(update={"seed": 77})
@@ -242,7 +242,7 @@ def run_all_jobs(study, rules, folder, monkeypatch):
         benchmark.compete([*map(resolved, study.benchmark.scenarios)], **job, sample=file)
     said = type("Said", (), {"target": np.eye(4)})
     monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
-    for name in ("read_of", "calibrate_hybrid", "Plant"):
+    for name in ("read_of", "identified", "Plant"):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
     for name in study.real.twin:
         job = rules.arguments(study, "real_twin", learner=name)
