@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 import pinocchio as pin
 
 from recalib.damaged.plant import Plant
@@ -23,9 +23,6 @@ from recalib.study.experiments.tracker import Measurements, read_of, read_whole_
 from recalib.study.plan.competitors import MOVES, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 TWIN = "hybrid"  # the kind that identifies one: it explains more than geometry
@@ -108,7 +105,7 @@ def learn_from_tables(
     poses: tuple[int, ...],
     subsets: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
 
     Args:
@@ -121,8 +118,6 @@ def learn_from_tables(
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
@@ -149,7 +144,7 @@ def learn_on_twin(
     subsets: int,
     tests: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
@@ -164,8 +159,6 @@ def learn_on_twin(
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     twin = identified(TWIN, robot.arm, read_of(robot.arm, fit, said))

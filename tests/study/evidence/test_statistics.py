@@ -111,11 +111,6 @@ def test_the_interval_of_a_ratio_has_the_degrees_of_freedom_of_both():
     assert [gap - low, high - gap] == pytest.approx([half] * 2, rel=0.08)
 
 
-def test_an_estimate_is_three_cells_of_a_table():
-    cells = intervals.Estimate(2.0, 1.0, 4.0).columns("error")
-    assert cells == {"error": 2.0, "error_low": 1.0, "error_high": 4.0}
-
-
 def test_the_first_of_all_studies_is_the_one_itself():
     values = rng(0).normal(size=(4, 3, 2))
     means = Draws(rng(1)).means(values)

@@ -5,7 +5,7 @@ import pytest
 from recalib.errors import UnknownName
 from recalib.loop.interfaces import Outcome
 from recalib.study.evidence.benchmark import moves_to_reach
-from recalib.study.evidence.guidance import moves_text, where_worse
+from recalib.study.evidence.guidance import where_worse
 from recalib.study.experiments.benchmark import Timed, compete, measured_at
 from recalib.study.inference.measured import ERRORS
 from recalib.study.plan.competitors import make_peer, peers
@@ -83,12 +83,6 @@ def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
         for moves, error in zip((2, 4, 8), each, strict=True)
     ]
     assert moves_to_reach(pd.DataFrame(table), ERRORS[0], 1).tolist() == [np.inf, 2, 4]
-
-
-def test_the_slower_error_decides():
-    reached = pd.DataFrame({"moves": [4, 12], "low": [3, 8], "high": [6, np.inf]})
-    assert moves_text(reached) == "12 (8-more)"
-    assert moves_text(reached.assign(moves=[4, np.inf])) == "-"
 
 
 def test_where_the_hybrid_is_worse_than_the_best_peer_is_said_unless_it_is_by_rounding():
