@@ -17,7 +17,7 @@ LIBRARY = """
 """.split()  # noqa: SIM905
 STUDY = """
     inference configuration scenarios plan mapping experiments evidence checks multiverse plots
-    recording studies ship
+    recording studies
 """.split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {

@@ -7,18 +7,13 @@ from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.plant import Plant
 from recalib.errors import RecalibError
-from recalib.learners import schedules
-from recalib.learners.cells import Cells
-from recalib.learners.experience import Experience, is_due
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS, class_of, kind_of
 from recalib.learners.learned import differences, identity, join, load, read, save
-from recalib.learners.nets import Nets, nearest
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.radial import RadialLearner
-from recalib.learners.rules import IMPROVED, Rules
+from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loop.interfaces import Outcome
 from tests.kept import plain
 
@@ -139,60 +134,6 @@ def test_what_a_learner_of_geometry_learns_is_as_kept(kind, controller, worn, da
     )
 
 
-@pytest.mark.parametrize("increments", [True, False])
-def test_cells_of_many_updates_are_as_kept(increments, data_regression):
-    rng = np.random.default_rng(4)
-    cells = Cells(RUNS, rng.normal(size=(3, 2, 4, 2)), increments)
-    winners, read = (np.array([2, 0]), np.array([1, 0])), []
-    for _ in range(70):  # more than are kept back, twice
-        shares = [rng.uniform(size=(RUNS, size)) for size in (3, 2)]
-        cells.update(rng.uniform(size=RUNS), *shares, rng.normal(size=(RUNS, 4, 2)))
-        read.append(cells.at(*winners))
-    data_regression.check(plain([np.array(read), cells.at(*winners), cells.all]))
-
-
-def test_nets_and_their_winners_are_as_kept(data_regression):
-    poses = desired(8, 2, 5)
-    found = {}
-    for centres in ("boxes", "faces"):
-        nets = Nets((3, 2, 4), (2, 3, 1), centres, UNITS["width_units"])
-        k, l = nets.winner(poses)
-        widths = np.array([0.4, 0.9]), np.array([0.7, 1.3])
-        near = nets.neighbourhood(k[:, 0], l[:, 0], *widths)
-        found[centres] = nets.w_k, nets.w_kl, nets.centres, k, l, near
-    found["nearest"] = nearest(poses, desired(9, 4))
-    data_regression.check(plain(found))
-
-
-def test_schedules_are_as_kept(data_regression):
-    start, end = np.array([1.5, 2.5]), np.array([0.3, 0.7])
-    found = {
-        name: [getattr(schedules, name)(start, end, part) for part in (0.0, 0.3, 0.8, 1.0)]
-        for name in ("exponential", "linear", "equal_visits")
-    }
-    found["other visits"] = [
-        schedules.equal_visits(start, end, 0.4, dimensions, spread)
-        for dimensions in (3, 6)
-        for spread in schedules.SPREADS
-    ]
-    found["expected learning"] = [
-        schedules.expected_learning(0.3, 3, 8.0),
-        schedules.expected_learning(np.array([0.4, 0.5]), 6, 64.0),
-    ]
-    several = schedule(IMPROVED).over(RUNS)
-    found["schedules"] = [several, several.of_run(1), Schedule.of_runs([several.of_run(1)] * 3)]
-    found["rules"] = {
-        name: [
-            rules,
-            rules.law_of_rate,
-            rules.learning_rate(schedule(rules), 0.3),
-            [rules.widths(schedule(rules).over(RUNS), each, 0.3) for each in rules.maps],
-        ]
-        for name, rules in RULES.items()
-    }
-    data_regression.check(plain(found))
-
-
 REFUSED = {
     "centres": lambda: Rules(True, True, True, True, centres="corners"),
     "spread": lambda: Rules(True, True, True, True, spread="squares"),
@@ -206,8 +147,6 @@ REFUSED = {
     "rate above one": lambda: Schedule(1.0, SINGLE, np.array([0.5, 1.01]), 0.4),
     "no final rate": lambda: Schedule(1.0, SINGLE, 1.0, 0.0),
     "degree": lambda: PolynomialLearner(3),
-    "kind": lambda: class_of("cubic"),
-    "learner": lambda: kind_of(UncorrectedLearner()),
 }
 
 
@@ -218,21 +157,6 @@ def test_why_settings_are_refused_is_as_kept(data_regression):
             make()
         said[name] = str(refused.value)
     data_regression.check(said)
-
-
-def test_the_memory_of_moves_is_as_kept(data_regression):
-    experience = Experience(RUNS, 7)
-    for seed in (1, 2):
-        rng = np.random.default_rng(seed)
-        sent, achieved = rng.normal(size=(RUNS, 3, 7)), rng.normal(size=(RUNS, 3, 6))
-        experience.add(sent, achieved, rng.uniform(size=(RUNS, 3)) < 0.6)
-    due = [[is_due(before, moves) for before in range(moves)] for moves in range(40)]
-    often = [[before for before in range(100) if is_due(before, before + 1)]]
-    found = [experience.moves, *(experience.of(run) for run in range(RUNS)), experience.state()]
-    uncorrected = UncorrectedLearner()
-    uncorrected.observe(desired(1, 1, 2), desired(2, 1, 2), np.ones((1, 2), bool))
-    found.append(uncorrected.command(desired(3, 1, 2)))
-    data_regression.check(plain([found, [sum(its) for its in due], often]))
 
 
 def test_files_of_what_was_learned_are_as_kept(robot, makers, tmp_path, data_regression):

@@ -268,15 +268,3 @@ def test_the_trainings_of_a_study_are_as_kept(name, studies, data_regression):
         },
     }
     data_regression.check(plain(found))
-
-
-def test_the_factors_of_universes_are_as_kept(study, data_regression):
-    its = study.universes
-    data_regression.check(plain([its.model_dump(), its.horizons]))
-
-
-def test_the_scenarios_and_robots_of_the_shipped_study_are_as_kept(study, data_regression):
-    parts = {"robots", "scenarios", "paper_damage", "controller"}
-    data_regression.check(
-        plain([study.model_dump(include=parts), study.model_dump(include=parts, mode="json")])
-    )

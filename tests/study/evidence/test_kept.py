@@ -9,7 +9,6 @@ import pytest
 from recalib.study.evidence import checks, report
 from recalib.study.evidence.benchmark import put_together, seconds
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.pages import PAGES
 from recalib.study.inference import hierarchy, intervals
 from recalib.study.multiverse import power
@@ -74,12 +73,6 @@ def test_what_a_page_may_say(name, results, data_regression):
 def test_what_the_report_may_say(results, data_regression):
     said = plain(report.context(results.evidence(report.NEEDS)))
     data_regression.check({key: said[key] for key in said.keys() - SAID})
-
-
-def test_integrals_of_section_5_by_scale(results, data_regression):
-    table = pd.read_parquet(results.path("mapping/propagation.parquet"))
-    table.loc[4, "updated"] = np.nan
-    data_regression.check(plain(integral_ratios(table).to_frame().reset_index()))
 
 
 def test_the_tables_of_results(results, data_regression):

@@ -1,13 +1,13 @@
 """What is measured in a replicate of a setup, and with which luck, in tiny setups."""
 
 import zlib
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.learners.radial import RadialLearner
 from recalib.study.configuration.shipped import DESIGN
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims import CLAIMS
@@ -99,15 +99,6 @@ def test_every_search_of_a_replicate_has_the_effort_of_its_setup_and_luck_of_its
     assert {*each.learners} <= {*names}
     # one map and two, three times; Ritter's once more; the improved system with a wide g_k
     assert len(searches) - len({its.poses.name for _, its in searches}) == 3 + 1 + 1
-
-
-def test_radial_units_are_sought_for_increments_and_for_values(replicate, each):
-    _, searches = replicate
-    radial = [(name, its) for name, its in searches if its.learner is RadialLearner]
-    assert [name for name, _ in radial] == ["improved", "improved_theta_values"]
-    assert len({its.poses.name for _, its in radial}) == 2
-    ours, theirs = (its.rules for _, its in radial)
-    assert ours.theta_increments and not theirs.theta_increments
 
 
 def trial(rules, number=1) -> pd.DataFrame:
@@ -272,10 +263,8 @@ def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(s
     assert [*its.nominal.robot.home.values()] == pytest.approx([*own.home.values()])
     for name in ("improved", "ritter"):
         rules = rules_of(study.learners[name])
-        found = rules_in(its, name)
-        assert found.rate == rules.law_of_rate
-        for part in ("centres", "spread", "dimensions", "theta_increments", "initial"):
-            assert getattr(found, part) == getattr(rules, part)
+        assert rules_in(its, name) == replace(rules, rate=rules.law_of_rate)
+    assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
     budget = budget_of(study).model_copy(update={"seed": study.seed})
     assert its.budget == budget
 

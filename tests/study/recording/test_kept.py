@@ -24,7 +24,7 @@ from recalib.study.recording.sight import sight_of
 from recalib.study.recording.writing import BrokenRecording, _compare, write_recording
 from tests.kept import plain
 from tests.logged import arranged, logged
-from tests.study.recording.conftest import SEED, learner
+from tests.study.recording.conftest import learner
 
 EVERY = (
     BaseShift((0.013, -0.007, 0.021), (0.04, -0.03, 0.05)),
@@ -160,15 +160,3 @@ def test_why_a_recording_is_broken_is_as_kept(written, tmp_path, data_regression
             _compare(tmp_path, "affine", shown, measured)
         said[spoilt] = re.sub(r"(\d\.\d{6})\d+", r"\1", refused.value.reason)
     data_regression.check(said)
-
-
-def test_a_recording_of_another_seed_and_damage_is_as_kept(
-    small, resolved, tmp_path, data_regression
-):
-    job = small.model_copy(update={"seed": SEED + 4, "moves": 2, "published": {}})
-    job = job.model_copy(update={"learners": {"affine": None}})
-    its, path = resolved(LEAST), tmp_path / "other.rrd"
-    watched = write_recording(path, job, its, {"affine": PolynomialLearner(1)}, {}, 1)
-    entities = {key: one for key, one in logged(path).items() if "/__properties" not in key}
-    said = captions.about(its, watched).splitlines(), captions.beside(watched).splitlines()
-    data_regression.check(plain([watched, said, entities]))
