@@ -20,12 +20,11 @@ from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
-from recalib.study.plan.competitors import MOVES, UNCORRECTED, Peer, peer
+from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
-TWIN = "hybrid"  # the kind that identifies one: it explains more than geometry
 
 
 def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
@@ -161,7 +160,7 @@ def learn_on_twin(
     """
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
-    twin = identified(TWIN, robot.arm, read_of(robot.arm, fit, said))
+    twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}
     history = train_for_results(

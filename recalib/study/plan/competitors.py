@@ -5,7 +5,7 @@ The paper's are made from their settings in the configuration
 one.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 MOVES = 2  # of an iteration of the paper's learners
 TWO_MOVES = f"{POSES}, two moves for each"
 UNCORRECTED = "uncorrected"  # the peer that learns nothing
+TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
 
 
 class Peer(NamedTuple):
@@ -70,6 +71,13 @@ def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
 
         return UncorrectedLearner()
     return class_of(its.kind).from_settings(its.settings, runs, robot)
+
+
+def homes_of(names: Iterable[str]) -> list[str]:
+    """The modules of those of these learners that are peers: they are imported by what they say."""
+    known = peers()
+    kinds = [known[name].kind for name in names if name in known]
+    return [KINDS[kind].home.rpartition(".")[0] for kind in kinds if kind]
 
 
 def needs_of(name: str) -> str:
