@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study.configuration.shipped import DESIGN
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.experiments import poses, search
@@ -17,14 +16,12 @@ from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.inference.measured import ERRORS, KINDS, RIGID
 from recalib.study.multiverse import horizon, measuring
-from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
 from recalib.study.plan.trainings import budget as budget_of
-from tests.conftest import ROOT
 
 ITERATIONS = 4
 
@@ -38,11 +35,6 @@ def made_small(its: Universe, **update) -> Universe:
     }
     less = {"budget": budget, "learners": learners, "tests": 3, "seeds": 2, "rungs": (4, 8, 16)}
     return its.model_copy(update=less | update)
-
-
-@pytest.fixture(scope="module")
-def design():
-    return read_design(ROOT / DESIGN)
 
 
 @pytest.fixture(scope="module")

@@ -28,11 +28,6 @@ SAME = (0.9375, 1.125, 0.9375, 0.75, 0.75, 0.75)  # half-ranges in cm and degree
 
 
 @pytest.fixture(scope="module")
-def design():
-    return read_design(ROOT / DESIGN)
-
-
-@pytest.fixture(scope="module")
 def universes(study, design):
     return [universe(study, each) for each in design]
 
