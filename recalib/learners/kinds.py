@@ -12,6 +12,7 @@ from recalib.errors import UnknownName
 if TYPE_CHECKING:  # whoever only asks for a kind need not wait for what a learner needs
     from recalib.loop.interfaces import Savable
 
+# What learners need to know.
 POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
 
 
