@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from recalib.damaged.damage import BaseShift
 from recalib.damaged.kinds import DISTURBANCES
-from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, dotted, unknown, unlike
 from recalib.study.configuration.study import Study
@@ -16,7 +15,7 @@ from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims import missing
 from recalib.study.inference.measured import MOVED, RIGID
 from recalib.study.plan.competitors import MOVES, peers
-from recalib.study.plan.trainings import training
+from recalib.study.plan.trainings import rules_unless_peer, training
 
 
 def check(study: Study) -> list[Mistake]:
@@ -59,7 +58,7 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("real", "twin"), real.twin), ()),
     ):
         for path, name in places.items():
-            if name not in todays and not _is_training(study, name):
+            if name not in todays and rules_unless_peer(study, name) is None:
                 iterations = (f"{stem}_ITERATIONS" for stem in study.learners)
                 yield unknown(path, name, [*todays, *known, *iterations])
     if plan.switches:
@@ -71,14 +70,6 @@ def _names(study: Study) -> Iterator[Mistake]:
         stem, _, end = name.rpartition("_")
         if name in taken or (stem in study.learners and end.isdecimal()):
             yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
-
-
-def _is_training(study: Study, name: str) -> bool:
-    try:
-        training(study, name)
-    except UnknownName:
-        return False
-    return True
 
 
 def _meanings(study: Study) -> Iterator[Mistake]:
