@@ -11,7 +11,7 @@ from recalib.study.checks.consistency import check
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.real_arm import remaining_errors
 from recalib.study.experiments.tracker import Measurements
-from recalib.study.plan.competitors import label_of, make_peer, needs_of, peers
+from recalib.study.plan.competitors import homes_of, label_of, make_peer, needs_of, peers
 from recalib.study.plots.palette import STYLES, styles_of
 from workflow.scripts.call import write
 
@@ -39,6 +39,7 @@ def new(request, monkeypatch) -> type:
 def test_a_new_kind_is_known_by_its_name_need_and_look(new):
     assert [*peers()][-1] == "by_taylor"
     assert label_of("by_taylor") == "by Taylor" and needs_of("by_taylor") == NEW[new].needs
+    assert homes_of(["improved", "by_taylor"]) == [__name__], "whose code its jobs depend on"
     shown = styles_of([*STYLES, "by_taylor"])
     assert shown["by_taylor"].label == "by Taylor"
     assert shown["by_taylor"].color not in {style.color for style in STYLES.values()}

@@ -46,7 +46,7 @@ def peers() -> dict[str, Peer]:
         for kind, its in KINDS.items()
         for label, settings in its.peers.items()
     ]
-    named = {peer.label.lower().replace(" ", "_"): peer for peer in learning}
+    named = {its.label.lower().replace(" ", "_"): its for its in learning}
     return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
 
 
