@@ -26,6 +26,7 @@ from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
+from recalib.study.plan.competitors import make_peer, peers
 from recalib.study.scenarios.nominal import Nominal, nominal
 from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
 from tests.made_up import NOISE, MadeUp
@@ -140,18 +141,15 @@ def robot(controller) -> Robot:
 
 
 @pytest.fixture(scope="session")
-def makers(controller) -> dict[str, Callable]:
-    """Of each kind a learner, which takes `runs`."""
+def makers(robot) -> dict[str, Callable]:
+    """Of each kind a learner that has learned nothing, from its `runs`."""
     rules = Rules(True, True, True, True, subnet=(3, 2, 1))
     widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
     schedule = Schedule(4.0, widths, 0.8, 0.4)
-    return {
-        "hierarchical": partial(class_of("hierarchical"), rules=rules, schedule=schedule),
-        "polynomial": partial(class_of("polynomial"), degree=2),
-        "gaussian_process": class_of("gaussian_process"),
-        "geometric": partial(class_of("geometric"), controller=controller),
-        "hybrid": partial(class_of("hybrid"), controller=controller),
-    }
+    of_paper = partial(class_of("hierarchical"), rules=rules, schedule=schedule)
+    peer_of = {its.kind: name for name, its in peers().items() if its.kind}
+    of_today = {kind: partial(make_peer, name, robot=robot) for kind, name in peer_of.items()}
+    return {"hierarchical": of_paper} | of_today
 
 
 @pytest.fixture

@@ -17,7 +17,7 @@ LIBRARY = """
 """.split()  # noqa: SIM905
 STUDY = """
     inference configuration scenarios plan mapping experiments evidence checks multiverse plots
-    recording studies ship
+    recording studies
 """.split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
@@ -82,13 +82,16 @@ BRINGS = {
     "recalib.study.multiverse.universe": set(),  # the workflow, whenever it starts
     "evidence.article evidence.claims evidence.outcome evidence.pages evidence.real_arm"
     " evidence.report"
-    " experiments.joining experiments.samples multiverse.design multiverse.power"
-    " plots.registry": set(),
-    "evidence.benchmark evidence.checks evidence.summary mapping.visits": {"pandas"},
-    "scenarios.assignments experiments.benchmark experiments.ensemble experiments.real_arm"
-    " experiments.speed experiments.trials multiverse.drawing scenarios.plants": ARMS,
-    "experiments.campaign experiments.replay mapping.measured multiverse.efforts"
-    " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"},
+    " experiments.joining experiments.samples multiverse.design plots.registry": set(),
+    "evidence.benchmark evidence.checks evidence.summary mapping.visits multiverse.power": {
+        "pandas"
+    },
+    "scenarios.assignments experiments.speed multiverse.drawing scenarios.plants": ARMS,
+    "experiments.benchmark experiments.ensemble experiments.real_arm experiments.trials": ARMS
+    | {"pandas"},
+    "experiments.campaign": ARMS - {"scipy.spatial"},
+    "experiments.replay mapping.measured multiverse.efforts multiverse.horizon"
+    " multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"} | {"pandas"},
     "experiments.tracker": ARMS - {"numba"},
     "recording.in_browser": ARMS - {"scipy.spatial"} | {"pandas"},
     "recording.pictures": {"rerun"},

@@ -62,7 +62,7 @@ def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_
 def test_runs_are_joined_and_taken_apart(kind, makers, plant, robot, tmp_path):
     paths = [tmp_path / f"{run}.npz" for run in range(RUNS)]
     for run, path in enumerate(paths):
-        save(path, train(makers[kind](), plant, 5 + run, run=[run]), robot)
+        save(path, train(makers[kind](runs=1), plant, 5 + run, run=[run]), robot)
     join(tmp_path / "both.npz", paths)
     for run, path in enumerate(paths):
         alone, taken = load(path, robot), load(tmp_path / "both.npz", robot, run)

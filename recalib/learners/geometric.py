@@ -17,6 +17,7 @@ from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
 from recalib.learners.experience import Refitting
 from recalib.nominal.controller import Controller
+from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
 
 
@@ -61,11 +62,21 @@ class GeometricLearner(Refitting):
         self, sent: np.ndarray, achieved: np.ndarray, last: Calibration | None, before: int
     ) -> Calibration:
         measured = self._controller.robot.workspace.to_poses(achieved)
-        return self._calibrate(Observations(sent, measured), last)
+        return self._calibrate(self._controller.robot.arm, Observations(sent, measured), last)
 
-    def _calibrate(self, observations: Observations, last: Calibration | None) -> Calibration:
-        model = ErrorModel(self._controller.robot.arm, OFFSETS)
+    @staticmethod
+    def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
+        model = ErrorModel(arm, OFFSETS)
         return Calibration(model, identify(model, observations, last.estimate if last else None))
+
+    @classmethod
+    def identify(cls, arm: Arm, observations: Observations) -> Calibration:
+        """What it would learn from measurements of an arm that were made before, all at once.
+
+        Args:
+            arm: the nominal one.
+        """
+        return cls._calibrate(arm, observations, None)
 
     def _restored(self, state: Mapping[str, Any]) -> Calibration:
         return Calibration.restore(self._controller.robot.arm, state)

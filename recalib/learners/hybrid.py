@@ -1,9 +1,10 @@
 """Geometry, joint errors and a Gaussian process: as much of them as the measurements show."""
 
 from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
 from recalib.identification.observations import Observations
 from recalib.learners.geometric import GeometricLearner
+from recalib.nominal.kinematics import Arm
 
 
 class HybridLearner(GeometricLearner):
@@ -12,6 +13,11 @@ class HybridLearner(GeometricLearner):
     Such as eccentric gears and sag.
     """
 
-    def _calibrate(self, observations: Observations, last: Calibration | None) -> Calibration:
-        arm = self._controller.robot.arm
+    @staticmethod
+    def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
         return calibrate(arm, (OFFSETS, JOINT_ERRORS), observations, last=last)
+
+    @classmethod
+    def identify(cls, arm: Arm, observations: Observations) -> Calibration:
+        """As a geometric learner's; at once, there is time to look for more errors of joints."""
+        return calibrate(arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), observations)

@@ -1,29 +1,57 @@
-"""The kinds of learner that can be saved to files. A new kind is named here, and nowhere else."""
+"""The kinds of today's learners and of the paper's. A new kind is named here, and nowhere else.
 
+Files of what was learned, the study's comparisons and its real arm follow from this table.
+"""
+
+from collections.abc import Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
 
 if TYPE_CHECKING:  # whoever only asks for a kind need not wait for what a learner needs
     from recalib.loop.interfaces import Savable
 
-# Where the class of each is at home.
+# What learners need to know.
+POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
+
+
+class Kind(NamedTuple):
+    """A kind of learner that can be saved to files.
+
+    Attributes:
+        home: where its class is.
+        peers: as what it is compared with the paper's learners: the settings of each, by its name
+            for people.
+        needs: what it needs to know. With the kinematics, its class can `identify`, too: see
+            `GeometricLearner.identify`.
+    """
+
+    home: str
+    peers: Mapping[str, Mapping[str, Any]] = {}
+    needs: str = POSES
+
+
 KINDS = {
-    "hierarchical": "recalib.learners.hierarchical.HierarchicalLearner",
-    "polynomial": "recalib.learners.polynomial.PolynomialLearner",
-    "gaussian_process": "recalib.learners.gaussian_process.GaussianProcessLearner",
-    "geometric": "recalib.learners.geometric.GeometricLearner",
-    "hybrid": "recalib.learners.hybrid.HybridLearner",
+    "hierarchical": Kind("recalib.learners.hierarchical.HierarchicalLearner"),
+    "polynomial": Kind(
+        "recalib.learners.polynomial.PolynomialLearner",
+        {"affine": {"degree": 1}, "quadratic": {"degree": 2}},
+    ),
+    "gaussian_process": Kind(
+        "recalib.learners.gaussian_process.GaussianProcessLearner", {"Gaussian process": {}}
+    ),
+    "geometric": Kind("recalib.learners.geometric.GeometricLearner", {"geometric": {}}, KINEMATICS),
+    "hybrid": Kind("recalib.learners.hybrid.HybridLearner", {"hybrid": {}}, KINEMATICS),
 }
 
 
 def kind_of(learner: object) -> str:
     """The kind of a learner. Raises UnknownName."""
     its = type(learner)
-    for kind, home in KINDS.items():
-        if home == f"{its.__module__}.{its.__qualname__}":
-            return kind
+    for name, kind in KINDS.items():
+        if kind.home == f"{its.__module__}.{its.__qualname__}":
+            return name
     raise UnknownName("kind of learner to save", its.__name__, KINDS)
 
 
@@ -31,6 +59,6 @@ def class_of(kind: str) -> "type[Savable]":
     """The class of a kind. Raises UnknownName."""
     if kind not in KINDS:
         raise UnknownName("kind of learner", kind, KINDS)
-    module, _, name = KINDS[kind].rpartition(".")
+    module, _, name = KINDS[kind].home.rpartition(".")
     found: type[Savable] = getattr(import_module(module), name)
     return found

@@ -1,4 +1,7 @@
-"""Which studies there are: the shipped one, those that change it, and that of the present call."""
+"""Which studies there are: the shipped one, those that change it, and that of the present call.
+
+`python -m recalib.study.studies` makes config.yaml, as it now is, the shipped one: `make ship`.
+"""
 
 import hashlib
 import json
@@ -167,3 +170,7 @@ def ship(project: Path) -> None:
         json.dumps(digests(read_study(project / CONFIGURATION, checks=(check,))), indent=2) + "\n"
     )
     (project / LOCK).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    ship(Path.cwd())

@@ -26,7 +26,6 @@ from recalib.laboratory.files import optional_outputs, write_files
 from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.links import read_rows, urdf_of
 from recalib.laboratory.measurements import Measurements, read_desired, read_measurements
-from recalib.laboratory.nominal_checks import check_nominal
 from recalib.laboratory.parameters import unidentifiable_directions
 from recalib.laboratory.propose import propose
 from recalib.laboratory.summary import errors_table, notes, verdict
@@ -415,36 +414,6 @@ def test_descriptions_are_read_as_kept(tmp_path, data_regression):
             found[name] = [its.columns, its.instrument, its.target, [*its.distances.items()]]
         except RecalibError as error:
             found[name] = str(error).replace(f"{tmp_path}/", "")
-    data_regression.check(plain(found))
-
-
-def test_mistakes_in_nominal_positions_are_named_as_kept(lab, data_regression):
-    arm = load_arm(lab / "sliding.urdf")
-    joints = np.random.default_rng(7).uniform(-0.8, 0.8, (15, 4)) + np.linspace(0.1, 0.4, 4)
-    right = arm.forward(joints)[:, :3, 3]
-    base = np.eye(4)
-    base[:3, :3] = Rotation.from_euler("xyz", [0.1, -0.2, 0.7]).as_matrix()
-    base[:3, 3] = 0.3, -0.1, 0.2
-    moved = arm.forward(joints) @ [0.03, -0.02, 0.05, 1.0]
-    turned = (base @ moved.T).T[:, :3]
-    shifted = joints + np.array([0, np.pi / 2, 0, 0])
-    cases = {
-        "same": (joints, right + 0.004, {}),
-        "frames": (joints, turned, {}),
-        "sign": (joints * [1, -1, 1, 1], right, {}),
-        "zero": (shifted, right, {}),
-        "unit": (joints, 1e3 * right, {}),
-        "both": (shifted * [-1, 1, 1, 1], right, {}),
-        "exchanged": (joints[:, [1, 0, 2, 3]], right, {}),
-        "known": (joints, turned, {"base": np.eye(4), "target": np.eye(4)}),
-        "other": (joints, right[::-1], {}),
-    }
-    found = {}
-    for name, (asked, nominal, known) in cases.items():
-        try:
-            found[name] = check_nominal(arm, asked, nominal, **known)
-        except RecalibError as error:
-            found[name] = str(error)
     data_regression.check(plain(found))
 
 

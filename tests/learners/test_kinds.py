@@ -1,14 +1,8 @@
 import pytest
 
 from recalib.errors import UnknownName
-from recalib.learners.kinds import KINDS, class_of, kind_of
+from recalib.learners.kinds import class_of, kind_of
 from recalib.learners.polynomial import PolynomialLearner
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_kind_is_a_class_that_files_can_make(kind):
-    asked = "command", "learn", "settings", "state", "restore", "from_settings"
-    assert all(callable(getattr(class_of(kind), name)) for name in asked)
 
 
 def test_a_learner_is_of_the_kind_of_its_own_class():

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from recalib.errors import BadMeasurement
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
@@ -63,12 +62,3 @@ def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_comm
     fresh = kind(controller, runs=2)
     fresh.restore(learner.state())
     assert np.array_equal(fresh.command(SENT), commands)
-
-
-@pytest.mark.parametrize("number", [np.nan, np.inf, -1e6])
-def test_no_move_is_kept_that_measured_nothing(number):
-    learner, spoilt = GaussianProcessLearner(runs=2), ACHIEVED.copy()
-    spoilt[1, 3, 2] = number
-    with pytest.raises(BadMeasurement, match="move 3 of run 1"):
-        learner.observe(SENT, spoilt, EXECUTED)
-    assert [len(run["moves"]["executed"]) for run in learner.state()] == [0, 0]

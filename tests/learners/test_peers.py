@@ -1,7 +1,5 @@
 """What every peer of the paper's learners has to do, and how well each does it."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 
@@ -9,31 +7,16 @@ from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
-from recalib.learners.gaussian_process import GaussianProcessLearner
-from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hybrid import HybridLearner
 from recalib.learners.polynomial import PolynomialLearner
-from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.loop.interfaces import Outcome
 from recalib.loop.training import measure
+from recalib.study.plan.competitors import UNCORRECTED, make_peer, peers
 
 RUNS = 2
 
 
-@pytest.fixture(scope="module")
-def makers(controller) -> dict:
-    return {
-        "uncorrected": lambda runs: UncorrectedLearner(),
-        "affine": partial(PolynomialLearner, degree=1),
-        "quadratic": partial(PolynomialLearner, degree=2),
-        "gaussian_process": GaussianProcessLearner,
-        "geometric": partial(GeometricLearner, controller=controller),
-        "hybrid": partial(HybridLearner, controller=controller),
-    }
-
-
-NAMES = ["uncorrected", "affine", "quadratic", "gaussian_process", "geometric", "hybrid"]
-LEARNING = NAMES[1:]
+NAMES = [*peers()]
+LEARNING = [name for name in NAMES if name != UNCORRECTED]
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 40, 6))
 TESTS = np.random.default_rng(2).uniform(-1, 1, (RUNS, 20, 6))
 
@@ -51,13 +34,13 @@ def errors(learner, plant) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, makers):
-    assert np.array_equal(makers[name](runs=RUNS).command(TESTS), TESTS)
+def test_a_learner_that_has_learned_nothing_commands_what_is_desired(name, robot):
+    assert np.array_equal(make_peer(name, RUNS, robot).command(TESTS), TESTS)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, makers):
-    learner, sent = makers[name](runs=RUNS), []
+def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, robot):
+    learner, sent = make_peer(name, RUNS, robot), []
 
     def refuse(commands):
         sent.append(commands.shape)
@@ -69,8 +52,8 @@ def test_learning_takes_one_move_and_a_refused_move_teaches_nothing(name, makers
 
 
 @pytest.mark.parametrize("name", LEARNING)
-def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller, damaged):
-    plant, learner = Plant(controller, damaged), makers[name](runs=RUNS)
+def test_one_run_can_be_refused_while_the_other_learns(name, robot, controller, damaged):
+    plant, learner = Plant(controller, damaged), make_peer(name, RUNS, robot)
 
     def refuse_the_first(commands):
         outcome = plant.execute(commands)
@@ -92,22 +75,23 @@ def test_one_run_can_be_refused_while_the_other_learns(name, makers, controller,
         ("hybrid", 7, 1e-4, 1e-4),
     ],
 )
-def test_errors_fall(name, moves, position, orientation, makers, controller, damaged):
+def test_errors_fall(name, moves, position, orientation, robot, controller, damaged):
     plant = Plant(controller, damaged)
-    before = errors(makers[name](runs=RUNS), plant)
-    after = errors(train(makers[name](runs=RUNS), plant, moves), plant)
+    before = errors(make_peer(name, RUNS, robot), plant)
+    after = errors(train(make_peer(name, RUNS, robot), plant, moves), plant)
     assert after[0] < min(position, before[0] / 3)
     assert after[1] < min(orientation, before[1] / 3)
 
 
-def test_the_hybrid_learns_what_no_geometry_explains(makers, controller, robot):
+def test_the_hybrid_learns_what_no_geometry_explains(controller, robot):
     arm = apply(
         robot,
         [EccentricGear(joint, np.radians(0.5), phase) for phase, joint in enumerate(robot.joints)],
     )
     plant = Plant(controller, arm)
     geometric, hybrid = (
-        errors(train(makers[name](runs=RUNS), plant, 16), plant) for name in ("geometric", "hybrid")
+        errors(train(make_peer(name, RUNS, robot), plant, 16), plant)
+        for name in ("geometric", "hybrid")
     )
     assert geometric[1] > 0.1
     assert max(hybrid) < 0.01

@@ -5,7 +5,6 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 
-from recalib.errors import BadMeasurement
 from recalib.learners.polynomial import PolynomialLearner
 
 # Deviations of the coefficients of each degree, and of what no polynomial says; in half-ranges
@@ -51,10 +50,3 @@ def test_a_constant_shift_is_learned_at_once_by_as_much_as_the_prior_allows():
     learner.observe(zero + 0.2, zero, np.ones((1, 1), dtype=bool))
     share = PRIOR[0] ** 2 / (PRIOR[0] ** 2 + NOISE**2)
     assert learner.command(zero) == pytest.approx(zero + 0.2 * share)
-
-
-def test_what_is_no_number_is_refused_before_it_is_learned():
-    learner, zero = PolynomialLearner(2), np.zeros((1, 1, 6))
-    with pytest.raises(BadMeasurement):
-        learner.observe(zero, zero + np.nan, np.ones((1, 1), dtype=bool))
-    assert np.array_equal(learner.command(zero), zero)

@@ -34,8 +34,9 @@ from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.study import Study
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.competitors import COMPETITORS, label_of, make_peer
+from recalib.study.plan.competitors import label_of, make_peer
 from recalib.study.plan.trainings import rules
+from recalib.study.plots.palette import STYLES
 from recalib.study.plots.style import STYLE, logarithmic, save
 from recalib.study.scenarios.assignments import assign
 from recalib.study.scenarios.nominal import nominal
@@ -176,7 +177,7 @@ def trained(its: Condition, name: str, seed: int) -> History:
         sample = ROOT / "workflow" / "search" / f"{name}.csv"
         learner = build_tuned(rules(study(), name), sample, [seed + 1])
     else:
-        learner = make_peer(name, 1, scenario(its.scenario)[0])
+        learner = make_peer(name, 1, scenario(its.scenario)[0].robot)
     when, words = ITERATIONS[names], {"scenario": its.scenario}
     poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **words)
     return train(plant(its, seed), learner, poses.desired, poses.tests, when)
@@ -236,7 +237,7 @@ def drawn(curves: pd.DataFrame) -> None:
         for axes, error in zip(column, ERRORS, strict=True):
             for learner, (condition, dashes) in product(learners, LINES.items()):
                 rows = curves[(curves.learner == learner) & (curves.condition == condition)]
-                errors, style = rows.groupby("iteration")[error], COMPETITORS[short(learner)]
+                errors, style = rows.groupby("iteration")[error], STYLES[short(learner)]
                 name = f"{style.label}, {condition}"
                 axes.plot(errors.mean(), color=style.color, linestyle=dashes, label=name)
                 ends = errors.min(), errors.max()

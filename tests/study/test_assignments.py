@@ -5,7 +5,7 @@ from recalib.damaged.damage import apply
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import PaperDamage, Published
-from recalib.study.scenarios.assignments import Ways, assign, distance_to
+from recalib.study.scenarios.assignments import Ways, assign, compare
 
 LINKS = ["upper_arm_link", "forearm_link", "wrist_1_link", "wrist_2_link"]
 
@@ -57,10 +57,17 @@ def test_the_nearest_assignment_is_used(assigned):
     assert again == assignment
 
 
-def test_the_distance_is_the_larger_relative_deviation(assigned):
-    _, table, _ = assigned
+def test_the_distance_is_the_larger_relative_deviation(assigned, controller):
+    damage, table, _ = assigned
+    robot = controller.robot
+    ways = Ways(LINKS, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(1, "assignments"), 10)
     position, orientation, _ = (column[3] for column in table.values())
     exact = Published(position_error_cm=position, orientation_error_deg=orientation)
     off = Published(position_error_cm=position / 1.5, orientation_error_deg=orientation)
-    assert distance_to(table, exact)[3] == 0
-    assert distance_to(table, off)[3] == pytest.approx(0.5)
+    small = Published(position_error_cm=position / 0.7, orientation_error_deg=orientation)
+    found, nearest = compare(controller, ways, poses, exact)
+    assert (found["distance"][3], nearest) == (0, 3)
+    assert compare(controller, ways, poses, off)[0]["distance"][3] == pytest.approx(0.5)
+    scaled, nearest = compare(controller, ways, poses, small, scale=0.7)
+    assert scaled["distance"][3] == pytest.approx(0) and nearest == 3

@@ -196,13 +196,9 @@ def test_a_switch_changes_one_thing_of_each_system(study, switch):
     assert added == ritter | {switch.key: improved[switch.key]} != ritter
 
 
-def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(study, tmp_path):
-    path = tmp_path / "improved_200.csv"
-    job, trials = (
-        samples.sought(study, "improved_200").model_copy(update={"searches": 2}),
-        sample_of_two(),
-    )
-    path.write_text(samples.sample_of(job, trials))
+def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(study, sample):
+    path, trials = sample
+    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
     assert samples.searched_for(path) == job
     assert samples.read_sample(path).equals(trials)
     path.write_text("round,initial_width\n1,2\n")
@@ -210,17 +206,20 @@ def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(stud
         samples.read_sample(path)
 
 
-def sample_of_two() -> pd.DataFrame:
-    """Four trials of each of two searches; two of the second are equally good."""
+@pytest.fixture
+def sample(study, tmp_path):
+    """A file, with four trials of each of two searches; two of the second are equally good."""
     trials = search.draw(RULES, RANGES, 8, rng(1))
     trials.insert(0, "search", [1] * 4 + [2] * 4)
-    return trials.assign(score=[0.1, 0.2, 0.4, 0.3, 0.3, 0.2, 0.2, 0.4])
-
-
-def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(study, tmp_path):
-    path, trials = tmp_path / "improved_200.csv", sample_of_two()
+    trials = trials.assign(score=[0.1, 0.2, 0.4, 0.3, 0.3, 0.2, 0.2, 0.4])
     job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
+    path = tmp_path / "improved_200.csv"
     path.write_text(samples.sample_of(job, trials))
+    return path, trials
+
+
+def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(sample):
+    path, trials = sample
     assert best(trials).index.tolist() == [0, 5]
     assert samples.winners(path) == best(trials).to_dict("records")
 
@@ -235,19 +234,15 @@ def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(study, tmp
     ],
     ids=["cut off", "cut off in a row", "a further search", "no number"],
 )
-def test_a_sample_without_a_winner_for_each_search_is_refused(study, spoil, tmp_path):
-    path = tmp_path / "improved_200.csv"
-    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
-    path.write_text(samples.sample_of(job, sample_of_two()))
+def test_a_sample_without_a_winner_for_each_search_is_refused(spoil, sample):
+    path, _ = sample
     path.write_text("\n".join(spoil(path.read_text().splitlines())) + "\n")
     with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
         samples.winners(path)
 
 
-def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(study, tmp_path):
-    path, trials = tmp_path / "improved_200.csv", sample_of_two()
-    job = samples.sought(study, "improved_200").model_copy(update={"searches": 2})
-    path.write_text(samples.sample_of(job, trials))
+def test_runs_get_the_winners_of_their_searches_and_beyond_the_last_the_first(study, sample):
+    path, trials = sample
     learner = build_tuned(rules(study, "improved"), path, [2, 1, 3])
     widths = best(trials)["initial_width"].tolist()
     assert np.ravel(learner.schedule.initial_width).tolist() == [widths[1], widths[0], widths[0]]

@@ -1,6 +1,7 @@
 import os
 
 import pytest
+from snakemake.iocontainers import Wildcards
 
 from recalib.study.plots.registry import FIGURES
 from tests.conftest import ROOT
@@ -23,6 +24,25 @@ def test_a_training_depends_on_its_rules_and_not_on_figures_or_other_learners():
     assert "workflow/scripts/call.py" in needed
     others = ("plots", "evidence", "recording", "identification", "learners/geo", "regression")
     assert not [path for path in needed if any(other in path for other in others)]
+
+
+@pytest.mark.parametrize(
+    ("rule", "which", "module"),
+    [
+        ("benchmark_run", {"learner": "hybrid"}, "hybrid"),
+        ("benchmark_run", {"learner": "affine"}, "polynomial"),
+        ("real_run", {"learner": "gaussian_process"}, "gaussian_process"),
+        ("real_twin", {"learner": "improved"}, "hybrid"),  # that identifies the twin
+        ("recording", {"recording": "links_encoders"}, "geometric"),
+    ],
+)
+def test_a_job_depends_on_the_peer_that_it_is_told(rule, which, module, rules, study, monkeypatch):
+    monkeypatch.setattr(dependencies, "code", lambda *named: " ".join([*named, ""]))
+    rules.become({"results": study})
+    digest = dict(rules.workflow.get_rule(rule).params.items())["code"]
+    named = digest(Wildcards(fromdict={"root": "results"} | which)).split()
+    assert f"recalib.learners.{module}" in named
+    assert len([name for name in named if name.startswith("recalib.learners")]) == 1
 
 
 def test_a_figure_depends_on_the_module_that_draws_it_and_not_on_other_figures():

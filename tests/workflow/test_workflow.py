@@ -106,7 +106,7 @@ def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_pat
     controller, runs = resolved.controller(), range(2)
     alone = train_for_results(
         resolved.plant(controller, seed, runs),
-        make_peer("affine", 2, controller),
+        make_peer("affine", 2, controller.robot),
         Stream.SCENARIO.draw(seed, runs, 2, 20, scenario="noise"),
         [1, 2],
     )

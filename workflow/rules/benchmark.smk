@@ -1,5 +1,6 @@
 """What should one use today? No part of the default run."""
 
+from recalib.study.plan.competitors import TWIN, homes_of
 from recalib.study.plan.trainings import rules_unless_peer
 
 
@@ -25,6 +26,7 @@ rule benchmark_run:
     params:
         **calls(
             "recalib.study.experiments.benchmark.compete",
+            also=lambda w: homes_of([w.learner]),
             reads=lambda w: [sample_of_competitor(w)],
         ),
         arguments=lambda w: as_text(
@@ -103,6 +105,7 @@ rule real_run:
     params:
         **calls(
             "recalib.study.experiments.real_arm.learn_from_tables",
+            also=lambda w: homes_of([w.learner]),
             reads=lambda w: [study(w).real.description],
         ),
         arguments=lambda w: as_text(
@@ -133,6 +136,7 @@ rule real_twin:
     params:
         **calls(
             "recalib.study.experiments.real_arm.learn_on_twin",
+            also=lambda w: homes_of([TWIN]),
             reads=lambda w: [study(w).real.description, sample(w, w.learner)],
         ),
         arguments=lambda w: as_text(

@@ -1,6 +1,7 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
 from recalib.study.configuration.switches import IMPROVED
+from recalib.study.plan.competitors import homes_of
 from recalib.study.plan.recordings import recording as what_is_recorded, recordings
 
 
@@ -39,6 +40,7 @@ rule recording:
     params:
         **calls(
             "recalib.study.recording.writing.record",
+            also=lambda w: homes_of(recorded(w).learners),
             reads=lambda w: [*samples_of_recorded(w), *TEXTS_OF_RECORDINGS],
         ),
         arguments=lambda w: as_text(recording=recorded(w)),

@@ -8,15 +8,14 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from recalib.damaged.damage import BaseShift
 from recalib.damaged.kinds import DISTURBANCES
-from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, dotted, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims import missing
 from recalib.study.inference.measured import MOVED, RIGID
-from recalib.study.plan.competitors import MOVES, PEERS
-from recalib.study.plan.trainings import training
+from recalib.study.plan.competitors import MOVES, peers
+from recalib.study.plan.trainings import rules_unless_peer, training
 
 
 def check(study: Study) -> list[Mistake]:
@@ -46,39 +45,31 @@ def _names(study: Study) -> Iterator[Mistake]:
         (_places(("experiments", "scenarios"), plan.scenarios), [*study.scenarios, *on_robots]),
         (_places(("benchmark", "scenarios"), benchmark.scenarios), [*study.scenarios, *on_robots]),
         (_places(("experiments", "ladder"), plan.ladder), known),
-        (_places(("real", "learners"), real.learners), PEERS),
+        (_places(("real", "learners"), real.learners), peers()),
     ):
         for path, name in places.items():
             if name not in valid:
                 yield unknown(path, name, valid)
-    for places, peers in (
+    for places, todays in (
         (_places(("experiments", "learners"), plan.learners), ()),
         (_places(("experiments", "beside"), plan.beside), ()),
         (_places(("experiments", "ensemble"), plan.ensemble), ()),
-        (_places(("benchmark", "learners"), benchmark.learners), PEERS),
+        (_places(("benchmark", "learners"), benchmark.learners), peers()),
         (_places(("real", "twin"), real.twin), ()),
     ):
         for path, name in places.items():
-            if name not in peers and not _is_training(study, name):
+            if name not in todays and rules_unless_peer(study, name) is None:
                 iterations = (f"{stem}_ITERATIONS" for stem in study.learners)
-                yield unknown(path, name, [*peers, *known, *iterations])
+                yield unknown(path, name, [*todays, *known, *iterations])
     if plan.switches:
         for name in (IMPROVED, RITTER):
             if name not in study.learners:
                 yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
-    taken = {*PEERS, *(name for switch in SWITCHES for name in (switch.without, switch.added))}
+    taken = {*peers(), *(name for switch in SWITCHES for name in (switch.without, switch.added))}
     for name in study.learners:
         stem, _, end = name.rpartition("_")
         if name in taken or (stem in study.learners and end.isdecimal()):
             yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
-
-
-def _is_training(study: Study, name: str) -> bool:
-    try:
-        training(study, name)
-    except UnknownName:
-        return False
-    return True
 
 
 def _meanings(study: Study) -> Iterator[Mistake]:
@@ -92,7 +83,7 @@ def _meanings(study: Study) -> Iterator[Mistake]:
     ):
         first: dict[tuple, str] = {}
         for place, name in _places(path, names).items():
-            which = (name,) if name in PEERS else training(study, name)
+            which = (name,) if name in peers() else training(study, name)
             if (other := first.setdefault(which, name)) != name:
                 yield unlike(place, name, f"another than {other}, which it is")
     if plan.switches:
@@ -147,7 +138,7 @@ def _budgets(study: Study) -> Iterator[Mistake]:
         if moves in plan.moves:
             yield unlike(place, moves, "a budget that is not among benchmark.moves")
     for name in plan.learners:
-        most = 0 if name in PEERS else MOVES * training(study, name).iterations
+        most = 0 if name in peers() else MOVES * training(study, name).iterations
         if most and not any(
             budget <= most and budget % MOVES == 0 for budget in (*plan.moves, *plan.longer)
         ):

@@ -6,7 +6,7 @@ The design is balanced, so that the other factors average out where one is looke
 import numpy as np
 import pandas as pd
 
-from recalib.study.inference.intervals import LEVEL
+from recalib.study.inference.intervals import LEVEL, TAILS
 
 RESAMPLES = 2000
 
@@ -31,7 +31,7 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
         drawn = random.integers(len(numbers), size=(RESAMPLES, len(numbers)))
         resampled = _spread(_means_of(numbers[drawn], one_hot[drawn]))
         shuffled = random.permuted(np.tile(numbers, (RESAMPLES, 1)), axis=1)
-        low, high = np.quantile(resampled, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+        low, high = np.quantile(resampled, TAILS)
         rows.append(
             {
                 "factor": factor,

@@ -7,7 +7,7 @@ import numpy as np
 
 from recalib.study.evidence.results import Evidence
 from recalib.study.inference.measured import ERRORS
-from recalib.study.plan.competitors import PEERS, label_of
+from recalib.study.plan.competitors import label_of, peers
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -31,8 +31,8 @@ def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
     """Scenarios, budgets and errors at which the hybrid is worse than the best other peer."""
     rows = []
     counted = [budget for budget in budgets if budget >= FIRST]
-    peers = table[table["learner"].isin(PEERS) & table["moves"].isin(counted)]
-    for (scenario, moves), own in peers.groupby(["scenario", "moves"], sort=False):
+    of_peers = table[table["learner"].isin([*peers()]) & table["moves"].isin(counted)]
+    for (scenario, moves), own in of_peers.groupby(["scenario", "moves"], sort=False):
         for error in ERRORS:
             errors = own.set_index("learner")[error]
             others = errors.drop("hybrid")

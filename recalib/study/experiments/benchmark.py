@@ -3,9 +3,9 @@
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.loop import interfaces
 from recalib.study.configuration.study import Learner
@@ -13,9 +13,6 @@ from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import MOVES, make_peer
 from recalib.study.scenarios.plants import Resolved
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 class Timed:
@@ -61,7 +58,7 @@ def compete(
     tests: int,
     seed: int,
     sample: Path | None = None,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Let a learner work through scenarios, in each of them anew.
 
     Args:
@@ -78,8 +75,6 @@ def compete(
 
     Returns a row for each scenario, seed and budget of moves.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     runs, frames = range(seeds), []
     iterations, moves_each = (rules.iterations, MOVES) if rules else (max(moves), 1)
     budgets = measured_at([*moves, *longer], iterations, moves_each)
@@ -88,7 +83,7 @@ def compete(
         learner = Timed(
             build_tuned(rules, sample, [run + 1 for run in runs])
             if rules
-            else make_peer(name, seeds, controller)
+            else make_peer(name, seeds, controller.robot)
         )
         poses = Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scenario.scenario)
         plant = scenario.plant(controller, seed, runs)

@@ -3,9 +3,8 @@
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-import numpy as np
+import pandas as pd
 
 from recalib.damaged.damage import Damage, DamagedArm, apply
 from recalib.damaged.plant import Plant
@@ -15,12 +14,10 @@ from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
+from recalib.study.inference.measured import ERRORS
 from recalib.study.scenarios.assignments import Ways
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_controller
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
@@ -50,7 +47,7 @@ def train_draws(
     rules: Learner,
     tests: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Train a learner on some robots of a series, each with all scales of its damage.
 
     Args:
@@ -66,8 +63,6 @@ def train_draws(
 
     Returns a row for each robot and scale.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     controller = nominal_controller(nominal)
     robot, iterations = controller.robot, rules.iterations
     ways = Ways(nominal.robot.links, shorten, robot.joints, shift)
@@ -87,7 +82,7 @@ def train_draws(
         "scale": [scale for _, scale in cases],
         "refused": history.refused[:, -1],
     }
-    for moment, when in (("initial", 0), ("final", -1)):
-        table[f"{moment}_position_error_cm"] = 100 * history.position[:, when, 0]
-        table[f"{moment}_orientation_error_deg"] = np.degrees(history.orientation[:, when, 0])
+    columns = history.columns()
+    for when, moment in enumerate(("initial", "final")):
+        table |= {f"{moment}_{error}": columns[error][when::2] for error in ERRORS}
     return pd.DataFrame(table)

@@ -1,22 +1,16 @@
 """Learning from laser tracker data of a real arm, and on a twin identified from these data."""
 
-from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 import pinocchio as pin
 
 from recalib.damaged.plant import Plant
-from recalib.errors import UnknownName
-from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
+from recalib.identification.calibration import Calibration
 from recalib.identification.observations import Observations
-from recalib.learners.gaussian_process import GaussianProcessLearner
-from recalib.learners.polynomial import PolynomialLearner
+from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
@@ -26,12 +20,9 @@ from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
-from recalib.study.plan.competitors import MOVES
+from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 
@@ -48,46 +39,20 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     return replace(robot, arm=arm, workspace=workspace)
 
 
-def calibrate_geometric(arm: Arm, measurements: Measurements) -> Calibration:
-    """The geometry of the nominal arm, identified."""
-    model = ErrorModel(arm, OFFSETS)
-    return Calibration(
-        model, identify(model, Observations(measurements.angles, measurements.measured))
-    )
+def identified(kind: str, arm: Arm, measurements: Measurements) -> Calibration:
+    """The arm as a learner of a kind that knows the nominal one identifies it."""
+    return class_of(kind).identify(arm, Observations(measurements.angles, measurements.measured))
 
 
-def calibrate_hybrid(arm: Arm, measurements: Measurements) -> Calibration:
-    """Geometry, and as much else as the measurements show: a twin of the arm, for a `Plant`."""
-    return calibrate(
-        arm,
-        (OFFSETS, JOINT_ERRORS, JOINT_WAVES),
-        Observations(measurements.angles, measurements.measured),
-    )
-
-
-def _model_based(
-    fit: Callable[[Arm, Measurements], Calibration],
-    arm: Arm,
-    known: Measurements,
-    unknown: Measurements,
-) -> np.ndarray:
-    return unknown.measured - fit(arm, known).forward(unknown.angles)[:, :3, 3]
-
-
-def _black_box(
-    make: Callable[[], PolynomialLearner | GaussianProcessLearner],
-    arm: Arm,
-    known: Measurements,
-    unknown: Measurements,
-) -> np.ndarray:
+def _black_box(its: Peer, robot: Robot, known: Measurements, unknown: Measurements) -> np.ndarray:
     """Asked for the pose that was measured, the learner should command the one that was."""
-    commanded = arm.forward(known.angles)
+    arm, commanded = robot.arm, robot.arm.forward(known.angles)
     centre = commanded[
         np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = make()
+    learner = class_of(its.kind).from_settings(its.settings, 1, robot)
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)
@@ -107,33 +72,27 @@ def _coordinates(
     return workspace.to_coordinates(commanded)[None], workspace.to_coordinates(achieved)[None]
 
 
-# By name: from the nominal arm, measurements to learn from and others to be tested on, the errors
-# left there (m, 3) [m].
-LEARNERS: Mapping[str, Callable[[Arm, Measurements, Measurements], np.ndarray]] = {
-    "uncorrected": lambda arm, known, unknown: unknown.measured - unknown.nominal,
-    "affine": partial(_black_box, partial(PolynomialLearner, degree=1)),
-    "quadratic": partial(_black_box, partial(PolynomialLearner, degree=2)),
-    "gaussian_process": partial(_black_box, GaussianProcessLearner),
-    "geometric": partial(_model_based, calibrate_geometric),
-    "hybrid": partial(_model_based, calibrate_hybrid),
-}
-
-
 def remaining_errors(
-    learner: str, arm: Arm, known: Measurements, unknown: Measurements
+    learner: str, robot: Robot, known: Measurements, unknown: Measurements
 ) -> np.ndarray:
-    """Distances (m,) [m] that the learner leaves at poses it has not learned from.
+    """Distances (m,) [m] that a peer leaves at poses it has not learned from.
 
     Args:
-        learner: one of `LEARNERS`.
-        arm: the nominal arm, its tool at the point that was measured; see `with_tool_point`.
+        learner: name of the peer.
+        robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
         known, unknown: what it learns from, and what it is tested on.
 
     Raises UnknownName.
     """
-    if learner not in LEARNERS:
-        raise UnknownName("learner from recorded poses", learner, LEARNERS)
-    return np.linalg.norm(LEARNERS[learner](arm, known, unknown), axis=-1)
+    its = peer(learner)
+    if learner == UNCORRECTED:
+        errors = unknown.measured - unknown.nominal
+    elif its.needs == KINEMATICS:
+        reached = identified(its.kind, robot.arm, known).forward(unknown.angles)
+        errors = unknown.measured - reached[:, :3, 3]
+    else:
+        errors = _black_box(its, robot, known, unknown)
+    return np.linalg.norm(errors, axis=-1)
 
 
 def learn_from_tables(
@@ -145,31 +104,29 @@ def learn_from_tables(
     poses: tuple[int, ...],
     subsets: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
 
     Args:
         description: what these tables do not say themselves.
         nominal: the robot.
-        learner: one of `LEARNERS`.
+        learner: name of the peer.
         poses: how many to learn from.
         subsets: for each number of poses.
         seed: of the study.
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
     for count in poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
-        once = count >= len(known) or learner == "uncorrected"
+        once = count >= len(known) or learner == UNCORRECTED
         for subset in range(1 if once else subsets):
             order = generator(seed, "real", count, subset).permutation(len(known))
-            errors = remaining_errors(learner, robot.arm, known[order[:count]], tests)
+            errors = remaining_errors(learner, robot, known[order[:count]], tests)
             cells = {"learner": learner, "poses": count, "subset": subset}
             rows.append(cells | {"position_error_mm": 1e3 * errors.mean()})
     return pd.DataFrame(rows)
@@ -186,7 +143,7 @@ def learn_on_twin(
     subsets: int,
     tests: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
 
     Args:
@@ -201,11 +158,9 @@ def learn_on_twin(
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     said = read_whole_description(description)
     robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
-    twin = calibrate_hybrid(robot.arm, read_of(robot.arm, fit, said))
+    twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}
     history = train_for_results(

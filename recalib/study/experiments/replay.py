@@ -1,9 +1,9 @@
 """Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.files.archives import flat
 from recalib.study.configuration.study import Learner
@@ -11,11 +11,8 @@ from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.scenarios.plants import Resolved
 
-if TYPE_CHECKING:
-    import pandas as pd
 
-
-def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> "pd.DataFrame":
+def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> pd.DataFrame:
     """For each array that the learner holds, the largest difference between both teachers.
 
     Args:
@@ -24,8 +21,6 @@ def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> "pd.DataF
         rules: of the learner.
         seed: of the study.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     resolved, iterations = Resolved.read(scenario), rules.iterations
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired

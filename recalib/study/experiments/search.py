@@ -34,15 +34,6 @@ def columns(rules: Rules) -> list[str]:
     ]
 
 
-def _kinds(rules: Rules) -> list[str]:
-    return [
-        "initial_width",
-        *["final_width"] * (len(columns(rules)) - 3),
-        "initial_rate",
-        "final_rate",
-    ]
-
-
 def draw(
     rules: Rules,
     ranges: Mapping,
@@ -61,7 +52,8 @@ def draw(
     import pandas as pd  # half a second each, which every training would pay
     from scipy.stats import qmc
 
-    low, high = np.log(np.array([ranges[kind] for kind in _kinds(rules)])).T
+    own = [ranges.get(column, ranges["final_width"]) for column in columns(rules)]
+    low, high = np.log(np.array(own)).T
     unit = qmc.Sobol(len(low), rng=random).random(count)
     if around is not None:
         values = np.log([around[column] for column in columns(rules)])

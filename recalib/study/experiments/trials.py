@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
@@ -18,8 +19,6 @@ from recalib.study.experiments.settings import rules_of
 from recalib.study.scenarios.plants import Resolved
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from recalib.learners.radial import RadialLearner
 
 DIGITS = 4  # of errors and scores
@@ -33,7 +32,7 @@ def search_for(
     first: int,
     last: int,
     tests: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """All trials of some searches, a row each.
 
     Args:
@@ -44,8 +43,6 @@ def search_for(
         first, last: the first of its searches that are done, and one past the last.
         tests: poses on which a trial is measured.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(budget.seeds)]
     found = []
@@ -96,10 +93,8 @@ class Search:
     def __post_init__(self):
         SearchPoses.only(self.poses)
 
-    def all_rounds(self) -> "pd.DataFrame":
+    def all_rounds(self) -> pd.DataFrame:
         """All trials, round after round, a row each."""
-        import pandas as pd  # a quarter of a second: no start waits for it
-
         rounds: list[pd.DataFrame] = []
         for round_ in range(1, self.budget.rounds + 1):
             centre = best_of(pd.concat(rounds, ignore_index=True)) if rounds else None
@@ -109,20 +104,18 @@ class Search:
             rounds.append(trials)
         return pd.concat(rounds, ignore_index=True)
 
-    def further(self, start: Mapping) -> "pd.DataFrame":
+    def further(self, start: Mapping) -> pd.DataFrame:
         """A trial, and others around it: as many as a round has, all in all."""
-        import pandas as pd
-
         random = generator(self.budget.seed, self.poses.name, "further trials")
         around = self._drawn(random, start)
         first = pd.DataFrame([{column: start[column] for column in around}])
         return self._tried(pd.concat([first, around.iloc[:-1]], ignore_index=True))
 
-    def _drawn(self, random: np.random.Generator, around: Mapping | None) -> "pd.DataFrame":
+    def _drawn(self, random: np.random.Generator, around: Mapping | None) -> pd.DataFrame:
         ranges, count = dict(self.budget.ranges), self.budget.trials
         return search.draw(self.rules, ranges, count, random, around).assign(**self.fixed)
 
-    def _tried(self, trials: "pd.DataFrame") -> "pd.DataFrame":
+    def _tried(self, trials: pd.DataFrame) -> pd.DataFrame:
         """The trials with their errors and scores."""
         seeds, iterations, _ = self.poses.desired.shape
         runs = len(trials) * seeds
@@ -143,7 +136,7 @@ class Search:
         return trials
 
 
-def best_of(trials: "pd.DataFrame") -> "pd.Series":
+def best_of(trials: pd.DataFrame) -> pd.Series:
     """The trial of one search that it keeps."""
     return trials.loc[trials["score"].idxmin()]
 

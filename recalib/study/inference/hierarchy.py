@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.study.inference.intervals import LEVEL, Estimate
+from recalib.study.inference.intervals import TAILS, Estimate
 
-TAILS = (1 - LEVEL) / 2, (1 + LEVEL) / 2
 DRAWS = 1024  # of the pivot
 HALVINGS = 40  # of an interval of 12 decades: to 1e-11
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 LEVEL = 0.95
+TAILS = (1 - LEVEL) / 2, (1 + LEVEL) / 2  # of a distribution: what lies between them is the level
 RESAMPLES = 20_000
 
 
@@ -66,7 +67,7 @@ class Draws:
         fewest, *more = sorted(self._searches)[:2]
         if fewest < 2:
             return Estimate(float(numbers[0]), np.nan, np.nan)
-        student = stdtrit(sum(size - 1 for size in (fewest, *more)), (1 + LEVEL) / 2)
+        student = stdtrit(sum(size - 1 for size in (fewest, *more)), TAILS[1])
         width = np.sqrt(2 * fewest / (fewest - 1)) * student
         levels = ndtr([-width, width])
         low, high = np.quantile(numbers[1:], levels, method="closest_observation")
@@ -82,7 +83,7 @@ def bootstrap(values: np.ndarray, random: np.random.Generator) -> Estimate:
     if len(values) < 2:
         return Estimate(float(values.mean()), np.nan, np.nan)
     means = values[random.integers(len(values), size=(2000, len(values)))].mean(axis=1)
-    low, high = np.quantile(means, [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    low, high = np.quantile(means, TAILS)
     return Estimate(float(values.mean()), float(low), float(high))
 
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.controller import Controller
@@ -13,13 +13,10 @@ from recalib.numerics.randomness import generator
 from recalib.study.mapping.true_mapping import mapping_jacobians
 from recalib.study.scenarios.plants import Resolved
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSITION)}
 
 
-def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "pd.DataFrame":
+def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
     """The off-diagonal blocks of the true mapping's Jacobian against the diagonal ones.
 
     Args:
@@ -30,8 +27,6 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "p
     Returns a row for each pose, with columns position and orientation for these commands: the ratio
     of the blocks' Frobenius norms, in coordinates of the workspace.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
         name: [np.linalg.norm(jacobians[:, own, part], axis=(1, 2)) for part in (own, other)]
@@ -40,7 +35,7 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> "p
     return pd.DataFrame({name: off / diagonal for name, (diagonal, off) in norm.items()})
 
 
-def couplings(scenarios: Sequence[Path], poses: int, seed: int) -> "pd.DataFrame":
+def couplings(scenarios: Sequence[Path], poses: int, seed: int) -> pd.DataFrame:
     """The coupling at random poses of each scenario.
 
     Args:
@@ -48,8 +43,6 @@ def couplings(scenarios: Sequence[Path], poses: int, seed: int) -> "pd.DataFrame
         poses: of each.
         seed: of the study.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     tables = []
     for scenario in map(Resolved.read, scenarios):
         controller = scenario.controller()

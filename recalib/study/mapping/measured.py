@@ -1,14 +1,12 @@
 """What sections 3 to 5 say of the cells and of the true mapping, in one job."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import pandas as pd
 
 from recalib.study.mapping.coupling import couplings
 from recalib.study.mapping.propagation import propagation
 from recalib.study.mapping.quantisation import quantisation
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 def measure(
@@ -20,7 +18,7 @@ def measure(
     radius: float,
     scales: tuple[float, ...],
     seed: int,
-) -> "tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]":
+) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
     """Coupling, propagation and quantisation: see `couplings`, `propagation` and `quantisation`.
 
     Args:

@@ -7,18 +7,15 @@ the original one than to a constant function", and likewise for Jacobians.
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
 from recalib.numerics.randomness import generator
 from recalib.study.configuration.damages import damages_among
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from recalib.study.scenarios.plants import Resolved
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 Mapping = Callable[[np.ndarray], np.ndarray]
 
@@ -78,7 +75,7 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
 
 def propagation(
     scenario: Path, balls: int, points: int, radius: float, scales: Sequence[float], seed: int
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """The integrals in balls about random centres, from slight to large damage.
 
     Args:
@@ -90,8 +87,6 @@ def propagation(
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)

@@ -5,16 +5,13 @@ the quantization error. These centers do not need to move".
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.learners.nets import CENTRES, nearest, regular_grid
 from recalib.learners.schedules import exponential
 from recalib.numerics.randomness import generator
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 SHAPE = (3, 3, 3)  # of a supernet and of a subnet (section 7)
 ITERATIONS = (200, 10_000)  # of the Kohonen rule: the paper's two trainings
@@ -71,7 +68,7 @@ def quantisation(
     shape: Sequence[int] = SHAPE,
     iterations: Sequence[int] = ITERATIONS,
     seeds: int = SEEDS,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """The quantisation error of each placement of cells in [-1, 1]^d, for uniform poses.
 
     Args:
@@ -85,8 +82,6 @@ def quantisation(
     uniform random starts; "kmeans", a bound for the best there is. Those of a seed are measured on
     the same poses, and placed by others.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     cells, dimensions = int(np.prod(shape)), len(shape)
     randoms = {
         name: [generator(seed, "quantisation", name, number) for number in range(seeds)]

@@ -14,13 +14,13 @@ from recalib.nominal.poses import pose_errors
 from recalib.numerics.randomness import generator
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import PaperDamage, Published
+from recalib.study.configuration.study import PaperDamage
 from recalib.study.configuration.universes import Universes
 from recalib.study.multiverse.design import Designed
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.universe import DIGITS, robot_in
-from recalib.study.scenarios.assignments import TIE, Ways, distance_to, initial_errors
+from recalib.study.scenarios.assignments import Ways, compare
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
 
@@ -87,8 +87,8 @@ def draw(setting: Setting, universe: int, row: Row) -> Designed:
     if levels["assignment"] == "any":
         damage = ways[int(row.share * len(ways))]
     else:
-        few, error = tests[: plan.assignment_poses], levels["error"]
-        damage = _nearest(controller, ways, setting.damage.published, scale, few, error)
+        few, published = tests[: plan.assignment_poses], setting.damage.published
+        damage = ways[compare(controller, ways, few, published, scale, levels["error"])[1]]
     position, orientation = _initial_errors(controller, damage, tests, levels["error"])
     return Designed(
         universe=universe,
@@ -137,25 +137,6 @@ def _controller(
     if row.levels["home"] == "configured":
         return Controller(robot, greatest), 0
     return random_home(robot, spread, greatest, random)
-
-
-def _nearest(
-    controller: Controller,
-    ways: Ways,
-    published: Published,
-    scale: float,
-    tests: np.ndarray,
-    error: str,
-) -> tuple[Damage, ...]:
-    """The assignment whose initial errors are nearest to the published ones, of the same scale."""
-    position, orientation = map(
-        np.concatenate, zip(*initial_errors(controller, ways, tests, error), strict=True)
-    )
-    errors = {
-        "position_error_cm": 100 * position / scale,
-        "orientation_error_deg": np.degrees(orientation),
-    }
-    return ways[int(distance_to(errors, published).round(TIE).argmin())]
 
 
 def _initial_errors(

@@ -5,19 +5,17 @@ quasi-random trials each as a rough search has.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.study.configuration.lengths import LONG
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
+from recalib.study.inference.measured import ERRORS
 from recalib.study.scenarios.plants import Resolved
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 FIRST, WATCHED = 1000, 60  # iterations and measurements: nobody gets there earlier
 
@@ -31,7 +29,7 @@ def efforts(
     seeds: int,
     tests: int,
     seed: int,
-) -> "pd.DataFrame":
+) -> pd.DataFrame:
     """Errors of the winners of all searches for a training, full and rough, each with its seeds.
 
     Args:
@@ -47,8 +45,6 @@ def efforts(
     Returns a row for each effort, search, seed and measurement: the last one, and in a long
     training those on its way.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     trials, found = read_sample(sample), []
     for effort, winners in (("full", best(trials)), ("rough", rough(trials, rough_trials))):
         table = _trained(Resolved.read(scenario), learner, winners, seeds, tests, seed)
@@ -58,7 +54,7 @@ def efforts(
     return table
 
 
-def rough(trials: "pd.DataFrame", size: int) -> "pd.DataFrame":
+def rough(trials: pd.DataFrame, size: int) -> pd.DataFrame:
     """Winners of the rough searches that the first rounds hold: so many trials after another."""
     first = trials[trials["round"] == 1]
     groups = [first["search"], first.groupby("search").cumcount() // size]
@@ -66,11 +62,9 @@ def rough(trials: "pd.DataFrame", size: int) -> "pd.DataFrame":
 
 
 def _trained(
-    resolved: Resolved, learner: Learner, winners: "pd.DataFrame", each: int, tests: int, seed: int
-) -> "pd.DataFrame":
+    resolved: Resolved, learner: Learner, winners: pd.DataFrame, each: int, tests: int, seed: int
+) -> pd.DataFrame:
     """Winners (a row each) trained with `each` seeds each; all see the same poses by seed."""
-    import pandas as pd
-
     iterations, seeds = learner.iterations, list(range(each)) * len(winners)
     grid = [iterations]
     if iterations >= LONG:
@@ -82,14 +76,6 @@ def _trained(
         Stream.EFFORTS.draw(seed, seeds, iterations, tests),
         grid,
     )
-    runs = np.arange(len(seeds))
-    return pd.DataFrame(
-        {
-            "search": np.repeat(runs // each, len(grid)),
-            "seed": np.repeat(seeds, len(grid)),
-            "iterations": iterations,
-            "iteration": np.tile(grid, len(runs)),
-            "position_error_cm": 100 * history.position[..., 0].ravel(),
-            "orientation_error_deg": np.degrees(history.orientation[..., 0]).ravel(),
-        }
-    )
+    table = pd.DataFrame(history.columns())
+    by_run = {"search": table["run"] // each, "seed": table["run"] % each, "iterations": iterations}
+    return pd.DataFrame(by_run | {name: table[name] for name in ("iteration", *ERRORS)})

@@ -5,9 +5,9 @@ comparison is a ratio of errors, or of their geometric mean over position and or
 """
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.learners.radial import RadialLearner
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES, Switch
@@ -18,9 +18,6 @@ from recalib.study.inference.measured import ERRORS, KINDS, NONE, RIGID
 from recalib.study.mapping.coupling import coupling
 from recalib.study.multiverse.universe import Universe
 from recalib.study.multiverse.world import World
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 WORKSPACE = 2.0  # wide: a neighbourhood that is as wide holds all of it
 LATE = 1000  # iterations: after 200, Ritter's has hardly begun, and nothing can be compared
@@ -91,7 +88,7 @@ def ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
     )
 
 
-def _few(world: World, trials: Mapping[str, "pd.DataFrame"]) -> "pd.DataFrame":
+def _few(world: World, trials: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     """Of the first round for the improved system, as many trials as a rough search has."""
     return trials[IMPROVED].iloc[: world.universe.rough_trials]
 
@@ -100,7 +97,7 @@ def _switched(
     world: World,
     switch: Switch,
     iterations: int,
-    trials: Mapping[str, "pd.DataFrame"],
+    trials: Mapping[str, pd.DataFrame],
     ours: np.ndarray,
     ritters: np.ndarray,
 ) -> dict[str, float]:
@@ -141,7 +138,7 @@ def _two_over_one(world: World, single: str, separate: str, iterations: int) -> 
     return ratio(two, one)
 
 
-def width_order(trials: "pd.DataFrame") -> dict[str, float]:
+def width_order(trials: pd.DataFrame) -> dict[str, float]:
     """Do position commands want a narrow g_k and a wide g_kl, orientation commands the reverse?
 
     Rank correlations over the first round, whose trials choose all widths by themselves: positive

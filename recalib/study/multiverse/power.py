@@ -1,16 +1,13 @@
 """The power of the second campaign: its model and verdicts, on simulated data of known truth."""
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.study.evidence.verdicts import RATIO, Verdict
 from recalib.study.inference.hierarchy import hierarchy
 from recalib.study.inference.intervals import Estimate
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 STUDIES = 1000
 # Standard deviation of the logarithm of a ratio between two searches, by effort: what the first
@@ -20,7 +17,7 @@ EFFECTS = 1.0, 0.95, 0.93, 0.91, 0.9
 HETEROGENEITIES = 0.0, 0.1, 0.2
 
 
-def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame":
+def power(setups: int, replicates: int, studies: int = STUDIES) -> pd.DataFrame:
     """Shares of simulated campaigns, a row for each true mean effect and heterogeneity.
 
     Columns: each verdict; `found`, where the interval of the heterogeneity excludes zero; and for
@@ -30,8 +27,6 @@ def power(setups: int, replicates: int, studies: int = STUDIES) -> "pd.DataFrame
         setups: half of them of full effort, the others of rough.
         replicates: of each setup.
     """
-    import pandas as pd  # a quarter of a second: no start waits for it
-
     effort = np.array(list(LUCK))[np.arange(setups) % len(LUCK)]
     spread = np.array([LUCK[level] for level in effort])
     rows = []

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
@@ -21,8 +22,6 @@ from recalib.study.multiverse.universe import Universe
 from recalib.study.scenarios.plants import nominal_controller
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from recalib.learners.radial import RadialLearner
 
     Kind = type[HierarchicalLearner | RadialLearner]
@@ -83,7 +82,7 @@ class World:
         self,
         learner: str,
         iterations: int,
-        trials: "pd.DataFrame",
+        trials: pd.DataFrame,
         scenario: str = "",
         kind: "Kind" = HierarchicalLearner,
     ) -> np.ndarray:
@@ -113,6 +112,6 @@ class World:
             [100 * history.position[..., 0], np.degrees(history.orientation[..., 0])], axis=-1
         )
 
-    def final(self, learner: str, iterations: int, trials: "pd.DataFrame", **how) -> np.ndarray:
+    def final(self, learner: str, iterations: int, trials: pd.DataFrame, **how) -> np.ndarray:
         """As `train`, geometric means of the last errors (2,) over the seeds."""
         return np.exp(np.log(self.train(learner, iterations, trials, **how)[:, -1]).mean(axis=0))

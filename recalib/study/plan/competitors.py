@@ -1,86 +1,94 @@
-"""The learners that are compared: what each needs to know, its constructor, label and colour.
+"""The learners that are compared: what each is called, what it needs to know, and how it is made.
 
 The paper's are made from their settings in the configuration
-(`recalib.study.experiments.settings`). They, and learners that are not listed here, make two moves
-an iteration; today's make one.
+(`recalib.study.experiments.settings`). They make two moves an iteration; today's, the peers, make
+one.
 """
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.errors import UnknownName
+from recalib.learners.kinds import KINDS, POSES, class_of
+from recalib.study.configuration.switches import RITTER
 
 # Whoever only asks for names need not wait for what builds and moves arms.
 if TYPE_CHECKING:
     from recalib.loop.interfaces import Learner
-    from recalib.nominal.controller import Controller
+    from recalib.nominal.robots import Robot
 
 MOVES = 2  # of an iteration of the paper's learners
-POSES, KINEMATICS = "measured poses", "measured poses, nominal kinematics"
 TWO_MOVES = f"{POSES}, two moves for each"
+UNCORRECTED = "uncorrected"  # the peer that learns nothing
+TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
 
 
-class Competitor(NamedTuple):
-    """A learner that is compared.
+class Peer(NamedTuple):
+    """One of today's learners that is compared.
 
     Attributes:
         label: what it is called.
-        color: of Okabe and Ito's palette, which the colour-blind can tell apart.
-        marker: for black and white; empty for none.
         needs: what it needs to know.
+        kind: of `recalib.learners.kinds`; empty for that which learns nothing.
+        settings: what it is made with.
     """
 
     label: str
-    color: str
-    marker: str
-    needs: str = TWO_MOVES
+    needs: str
+    kind: str
+    settings: Mapping[str, Any]
 
 
-COMPETITORS: Mapping[str, Competitor] = {
-    "improved": Competitor("improved", "#0072B2", "o"),
-    "ritter": Competitor("Ritter", "#D55E00", "P"),
-    "uncorrected": Competitor("uncorrected", "0.5", "", "nothing"),
-    "affine": Competitor("affine", "#CC79A7", "v", POSES),
-    "quadratic": Competitor("quadratic", "#E69F00", "^", POSES),
-    "gaussian_process": Competitor("Gaussian process", "#009E73", "D", POSES),
-    "geometric": Competitor("geometric", "#56B4E9", "s", KINEMATICS),
-    "hybrid": Competitor("hybrid", "#000000", "*", KINEMATICS),
-}
-PEERS = [name for name, its in COMPETITORS.items() if its.needs != TWO_MOVES]  # today's learners
+def peers() -> dict[str, Peer]:
+    """All of them by name."""
+    learning = [
+        Peer(label, its.needs, kind, settings)
+        for kind, its in KINDS.items()
+        for label, settings in its.peers.items()
+    ]
+    named = {its.label.lower().replace(" ", "_"): its for its in learning}
+    return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
 
 
-def make_peer(name: str, runs: int, controller: "Controller") -> "Learner":
+def peer(name: str) -> Peer:
+    """The peer of this name. Raises UnknownName."""
+    known = peers()
+    if name not in known:
+        raise UnknownName("peer", name, known)
+    return known[name]
+
+
+def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
     """The peer of this name, which has learned nothing yet. Raises UnknownName.
 
     Args:
         runs: so many at the same time.
-        controller: the nominal one.
+        robot: the nominal one.
     """
-    # Imported here: jobs without such a learner need not wait for SciPy.
-    from recalib.learners.gaussian_process import GaussianProcessLearner
-    from recalib.learners.geometric import GeometricLearner
-    from recalib.learners.hybrid import HybridLearner
-    from recalib.learners.polynomial import PolynomialLearner
-    from recalib.learners.uncorrected import UncorrectedLearner
+    its = peer(name)
+    if name == UNCORRECTED:
+        from recalib.learners.uncorrected import UncorrectedLearner
 
-    makes: Mapping[str, Callable[[], Learner]] = {
-        "uncorrected": UncorrectedLearner,
-        "affine": lambda: PolynomialLearner(runs=runs, degree=1),
-        "quadratic": lambda: PolynomialLearner(runs=runs, degree=2),
-        "gaussian_process": lambda: GaussianProcessLearner(runs=runs),
-        "geometric": lambda: GeometricLearner(controller, runs=runs),
-        "hybrid": lambda: HybridLearner(controller, runs=runs),
-    }
-    if name not in makes:
-        raise UnknownName("peer", name, PEERS)
-    return makes[name]()
+        return UncorrectedLearner()
+    return class_of(its.kind).from_settings(its.settings, runs, robot)
+
+
+def homes_of(names: Iterable[str]) -> list[str]:
+    """The modules of those of these learners that are peers: they are imported by what they say."""
+    known = peers()
+    kinds = [known[name].kind for name in names if name in known]
+    return [KINDS[kind].home.rpartition(".")[0] for kind in kinds if kind]
 
 
 def needs_of(name: str) -> str:
     """What a learner needs to know."""
-    return COMPETITORS[name].needs if name in COMPETITORS else TWO_MOVES
+    known = peers()
+    return known[name].needs if name in known else TWO_MOVES
 
 
 def label_of(name: str) -> str:
     """What a learner is called."""
-    return COMPETITORS[name].label if name in COMPETITORS else name.replace("_", " ")
+    known = peers()
+    if name in known:
+        return known[name].label
+    return name.capitalize() if name == RITTER else name.replace("_", " ")

@@ -8,7 +8,7 @@ from typing import Any
 
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.inference.measured import ERRORS, KINDS, UNITS
-from recalib.study.plan.competitors import COMPETITORS, label_of
+from recalib.study.plan.competitors import label_of, peers
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 
@@ -60,9 +60,20 @@ HOLDS, FAILS = "#44AA99", "#882255"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
 BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
+# Okabe and Ito's palette, in the order of the learners; later ones look as those nobody foresaw.
+SIGNS = (
+    ("#0072B2", "o"),
+    ("#D55E00", "P"),
+    ("0.5", ""),
+    ("#CC79A7", "v"),
+    ("#E69F00", "^"),
+    ("#009E73", "D"),
+    ("#56B4E9", "s"),
+    ("#000000", "*"),
+)
 STYLES = {
-    name: Style(its.color, its.marker, DASHED if name == RITTER else SOLID, its.label)
-    for name, its in COMPETITORS.items()
+    name: Style(*signs, DASHED if name == RITTER else SOLID, label_of(name))
+    for name, signs in zip((IMPROVED, RITTER, *peers()), SIGNS, strict=False)
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
 # Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.

@@ -71,7 +71,7 @@ def record(
     learners = {
         name: build_tuned(learner, searched[name], measured[name]["search"].unique())
         if learner
-        else make_peer(name, 1, resolved.controller())
+        else make_peer(name, 1, resolved.controller().robot)
         for name, learner in recording.learners.items()
     }
     write_recording(rrd, recording, resolved, learners, measured, seed)

@@ -4,7 +4,7 @@ The paper says by how much three links were shortened and three encoders were sh
 the initial errors were. It says neither which links and encoders nor which signs.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import permutations, product
 
 import numpy as np
@@ -108,22 +108,36 @@ def assign(
     robot = controller.robot
     ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
     poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
-    position, orientation = map(
-        np.concatenate, zip(*initial_errors(controller, ways, poses), strict=True)
-    )
-    errors = {"position_error_cm": 100 * position, "orientation_error_deg": np.degrees(orientation)}
-    distance = distance_to(errors, damage.published)
-    nearest = int(distance.round(TIE).argmin())
-    return errors | {"distance": distance}, Assignment(
+    table, nearest = compare(controller, ways, poses, damage.published)
+    return table, Assignment(
         robot=robot.name,
         assignments=len(ways),
         damages=ways[nearest],
-        distance=round(distance[nearest], TIE),
-        within_5_percent=int((distance <= 0.05).sum()),
+        distance=round(table["distance"][nearest], TIE),
+        within_5_percent=int((table["distance"] <= 0.05).sum()),
     )
 
 
-def distance_to(errors: Mapping[str, np.ndarray], published: Published) -> np.ndarray:
-    """The larger of the relative deviations of both errors (n,) from the published ones."""
-    deviations = [np.abs(errors[name] / value - 1) for name, value in published]
-    return np.maximum(*deviations)
+def compare(
+    controller: Controller,
+    ways: Ways,
+    coordinates: np.ndarray,
+    published: Published,
+    scale: float = 1.0,
+    error: str = "norm",
+) -> tuple[dict[str, np.ndarray], int]:
+    """The table of `assign` for these ways, and the row of the one nearest to what is published.
+
+    Args:
+        coordinates, error: see `initial_errors`.
+        scale: of all lengths, in those that are published.
+    """
+    errors = initial_errors(controller, ways, coordinates, error)
+    position, orientation = map(np.concatenate, zip(*errors, strict=True))
+    table = {
+        "position_error_cm": 100 * position / scale,
+        "orientation_error_deg": np.degrees(orientation),
+    }
+    distances = [np.abs(table[name] / value - 1) for name, value in published]
+    table["distance"] = np.maximum(*distances)
+    return table, int(table["distance"].round(TIE).argmin())

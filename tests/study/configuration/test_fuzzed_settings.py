@@ -26,7 +26,7 @@ from recalib.study.evidence.needs import Request
 from recalib.study.experiments.search import draw
 from recalib.study.experiments.settings import rules_of
 from recalib.study.plan.chunks import bounds, chunks, searches_per_job
-from recalib.study.plan.competitors import MOVES, PEERS
+from recalib.study.plan.competitors import MOVES, peers
 from recalib.study.plan.trainings import Trainings, searches, seeds
 from recalib.study.plan.trainings import rules as rules_named
 from recalib.study.plots.registry import drawn
@@ -188,7 +188,7 @@ def assert_sense(study: Study, rules: Rules) -> None:
     for learner in study.benchmark.learners:
         budgets = [*study.benchmark.moves, *study.benchmark.longer]
         assert len(budgets) == len({*budgets})
-        if learner not in PEERS:
+        if learner not in peers():
             most = MOVES * rules_named(study, learner).iterations
             assert [each for each in budgets if each % MOVES == 0 and each <= most]
     learner = rules_of(next(iter(study.learners.values())))

@@ -19,7 +19,7 @@ from recalib.study.evidence.claims import (
     maps,
     missing,
 )
-from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.claims.claim import Finding, Limit
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.evidence.verdicts import Verdict
@@ -405,27 +405,6 @@ def test_what_the_claims_lack_is_told_by_key(study):
     assert lacking(ladder={"improved": (200,), "ritter": (200, 10_000)}) == [
         "experiments.ladder.ritter_double"
     ]
-
-
-def test_adding_a_claim_touches_its_file_and_the_list_alone(supporting):
-    claim = Claim(
-        id="new",
-        section="1",
-        quotation="there are",
-        statement="There are {iterations}.",
-        short="There are {}",
-        limits={"most": Limit(1000)},
-        criterion="At most {most}.",
-        reason="Why not.",
-        needs="iterations",
-        measure=lambda evidence, limits: Finding(
-            verdict=Verdict.SUPPORTED, numbers={"n": evidence.fact("iterations")}
-        ),
-    )
-    judged = claim.judge(supporting.evidence(claim.all_needs))
-    assert judged["statement"] == "There are 200." and judged["criterion"] == "At most 1000."
-    assert (judged["verdict"], judged["published"]) == ("supported", "no number")
-    assert judged["universes"] == {"status": "cannot vary"} and judged["measured"] == {"n": 200}
 
 
 @pytest.mark.parametrize("claim", [figure_1.CLAIM, maps.SEPARATE], ids=lambda claim: claim.id)

@@ -9,11 +9,7 @@ import pytest
 from recalib.study.evidence import checks, report
 from recalib.study.evidence.benchmark import put_together, seconds
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.reasons import integral_ratios
-from recalib.study.evidence.deviations import REMOVED, unnamed
-from recalib.study.evidence.effects import effects
 from recalib.study.evidence.pages import PAGES
-from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.inference import hierarchy, intervals
 from recalib.study.multiverse import power
 from tests.conftest import ROOT
@@ -79,33 +75,6 @@ def test_what_the_report_may_say(results, data_regression):
     data_regression.check({key: said[key] for key in said.keys() - SAID})
 
 
-def test_integrals_of_section_5_by_scale(results, data_regression):
-    table = pd.read_parquet(results.path("mapping/propagation.parquet"))
-    table.loc[4, "updated"] = np.nan
-    data_regression.check(plain(integral_ratios(table).to_frame().reset_index()))
-
-
-def test_iterations_that_errors_need(data_regression):
-    rungs, errors = np.array([10, 30, 90]), np.array([[5.0, 3.0], [2.0, 2.5], [0.7, 0.4]])
-    found = {
-        number: [
-            float(iterations_needed(rungs[:number], errors[:number], np.array(target)))
-            for target in ([6.0, 4.0], [3.0, 2.9], [1.0, 1.0], [0.1, 0.1])
-        ]
-        for number in (1, 2, 3)
-    }
-    data_regression.check(plain(found))
-
-
-def test_digests_that_the_page_of_deviations_does_not_name():
-    told = {
-        "registered": {"kept": "a", "changed": "b", "gone": "c", "removed": "d"},
-        "deviations": [{"digests": {"removed": REMOVED, "later": "e"}}, {}],
-    }
-    today = {"kept": "a", "changed": "x", "later": "e", "new": "y"}
-    assert unnamed(told, today) == {"changed": "x", "new": "y", "gone": REMOVED}
-
-
 def test_the_tables_of_results(results, data_regression):
     names = "summary", "benchmark", "benchmark_moves", "real"
     tables = {name: pd.read_csv(results.path(f"{name}.csv")) for name in names}
@@ -135,13 +104,6 @@ def test_what_the_check_says_of_a_summary(results, tmp_path, data_regression):
     data_regression.check({"bands": plain(bands), "text": text.splitlines()[:6]})
 
 
-def test_the_effects_of_factors(data_regression):
-    rng = np.random.default_rng(8)
-    design = pd.DataFrame({"one": [*"abc"] * 14, "two": [*"xy"] * 21, "three": [*"pqqprr"] * 7})
-    numbers = rng.normal(size=42) + 2.0 * (design["two"] == "y") - (design["one"] == "b")
-    data_regression.check(plain(effects(numbers.to_numpy(), design, rng)))
-
-
 UNEVENLY = np.random.default_rng(3).lognormal(size=(5, 4, 2))
 
 
@@ -155,15 +117,10 @@ def test_intervals_of_uneven_errors(data_regression):
         plain(
             {
                 "estimate": intervals.estimate(ours[..., 0], rng()),
-                "of a single search": intervals.estimate(ours[:1, :, 0], rng()),
                 "geometric": intervals.geometric(ours[..., 1], rng()),
                 "ratio": intervals.ratio(ours[..., 0], theirs[..., 1], rng()),
                 "bootstrap": intervals.bootstrap(ours[..., 0].ravel(), rng()),
-                "of a single seed": intervals.bootstrap(ours[0, :1, 0], rng()),
                 "of two": intervals.bootstrap(ours[0, :2, 0], rng()),
-                "typical": [intervals.typical(ours[some:]) for some in range(4)],
-                "combined": intervals.combined(ours),
-                "columns": intervals.Estimate(1.5, 0.5, 2.0).columns("error"),
                 "first within": [
                     intervals.first_within(np.array([3, 7, 9, 20]), ours[0], np.array(limits))
                     for limits in ([1.0, 1.0], [2.0, 3.0], [9.0, 9.0], [0.1, 0.1])

@@ -44,7 +44,8 @@ def needed_by_one(rungs, errors, target) -> float:
 
 def test_a_ladder_that_never_gets_there_is_no_matter_how_flat():
     flat = np.array([[2, 2], [2 - 1e-12, 2], [2, 2]])
-    assert iterations_needed(RUNGS, flat, np.array([1, 1])) == np.inf
+    for rungs in (1, 3):
+        assert iterations_needed(RUNGS[:rungs], flat[:rungs], np.array([1, 1])) == np.inf
 
 
 def test_many_ladders_at_once_are_as_one_by_one():

@@ -10,7 +10,7 @@ from recalib.study.evidence.benchmark import errors, reached, seconds
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.guidance import moves_text
 from recalib.study.evidence.real_arm import ERROR, real_errors
-from recalib.study.inference.measured import ERRORS, errors_of
+from recalib.study.inference.measured import ERRORS
 
 SEEDS = 21
 SCENARIOS, LEARNERS = ("sag", "noise"), ("hybrid", "improved")
@@ -90,17 +90,6 @@ def test_errors_on_the_real_arm_are_means_over_subsets(roots):
     assert np.isnan(table[f"{ERROR}_low"][1]) and 7 <= table[f"{ERROR}_low"][2] < 8
     real, b, a = (zlib.crc32(key) for key in (b"real", b"b", b"a"))
     assert roots == [(1, real, b, 5), (1, real, b, 10), (1, real, a, 5)], "luck of its own"
-
-
-def test_the_errors_of_a_history_are_by_search_and_seed_in_its_first_or_last_measurement():
-    order = np.random.default_rng(0).permutation(12)
-    table = pd.DataFrame({"iteration": [0, 4] * 6, "seed": np.repeat(range(6), 2)})
-    table["search"] = 1 + table["seed"] // 3
-    table[ERRORS[0]] = 10 * table["seed"] + table["iteration"]
-    table[ERRORS[1]] = -table[ERRORS[0]]
-    table = table.iloc[order]
-    assert errors_of(table)[..., 0].tolist() == [[4, 14, 24], [34, 44, 54]]
-    assert np.array_equal(errors_of(table, "first")[..., 1], [[0, -10, -20], [-30, -40, -50]])
 
 
 def test_an_effect_is_the_difference_of_means_with_an_interval_and_a_bar_of_chance():

@@ -23,53 +23,36 @@ def test_a_verdict_is_a_word():
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "verdict"),
+    ("comparison", "low", "high", "verdict"),
     [
-        (0.5, 0.9, SUPPORTED),
-        (0.5, 0.999, SUPPORTED),  # partly within bounds, all of it below 1
-        (1.001, 2.0, CONTRADICTED),
-        (0.92, 0.99, NONE),  # equivalence comes first
-        (0.92, 1.09, NONE),
-        (1 / 1.1, 1.09, UNDECIDED),  # an end at a bound is not between them
-        (0.92, 1.1, UNDECIDED),
-        (0.8, 1.0, UNDECIDED),  # an end at the limit holds it
-        (1.0, 1.2, UNDECIDED),
-        (0.8, 1.2, UNDECIDED),
-        (nan, nan, UNDECIDED),
+        (RATIO, 0.5, 0.9, SUPPORTED),
+        (RATIO, 0.5, 0.999, SUPPORTED),  # partly within bounds, all of it below 1
+        (RATIO, 1.001, 2.0, CONTRADICTED),
+        (RATIO, 0.92, 0.99, NONE),  # equivalence comes first
+        (RATIO, 0.92, 1.09, NONE),
+        (RATIO, 1 / 1.1, 1.09, UNDECIDED),  # an end at a bound is not between them
+        (RATIO, 0.92, 1.1, UNDECIDED),
+        (RATIO, 0.8, 1.0, UNDECIDED),  # an end at the limit holds it
+        (RATIO, 1.0, 1.2, UNDECIDED),
+        (RATIO, 0.8, 1.2, UNDECIDED),
+        (RATIO, nan, nan, UNDECIDED),
+        (CORRELATION, 0.05, 0.2, SUPPORTED),
+        (CORRELATION, -0.2, -0.05, CONTRADICTED),
+        (CORRELATION, -0.09, 0.09, NONE),
+        (CORRELATION, 0.01, 0.09, NONE),
+        (CORRELATION, -0.1, 0.09, UNDECIDED),
+        (CORRELATION, -0.05, 0.2, UNDECIDED),
+        (CORRELATION, nan, nan, UNDECIDED),
+        (TENTH, 0.01, 0.09, SUPPORTED),
+        (TENTH, 0.11, 0.2, CONTRADICTED),
+        (TENTH, 0.099, 0.101, UNDECIDED),  # no bounds of equivalence, however narrow
+        (TENTH, 0.05, 0.1, UNDECIDED),
+        (TENTH, nan, nan, UNDECIDED),
     ],
 )
-def test_a_ratio_is_judged_by_its_whole_interval(low, high, verdict):
-    assert RATIO.verdict(interval(low, high)) == verdict
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [
-        (0.05, 0.2, SUPPORTED),
-        (-0.2, -0.05, CONTRADICTED),
-        (-0.09, 0.09, NONE),
-        (0.01, 0.09, NONE),
-        (-0.1, 0.09, UNDECIDED),
-        (-0.05, 0.2, UNDECIDED),
-        (nan, nan, UNDECIDED),
-    ],
-)
-def test_a_correlation_is_compared_with_zero(low, high, verdict):
-    assert CORRELATION.verdict(interval(low, high)) == verdict
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [
-        (0.01, 0.09, SUPPORTED),
-        (0.11, 0.2, CONTRADICTED),
-        (0.099, 0.101, UNDECIDED),  # no bounds of equivalence, however narrow
-        (0.05, 0.1, UNDECIDED),
-        (nan, nan, UNDECIDED),
-    ],
-)
-def test_a_limit_has_no_bounds_of_equivalence(low, high, verdict):
-    assert TENTH.verdict(interval(low, high)) == verdict
+def test_a_number_is_judged_by_its_whole_interval(comparison, low, high, verdict):
+    """A ratio, a correlation, and what has a limit without bounds of equivalence."""
+    assert comparison.verdict(interval(low, high)) == verdict
 
 
 MIRRORED = {SUPPORTED: CONTRADICTED, CONTRADICTED: SUPPORTED, NONE: NONE, UNDECIDED: UNDECIDED}

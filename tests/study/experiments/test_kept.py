@@ -1,21 +1,18 @@
 """What small searches, trainings and comparisons come to is as kept."""
 
 import numpy as np
-import pandas as pd
 import pytest
 
-from recalib.loop.training import measuring_grid
 from recalib.study.configuration.shipped import SEARCHED
-from recalib.study.experiments import search, speed
+from recalib.study.experiments import speed
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.campaign import train_seeds
 from recalib.study.experiments.ensemble import train_draws
 from recalib.study.experiments.poses import ResultPoses, Stream
 from recalib.study.experiments.replay import replay
-from recalib.study.experiments.samples import sample_of, sought, winners
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of, search_for
-from recalib.study.plan.trainings import Measuring, budget, measuring
+from recalib.study.plan.trainings import Measuring, budget
 from recalib.study.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.kept import plain
@@ -55,27 +52,6 @@ def test_trials_around_another_one(study, small, uneven_scenario, data_regressio
     first = its.all_rounds()
     again = its.further(best_of(first))
     data_regression.check(plain({"first": first, "again": again}))
-
-
-def test_draws_schedules_and_scores(study, data_regression):
-    found = {}
-    for name in ("improved", "ritter"):
-        rules, its = rules_of(study.learners[name]), budget(study)
-        trials = search.draw(rules, dict(its.ranges), 4, np.random.default_rng(2), None)
-        around = search.draw(rules, dict(its.ranges), 4, np.random.default_rng(2), trials.iloc[2])
-        trials["position_error_cm"] = np.linspace(1, 9, 4)
-        trials["orientation_error_deg"] = np.linspace(3, 2, 4) ** 2
-        scores = {
-            score: search.scores(trials, its.model_copy(update={"score": score})).to_list()
-            for score in ("worse", "geometric_mean")
-        }
-        found[name] = {
-            "trials": trials,
-            "around": around,
-            "schedule": search.schedule(trials, rules, 2),
-            "scores": scores,
-        }
-    data_regression.check(plain(found))
 
 
 @pytest.mark.parametrize("name", ["improved", "ritter"])
@@ -143,21 +119,6 @@ def test_a_replay(study, uneven_scenario, data_regression):
     found = replay(uneven_scenario, SAMPLES / "improved_200.csv", rules, seed=4)
     assert (found["difference"] == 0).all()
     data_regression.check(plain(found))
-
-
-def test_samples_of_searches(study, tmp_path, data_regression):
-    its = sought(study, "improved_200")
-    path = SAMPLES / "improved_200.csv"
-    trials = pd.read_csv(path, comment="#")
-    data_regression.check(
-        plain({"sought": its, "winners": winners(path), "text": sample_of(its, trials[:2])})
-    )
-
-
-def test_when_trainings_are_measured(study, data_regression):
-    its = measuring(study)
-    grids = [(10, 3, 20, 5), (50, 3, 20, 5), (1000, 4, 200, 12)]
-    data_regression.check(plain({"study": its, "grids": [measuring_grid(*it) for it in grids]}))
 
 
 def test_what_is_said_of_speed(study, uneven_scenario, monkeypatch, data_regression):

@@ -165,10 +165,7 @@ def test_every_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
 
     sample, scenario = ROOT / SEARCHED / "improved_200.csv", tmp_path / f"{own}.json"
     write(scenario, resolve(**rules.arguments(study, "scenario", scenario=own) | {"damages": ()}))
-    said = type("Said", (), {"target": np.eye(4)})
-    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
-    for name in ("read_of", "calibrate_hybrid", "Plant"):
-        monkeypatch.setattr(real_arm, name, lambda *_: None)
+    without_data(monkeypatch)
     search = rules.arguments(study, "search", training="improved_200", chunk=0) | {"last": 1}
     search["budget"] = search["budget"].model_copy(update={"seed": 77})
     short = {"rules": job("study_replay")["rules"].model_copy(update={"iterations": 1})}
@@ -201,6 +198,14 @@ def test_every_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
         of_robots = (77, zlib.crc32(own.encode()))  # their luck, where a job does not say whose
         met = {root[:2] for root in roots} | {of_robots}
         assert met == {(77, zlib.crc32(stream.encode())), of_robots}, stream
+
+
+def without_data(monkeypatch):
+    """A twin of no arm: its poses are drawn all the same."""
+    said = type("Said", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    for name in ("read_of", "identified", "Plant"):
+        monkeypatch.setattr(real_arm, name, lambda *_: None)
 
 
 def run_all_jobs(study, rules, folder, monkeypatch):
@@ -240,10 +245,7 @@ def run_all_jobs(study, rules, folder, monkeypatch):
         job = rules.arguments(study, "benchmark_run", learner=learner)
         file = job["rules"] and sample(learner)
         benchmark.compete([*map(resolved, study.benchmark.scenarios)], **job, sample=file)
-    said = type("Said", (), {"target": np.eye(4)})
-    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
-    for name in ("read_of", "calibrate_hybrid", "Plant"):
-        monkeypatch.setattr(real_arm, name, lambda *_: None)
+    without_data(monkeypatch)
     for name in study.real.twin:
         job = rules.arguments(study, "real_twin", learner=name)
         real_arm.learn_on_twin("", "", sample(name), **job)

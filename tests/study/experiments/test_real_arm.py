@@ -16,14 +16,13 @@ from recalib.laboratory.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.study.configuration.study import Source
 from recalib.study.experiments.real_arm import (
-    LEARNERS,
     learn_from_tables,
     learn_on_twin,
     remaining_errors,
     with_tool_point,
 )
 from recalib.study.experiments.tracker import WrongData, fetch, read_of, read_whole_description
-from recalib.study.plan.competitors import PEERS
+from recalib.study.plan.competitors import peers
 from recalib.study.scenarios.plants import nominal_robot
 from tests.conftest import ROOT
 
@@ -107,7 +106,7 @@ def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
 
 def test_learners_leave_ever_smaller_errors(recording, ur5):
     known, unknown = recording[:100], recording[100:]
-    left = {name: 1e3 * remaining_errors(name, ur5.arm, known, unknown).mean() for name in LEARNERS}
+    left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}
     assert left["uncorrected"] == pytest.approx(
         1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean()
     )
@@ -118,13 +117,13 @@ def test_learners_leave_ever_smaller_errors(recording, ur5):
     assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
 
 
-@pytest.mark.parametrize("learner", LEARNERS)
+@pytest.mark.parametrize("learner", peers())
 def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     """Where the tests were measured 1 m farther up, all of that metre remains."""
     up = [0, 0, 1.0]
     tests = recording[100:110]
     far = replace(tests, measured=tests.measured + up)
-    left = remaining_errors(learner, ur5.arm, recording[:30], far)
+    left = remaining_errors(learner, ur5, recording[:30], far)
     assert np.abs(left - 1).max() < 0.01
 
 
@@ -143,7 +142,7 @@ def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(
     taught = []
     monkeypatch.setattr(
         "recalib.study.experiments.real_arm.remaining_errors",
-        lambda _, arm, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
+        lambda _, robot, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
     )
     learned("affine", (10, 20), 2, 1)
     assert not any(few <= more for few in taught[:2] for more in taught[2:])
@@ -179,13 +178,9 @@ def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, mo
     assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
 
 
-def test_every_peer_learns_from_recorded_poses_too():
-    assert [*LEARNERS] == PEERS
-
-
 def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
     with pytest.raises(UnknownName, match="hybrid"):
-        remaining_errors("oracle", ur5.arm, recording, recording)
+        remaining_errors("oracle", ur5, recording, recording)
 
 
 @pytest.mark.parametrize(
@@ -233,12 +228,12 @@ def test_a_table_in_other_units_or_frames_is_refused(
         read_of(ur5.arm, path, description)
 
 
-@pytest.mark.parametrize("learner", LEARNERS)
+@pytest.mark.parametrize("learner", peers())
 def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
     unknown = recording[100:]
-    before = remaining_errors("uncorrected", ur5.arm, recording, unknown).mean()
+    before = remaining_errors("uncorrected", ur5, recording, unknown).mean()
     for rows in ([0], [0] * 20):
-        left = remaining_errors(learner, ur5.arm, recording[rows], unknown)
+        left = remaining_errors(learner, ur5, recording[rows], unknown)
         assert left.mean() < 1.5 * before
 
 

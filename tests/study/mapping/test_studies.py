@@ -143,19 +143,3 @@ def test_a_scale_with_a_ball_that_cannot_be_commanded_is_left_out():
     table = pd.DataFrame({"kind": "theta", "start": "intact", "scale": [1, 1, 2, 2]})
     table = table.assign(classic=2.0, updated=[1.0, 3.0, 1.0, np.nan])
     assert integral_ratios(table).to_dict() == {("theta", "intact", 1): 1.0}
-
-
-def test_both_measurements_see_the_scenarios_as_resolved(study, plan, tmp_path):
-    """The whole of the job: files in, tables out, for a damage as slight and as large as it is."""
-    path = tmp_path / "links.json"
-    write(path, plan.resolved("translation"))
-    few = study.mapping.model_copy(update={"poses": 3, "balls": 2, "points": 4, "scales": (1.0,)})
-    table = couplings([path], few.poses, study.seed)
-    assert table["scenario"].tolist() == ["translation"] * 3
-    assert table["position"].max() < 1e-6, "a rigid shift does not couple"
-    both = propagation(path, few.balls, few.points, few.radius, few.scales, study.seed)
-    assert len(both) == 2 * 2 * 2 and set(both["start"]) == {"intact", "damaged"}
-    names = ["classic", "updated", "to_original", "to_constant"]
-    assert list(both) == ["scale", "start", "kind", *names]
-    assert (both["to_original"] <= both["updated"] + 1e-20).all()
-    assert (both["to_constant"] <= both["classic"] + 1e-20).all()

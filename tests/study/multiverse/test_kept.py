@@ -1,18 +1,12 @@
 """What tiny alternative setups are and measure is as kept."""
 
-from itertools import islice
-
-import numpy as np
 import pytest
 
 from recalib.study.configuration import lengths
-from recalib.study.configuration.shipped import DESIGN, SEARCHED
+from recalib.study.configuration.shipped import SEARCHED
 from recalib.study.multiverse import efforts, horizon, measuring, reference
-from recalib.study.multiverse.design import put_together, read_design
-from recalib.study.multiverse.drawing import draw, moved
-from recalib.study.multiverse.factors import rows
+from recalib.study.multiverse.design import put_together
 from recalib.study.multiverse.power import power
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import universe
 from tests.conftest import ROOT
 from tests.kept import plain
@@ -21,26 +15,12 @@ from workflow.scripts.call import write
 
 
 @pytest.fixture(scope="module")
-def setups(study):
-    return [universe(study, designed) for designed in read_design(ROOT / DESIGN)]
+def setups(study, design):
+    return [universe(study, designed) for designed in design]
 
 
 def test_what_the_design_makes_of_the_study(setups, data_regression):
     data_regression.check({its.number: plain(its) for its in setups[::13]})
-
-
-def test_the_rules_of_learners_in_setups(setups, data_regression):
-    found = {its.number: {name: rules_in(its, name) for name in its.learners} for its in setups[:5]}
-    data_regression.check(plain(found))
-
-
-def test_setups_are_drawn(plan, rules, data_regression):
-    job = rules.arguments(plan.study, "design")["setting"]
-    drawn = [
-        draw(job, number, row).as_row() for number, row in enumerate(islice(rows(job.plan), 2))
-    ]
-    shifts = moved(job.moved, 0.7, np.random.default_rng(3)), moved(job.moved, 1.3, None)
-    data_regression.check(plain({"drawn": drawn, "moved": shifts}))
 
 
 def test_what_two_replicates_of_a_setup_measure(setups, monkeypatch, data_regression):

@@ -1,32 +1,27 @@
 """What is measured in a replicate of a setup, and with which luck, in tiny setups."""
 
 import zlib
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.learners.radial import RadialLearner
-from recalib.study.configuration.shipped import DESIGN, SEARCHED
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.experiments import poses, search
-from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.search import NETS
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.inference.measured import ERRORS, KINDS, RIGID
-from recalib.study.multiverse import efforts, horizon, measuring
-from recalib.study.multiverse.design import read_design
+from recalib.study.multiverse import horizon, measuring
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
 from recalib.study.plan.trainings import budget as budget_of
-from tests.conftest import ROOT
-from workflow.scripts.call import write
 
 ITERATIONS = 4
 
@@ -40,11 +35,6 @@ def made_small(its: Universe, **update) -> Universe:
     }
     less = {"budget": budget, "learners": learners, "tests": 3, "seeds": 2, "rungs": (4, 8, 16)}
     return its.model_copy(update=less | update)
-
-
-@pytest.fixture(scope="module")
-def design():
-    return read_design(ROOT / DESIGN)
 
 
 @pytest.fixture(scope="module")
@@ -103,15 +93,6 @@ def test_every_search_of_a_replicate_has_the_effort_of_its_setup_and_luck_of_its
     assert len(searches) - len({its.poses.name for _, its in searches}) == 3 + 1 + 1
 
 
-def test_radial_units_are_sought_for_increments_and_for_values(replicate, each):
-    _, searches = replicate
-    radial = [(name, its) for name, its in searches if its.learner is RadialLearner]
-    assert [name for name, _ in radial] == ["improved", "improved_theta_values"]
-    assert len({its.poses.name for _, its in radial}) == 2
-    ours, theirs = (its.rules for _, its in radial)
-    assert ours.theta_increments and not theirs.theta_increments
-
-
 def trial(rules, number=1) -> pd.DataFrame:
     ranges = {"initial_width": [1, 2], "final_width": [0.5, 1]}
     ranges |= {"initial_rate": [0.5, 1], "final_rate": [0.1, 0.5]}
@@ -149,35 +130,6 @@ def test_a_search_follows_from_the_seed_of_its_budget_and_a_training_from_that_o
     its.train("ritter", ITERATIONS, trial(rules_in(each, "ritter")))
     names = (each.budget.seed, f"search for improved_{ITERATIONS}, replicate 1"), (5, "replicate 1")
     assert {root[:2] for root in roots} == {(seed, zlib.crc32(of.encode())) for seed, of in names}
-
-
-@pytest.mark.parametrize(("iterations", "grid"), [(4, [4]), (8, [2, 4, 8])])
-def test_winners_of_full_and_of_rough_searches_see_the_same_poses(
-    study, plan, untrained, monkeypatch, tmp_path, iterations, grid
-):
-    """A long training is measured on its way; a first round holds several rough searches."""
-    for name, value in (("LONG", 8), ("FIRST", 2), ("WATCHED", 3)):
-        monkeypatch.setattr(efforts, name, value)
-    write(tmp_path / "links.json", plan.resolved("links"))
-    sample, learner = ROOT / SEARCHED / "improved_200.csv", study.learners["improved"]
-    learner = learner.model_copy(update={"iterations": iterations})
-    told = tmp_path / "links.json", sample, "improved", learner
-    table = efforts.efforts(*told, rough_trials=16, seeds=2, tests=3, seed=1)
-    trials = read_sample(sample)
-    first = trials[trials["round"] == 1]
-    searches = {"full": trials["search"].nunique(), "rough": len(first) // 16}
-    for (effort, found), asked in zip(table.groupby("effort"), untrained, strict=True):
-        runs = [(search, seed) for search in range(searches[effort]) for seed in (0, 1)]
-        expected = [(*run, when) for run in runs for when in grid]
-        assert [*zip(found["search"], found["seed"], found["iteration"], strict=True)] == expected
-        assert (asked.desired == asked.desired[[0, 1] * searches[effort]]).all()
-        assert (asked.desired[:2] == untrained[0].desired[:2]).all()
-        widths = np.ravel(asked.learner.schedule.initial_width)[::2]
-        if effort == "rough":
-            best = first.groupby(np.arange(len(first)) // 16)["score"].idxmin()
-        else:
-            best = trials.groupby("search")["score"].idxmin()
-        assert widths.tolist() == trials.loc[best, "initial_width"].tolist()
 
 
 def test_the_search_for_two_maps_has_the_poses_and_the_trials_of_that_for_one(each, untrained):
@@ -303,10 +255,8 @@ def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(s
     assert [*its.nominal.robot.home.values()] == pytest.approx([*own.home.values()])
     for name in ("improved", "ritter"):
         rules = rules_of(study.learners[name])
-        found = rules_in(its, name)
-        assert found.rate == rules.law_of_rate
-        for part in ("centres", "spread", "dimensions", "theta_increments", "initial"):
-            assert getattr(found, part) == getattr(rules, part)
+        assert rules_in(its, name) == replace(rules, rate=rules.law_of_rate)
+    assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
     budget = budget_of(study).model_copy(update={"seed": study.seed})
     assert its.budget == budget
 

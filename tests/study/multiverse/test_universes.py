@@ -1,6 +1,5 @@
 """The design of the multiverse, and the universes that it describes."""
 
-from dataclasses import replace
 from itertools import combinations, islice
 
 import numpy as np
@@ -14,7 +13,6 @@ from recalib.nominal.poses import pose_errors
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.shipped import DESIGN
 from recalib.study.configuration.universes import Factors
-from recalib.study.experiments.settings import rules_of
 from recalib.study.multiverse import homes
 from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.drawing import draw, draw_design, moved
@@ -22,17 +20,11 @@ from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import metric, universe, wider, width_units
-from recalib.study.plan.trainings import budget
 from recalib.study.scenarios.plants import nominal_controller, nominal_robot
 from tests.conftest import ROOT, changed
 
 FACTORS = list(Factors.model_fields)
 SAME = (0.9375, 1.125, 0.9375, 0.75, 0.75, 0.75)  # half-ranges in cm and degrees, over 26.7
-
-
-@pytest.fixture(scope="module")
-def design():
-    return read_design(ROOT / DESIGN)
 
 
 @pytest.fixture(scope="module")
@@ -210,18 +202,6 @@ def test_a_width_in_centimetres_and_degrees_means_as_much_as_one_in_half_ranges(
     units = width_units("centimetres_degrees", own)
     assert units == pytest.approx(SAME) and np.mean(units[:3]) == pytest.approx(1)
     assert width_units("half_ranges", own) == (1,) * 6
-
-
-def test_the_first_levels_are_what_the_reference_study_does(study, plan, design):
-    first = {name: str(levels[0]) for name, levels in study.universes.factors}
-    its = universe(study, design[0].model_copy(update={"levels": first}))
-    nominal = plan.nominal(study.robot)
-    assert its.nominal.robot.model_copy(update={"home": nominal.robot.home}) == nominal.robot
-    assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
-    assert its.budget.model_copy(update={"seed": study.search.seed}) == budget(study)
-    for name in ("improved", "ritter"):
-        rules = rules_of(study.learners[name])
-        assert rules_in(its, name) == replace(rules, rate=rules.law_of_rate)
 
 
 def test_the_first_campaign_is_still_read_and_drawn_the_same(plan, rules):

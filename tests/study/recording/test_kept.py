@@ -16,17 +16,15 @@ from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.study.inference.measured import ERRORS
 from recalib.study.plan.trainings import Measuring
-from recalib.study.recording import captions, colours, labels, pictures, scene, viewer
+from recalib.study.recording import captions, pictures
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.markers import base_shift, circle, markers
 from recalib.study.recording.measurements import enlarged
-from recalib.study.recording.phases import ARM, CLOCK, move
+from recalib.study.recording.phases import ARM, CLOCK
 from recalib.study.recording.sight import sight_of
-from recalib.study.recording.watched import visiting_order
 from recalib.study.recording.writing import BrokenRecording, _compare, write_recording
 from tests.kept import plain
 from tests.logged import arranged, logged
-from tests.study.recording.conftest import SEED, learner
+from tests.study.recording.conftest import learner
 
 EVERY = (
     BaseShift((0.013, -0.007, 0.021), (0.04, -0.03, 0.05)),
@@ -69,11 +67,6 @@ def test_all_that_is_logged_is_as_kept(written, data_regression):
     data_regression.check(plain(found))
 
 
-def test_all_that_is_watched_is_as_kept(written, data_regression):
-    _, watched, _ = written
-    data_regression.check(plain(watched))
-
-
 def test_all_that_is_said_is_as_kept(written, small, data_regression):
     _, watched, its = written
     job = small.model_copy(update={"published": {"position_error_cm": 8.3}})
@@ -104,33 +97,6 @@ def test_the_blueprint_is_as_kept(written, small, robot, data_regression):
         )
     ]
     data_regression.check(plain([arranged(its) for its in views]))
-
-
-def test_what_stands_beside_an_arm_is_as_kept(robot, data_regression):
-    unit, rng = scene.unit_of(robot.workspace), np.random.default_rng(3)
-    shift = base_shift(robot, EVERY)
-    sights = [sight_of(robot.workspace, rng.normal(size=(3, 3)) * side) for side in (1, [3, 0, 1])]
-    points = rng.normal(size=(4, 3))
-    angles = rng.normal(size=(3, 4, 6))
-    found = {
-        "markers": markers(robot, EVERY[:8], unit),
-        "base": shift.homogeneous,
-        "intact": base_shift(robot, LEAST).homogeneous,
-        "circle": circle(shift, 0.17),
-        "sights": [[its, its.place(0.3, -0.2), its.seen(points)] for its in sights],
-        "order": visiting_order(rng.uniform(-1, 1, (7, 6))),
-        "motion": move(angles, np.array([0, 5, 9]), robot.home, 14),
-        "axes": scene.axes_of(robot.arm.forward(rng.normal(size=(2, 6))), 0.13),
-        "colours": {name: its for name, its in vars(colours).items() if name.isupper()},
-        "sizes": {name: its for name, its in vars(labels).items() if name.isupper()}
-        | {"unit": unit},
-        "of pictures": [pictures.WINDOW, pictures.TOP_BAR, pictures.FILM, pictures.STEP],
-        "of films": [pictures.FRAME, pictures.LAST, pictures.SHOWN, pictures.REPAINTS],
-        "viewer": [viewer.HERE, viewer.PATIENCE, viewer.quiet()["CI"]],
-    }
-    found["sizes"].pop("WRONG", None)
-    found["sizes"].pop("BEFORE", None)
-    data_regression.check(plain(found))
 
 
 def test_the_ends_of_a_recording_are_as_kept(written, data_regression):
@@ -194,15 +160,3 @@ def test_why_a_recording_is_broken_is_as_kept(written, tmp_path, data_regression
             _compare(tmp_path, "affine", shown, measured)
         said[spoilt] = re.sub(r"(\d\.\d{6})\d+", r"\1", refused.value.reason)
     data_regression.check(said)
-
-
-def test_a_recording_of_another_seed_and_damage_is_as_kept(
-    small, resolved, tmp_path, data_regression
-):
-    job = small.model_copy(update={"seed": SEED + 4, "moves": 2, "published": {}})
-    job = job.model_copy(update={"learners": {"affine": None}})
-    its, path = resolved(LEAST), tmp_path / "other.rrd"
-    watched = write_recording(path, job, its, {"affine": PolynomialLearner(1)}, {}, 1)
-    entities = {key: one for key, one in logged(path).items() if "/__properties" not in key}
-    said = captions.about(its, watched).splitlines(), captions.beside(watched).splitlines()
-    data_regression.check(plain([watched, said, entities]))

@@ -158,7 +158,7 @@ def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, re
     job = job.model_copy(update={"learners": both})
     fresh = {
         "improved": learner("improved"),
-        "geometric": make_peer("geometric", 1, its.controller()),
+        "geometric": make_peer("geometric", 1, its.controller().robot),
     }
     path = tmp_path / "links_encoders.rrd"
     watched = write_recording(path, job, its, fresh, {}, 0)
