@@ -46,7 +46,7 @@ PARTS = {
     "laboratory": Part(
         ("recalib/laboratory",), ("tests/laboratory", "tests/vision", "tests/station")
     ),
-    "station": Part(("recalib/station",), ("tests/station",)),
+    "station": Part(("recalib/station",), ("tests/station", "tests/vision/test_stations.py")),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
     "nominal": Part(

@@ -73,8 +73,8 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
         with pytest.raises(StationFailed, match=says):
             seeing.measure()
     station.measure = lambda: {"picture": str(tmp_path / "grey.png")}
-    cv2.imwrite(str(tmp_path / "grey.png"), np.full((10, 10), 128, np.uint8))
-    with pytest.raises(StationFailed, match="has 10 x 10 pixels; expected, as by the lens: "):
+    cv2.imwrite(str(tmp_path / "grey.png"), np.full((10, 20), 128, np.uint8))
+    with pytest.raises(StationFailed, match="has 20 x 10 pixels; expected, as by the lens: 1280 x"):
         seeing.measure()
     grey = np.full(cell.lens.size[::-1], 128, np.uint8)
     cv2.imwrite(str(tmp_path / "grey.png"), grey)
