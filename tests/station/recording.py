@@ -10,12 +10,13 @@ import os
 from collections.abc import Sequence
 
 from recalib.damaged.plant import Plant
+from recalib.loop.interfaces import Learner
 from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
 from recalib.station.physics import PhysicsStation
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import make_peer
-from recalib.study.plan.recordings import recording
+from recalib.study.plan.recordings import Recording, recording
 from recalib.study.recording.writing import write_recording
 from recalib.study.scenarios.assignments import assign
 from recalib.study.scenarios.nominal import nominal
@@ -38,10 +39,8 @@ class InPhysics(Resolved):
         )
 
 
-def main() -> None:
-    """Train the study's recorded learners on it, and write what one would have seen."""
-    os.chdir(ROOT)  # captions are files of the project
-    KEPT.mkdir(parents=True, exist_ok=True)
+def prepared() -> tuple[Recording, InPhysics, dict[str, Learner]]:
+    """What is recorded, of which arm, and the learners, which have learned nothing yet."""
     job, its = recording(study(), study().scenario), nominal(study(), study().robot)
     damages = assign(its, study().paper_damage, study().seed)[1].damages
     resolved = resolve(job.scenario, its, damages, job.measuring.tests, study().seed)
@@ -51,9 +50,17 @@ def main() -> None:
             rules, ROOT / "workflow" / "search" / f"{short(name)}_200.csv", [SEED + 1]
         )
         if rules
-        else make_peer(name, 1, arm.controller())
+        else make_peer(name, 1, arm.controller().robot)
         for name, rules in job.learners.items()
     }
+    return job, arm, learners
+
+
+def main() -> None:
+    """Train the study's recorded learners on it, and write what one would have seen."""
+    os.chdir(ROOT)  # captions are files of the project
+    KEPT.mkdir(parents=True, exist_ok=True)
+    job, arm, learners = prepared()
     write_recording(KEPT / "live_paper.rrd", job, arm, learners, {}, SEED)
 
 
