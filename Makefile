@@ -25,7 +25,7 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | tr '|' '\t' | expand -t 12
 
 quick: STUDY = quick
-quick: study ## a small replication, in a minute: results/studies/quick
+quick: study ## a small replication, in two minutes with its set-up: results/studies/quick
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(if $(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
