@@ -31,7 +31,7 @@ from tests.mutants.nearest import Reach, nearest, reach
 from tests.mutants.page import difference, write_page
 from tests.mutants.parts import PARTS, modules
 
-ROOT, SEED = Path(__file__).parents[2], 2029
+ROOT, SEED = Path(__file__).parents[2], 2030
 KEPT = ROOT / "results" / "mutants"
 OTHERS = "others"  # the operators that cosmic-ray has
 

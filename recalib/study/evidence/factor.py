@@ -95,7 +95,8 @@ def watched(table: "pd.DataFrame", learner: str) -> dict[int, np.ndarray]:
 
 
 def _trainings(table: "pd.DataFrame", learner: str) -> "pd.DataFrame":
-    return table[table["training"].str.rpartition("_")[0] == learner]
+    names = table["training"].unique()  # few, and in very many rows
+    return table[table["training"].isin([n for n in names if n.rpartition("_")[0] == learner])]
 
 
 def on_the_way(
