@@ -130,6 +130,17 @@ def test_motors_go_straight_and_slowly_from_start_to_goal(monkeypatch):
     assert (speeds / damaged.arm.model.velocityLimit).max() == pytest.approx(0.5, rel=0.01)
 
 
+@pytest.mark.parametrize("said", [0.0, np.inf])
+def test_a_joint_that_says_no_speed_has_that_of_an_arm(said, monkeypatch):
+    damaged, asked = intact("panda"), []
+    damaged.arm.model.velocityLimit[:] = said
+    station = PhysicsStation(damaged)
+    monkeypatch.setattr(station, "_hold", lambda angles, missed=0.0: asked.append(angles.copy()))
+    station.move(postures(damaged, 1)[0], 1.0)
+    speeds = np.abs(np.diff(asked[:-1], axis=0)) / physics.STEP
+    assert speeds.max() == pytest.approx(physics.SPEED, rel=0.01)
+
+
 def test_what_was_stopped_moves_no_more():
     damaged = bent()
     station = PhysicsStation(damaged)
