@@ -6,6 +6,7 @@ PORT ?= 9090
 STUDY ?= replication
 RESULTS = $(if $(filter replication,$(STUDY)),results,results/studies/$(STUDY))
 STUDY_FILE = $(firstword $(wildcard $(STUDY).yaml workflow/studies/$(STUDY).yaml))
+NO_SUCH = $(if $(filter replication,$(STUDY))$(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
 SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STUDY_FILE))
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
@@ -28,7 +29,7 @@ quick: STUDY = quick
 quick: study ## a small replication, in two minutes with its set-up: results/studies/quick
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
-	$(if $(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
+	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet rules reason host
 	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
@@ -134,12 +135,14 @@ pictures: setup ## pictures before and after, and a film; SCENARIO=NAME for anot
 	  $(if $(SCENARIO),$(addprefix $(RESULTS)/figures/$(SCENARIO),_before.png .webp),pictures)
 
 view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
+	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 # with CI, the viewer collects and sends no statistics
 	CI=true .venv/bin/rerun --bind 127.0.0.1 --new $(RECORDING) \
 	  || { echo "No display for a window here? make web shows the same in a browser."; exit 1; }
 
 web: setup ## show recordings and report in a browser, also from a server; SCENARIO and STUDY as for make view
+	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 	.venv/bin/python -m workflow.watch $(RESULTS) --port $(PORT)
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from recalib.errors import RecalibError
+from recalib.spelling import listed
 from recalib.study.checks.consistency import check
 from recalib.study.configuration.messages import (
     InvalidConfiguration,
@@ -30,6 +31,8 @@ OTHERS = "workflow/studies"
 LIKE = "like"  # the key by which a study names another one, of which it says what it changes
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 DESCRIPTION = "real", "description"
+EXPECTED = ("expected",)
+BANDS = "scenario,learner,error,low,high"  # the header of a table of them
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 
@@ -120,9 +123,13 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
         return [its]
     like = its.content[LIKE]
     valid = {path.stem: path for path in known if path != source}  # it goes round in no circle
-    if (other := valid.pop(name := str(like.plain()), None)) is None:
-        mistake = unknown((LIKE,), name, valid)
-        raise InvalidConfiguration([f"{shown(like.place)}: {mistake}"])
+    match like.plain():
+        case str(name) if name in valid:
+            other = valid.pop(name)
+        case str(name):
+            raise _refused(like, unknown((LIKE,), name, valid))
+        case stood:
+            raise _refused(like, unlike((LIKE,), stood, f"one of {listed(valid, 'and')}"))
     own = {"name": Path(its.place[0]).stem, "expected": None}
     said = {key: value for key, value in its.content.items() if key != LIKE}
     return [
@@ -130,6 +137,10 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
         from_mapping(own, its.place[:1]),
         Placed(said, its.place),
     ]
+
+
+def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:
+    return InvalidConfiguration([f"{shown(value.place)}: {mistake}"])
 
 
 def _typed(value: Any) -> Any:
@@ -147,14 +158,19 @@ def _typed(value: Any) -> Any:
 
 
 def named_files(project: Path, study: Study) -> list[Mistake]:
-    """Files that a study names and that are not there."""
-    named = {("expected",): study.expected, DESCRIPTION: study.real.description}
+    """Files that a study names and that are not there, or are no bands."""
+    named = {EXPECTED: study.expected, DESCRIPTION: study.real.description}
     named |= {("real", "data", part, "file"): its.file for part, its in study.real.data}
-    return [
+    found = [
         unlike(path, file, "a file that is there" + (path != DESCRIPTION) * ", or null")
         for path, file in named.items()
         if file is not None and not (project / file).is_file()
     ]
+    if study.expected and not found:
+        with (project / study.expected).open(encoding="utf-8", errors="replace") as bands:
+            if bands.readline().strip() != BANDS:
+                found.append(unlike(EXPECTED, study.expected, f"a table with the header {BANDS}"))
+    return found
 
 
 def ask_robots(study: Study, scenarios: Sequence[str]) -> list[Mistake]:

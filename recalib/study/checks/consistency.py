@@ -4,18 +4,32 @@ What depends on a robot's geometry is in `recalib.study.checks.geometry`.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from functools import partial
 
-from recalib.damaged.damage import BaseShift
+import numpy as np
+
+from recalib.damaged.damage import BaseShift, Damage
 from recalib.damaged.kinds import DISTURBANCES
+from recalib.damaged.words import words
+from recalib.spelling import instead
 from recalib.study.configuration.damages import Assigned, Entry, describe
-from recalib.study.configuration.messages import KeyPath, Mistake, dotted, unknown, unlike
+from recalib.study.configuration.messages import (
+    KeyPath,
+    Mistake,
+    dotted,
+    shown,
+    unknown,
+    unlike,
+)
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims import missing
 from recalib.study.inference.measured import MOVED, RIGID
 from recalib.study.plan.competitors import MOVES, peers
-from recalib.study.plan.trainings import rules_unless_peer, training
+from recalib.study.plan.trainings import rules_unless_peer, scenario_of, training
+
+MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 numbers
 
 
 def check(study: Study) -> list[Mistake]:
@@ -36,20 +50,25 @@ def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     known = list(study.every_learner)
-    on_robots = [f"{name}-{robot}" for name in study.scenarios for robot in study.robots]
     for places, valid in (
         ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
         (_places(("universes", "factors", "robot"), study.universes.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
-        (_places(("experiments", "scenarios"), plan.scenarios), [*study.scenarios, *on_robots]),
-        (_places(("benchmark", "scenarios"), benchmark.scenarios), [*study.scenarios, *on_robots]),
         (_places(("experiments", "ladder"), plan.ladder), known),
         (_places(("real", "learners"), real.learners), peers()),
     ):
         for path, name in places.items():
             if name not in valid:
                 yield unknown(path, name, valid)
+    for part, of in (("experiments", plan), ("benchmark", benchmark)):
+        for path, whole in _places((part, "scenarios"), of.scenarios).items():
+            name, on, robot = whole.partition("-")
+            if name not in study.scenarios:
+                yield unknown(path, whole, study.scenarios)
+            elif on and robot not in study.robots:
+                valid = instead(robot, study.robots)
+                yield Mistake(path, f" is {shown(whole)}, on an unknown robot; {valid}")
     for places, todays in (
         (_places(("experiments", "learners"), plan.learners), ()),
         (_places(("experiments", "beside"), plan.beside), ()),
@@ -75,17 +94,25 @@ def _names(study: Study) -> Iterator[Mistake]:
 def _meanings(study: Study) -> Iterator[Mistake]:
     """What would not be what it is called, or be there twice under two names."""
     plan, benchmark = study.experiments, study.benchmark
-    for path, names in (
-        (("experiments", "learners"), plan.learners),
-        (("experiments", "beside"), plan.beside),
-        (("benchmark", "learners"), benchmark.learners),
-        (("real", "twin"), study.real.twin),
+
+    def learner(name: str) -> tuple:
+        return (name,) if name in peers() else training(study, name)
+
+    for path, names, meaning in (
+        (("experiments", "learners"), plan.learners, learner),
+        (("experiments", "beside"), plan.beside, learner),
+        (("benchmark", "learners"), benchmark.learners, learner),
+        (("real", "twin"), study.real.twin, learner),
+        (("experiments", "scenarios"), plan.scenarios, partial(scenario_of, study)),
+        (("benchmark", "scenarios"), benchmark.scenarios, partial(scenario_of, study)),
     ):
         first: dict[tuple, str] = {}
         for place, name in _places(path, names).items():
-            which = (name,) if name in peers() else training(study, name)
-            if (other := first.setdefault(which, name)) != name:
+            if (other := first.setdefault(meaning(name), name)) != name:
                 yield unlike(place, name, f"another than {other}, which it is")
+    if not any(map(_damages, study.scenarios[study.scenario])):
+        valid = "a scenario with a damage: of an intact robot nothing is learned"
+        yield unlike(("scenario",), study.scenario, valid)
     if plan.switches:
         for switch in SWITCHES:
             for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
@@ -106,15 +133,21 @@ def _rungs(study: Study) -> Iterator[Mistake]:
     from recalib.study.evidence.claims.speed_up import LONG  # it knows what a study is
 
     path, rungs = ("universes", "rungs"), study.universes.rungs
+    if study.universes.count & (study.universes.count - 1):
+        yield unlike(("universes", "count"), study.universes.count, "a power of two, for balance")
     if len(rungs) < 2:
         yield unlike(path, rungs, "two or more, between which the factor is sought")
     elif list(rungs) != sorted(rungs):
         yield unlike(path, rungs, "the lowest first")
     elif IMPROVED in study.learners:
         iterations, own = ("learners", IMPROVED, "iterations"), study.learners[IMPROVED].iterations
-        times = int(LONG) if study.experiments.evidence else 1
+        judged = study.experiments.evidence
+        times = int(LONG) if judged else 1
         if rungs[-1] <= times * own:
             valid = f"one above {times * own}, for factors above {times} over {dotted(iterations)}"
+            yield unlike(path, rungs, valid, iterations)
+        elif judged and rungs[0] >= times * own:
+            valid = f"one below {times * own}, for factors below {times} over {dotted(iterations)}"
             yield unlike(path, rungs, valid, iterations)
 
 
@@ -123,10 +156,15 @@ def _amounts(study: Study) -> Iterator[Mistake]:
     yield from _budgets(study)
     if study.experiments.evidence:  # nothing else is scaled
         yield from _scales(study)
+    for name, learner in study.learners.items():
+        if math.prod((*learner.supernet, *learner.subnet)) > MOST_CELLS:
+            valid = f"at most {MOST_CELLS:,} cells, with those of the subnet"
+            subnet = "learners", name, "subnet"
+            yield unlike(("learners", name, "supernet"), learner.supernet, valid, subnet)
     for name, entries in study.scenarios.items():
-        kinds = [type(entry) for entry in entries]
-        for index, (entry, kind) in enumerate(zip(entries, kinds, strict=True)):
-            if entry in entries[:index] or (kind in DISTURBANCES and kind in kinds[:index]):
+        subjects = list(map(_subject, entries))
+        for index, (entry, subject) in enumerate(zip(entries, subjects, strict=True)):
+            if subject in subjects[:index]:
                 what = next(iter(describe(entry)))
                 yield Mistake(("scenarios", name, index), f": {what} again; expected: once")
 
@@ -158,9 +196,22 @@ def _scales(study: Study) -> Iterator[Mistake]:
             yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")
 
 
-def _is_idle(entry: Entry | None) -> bool:
-    """Whether it moves the robot by nothing."""
-    return isinstance(entry, BaseShift) and not any((*entry.translation, *entry.rotation))
+def _subject(entry: Entry) -> Hashable:
+    """What an entry is about, without by how much; the robot may be moved again and again."""
+    if isinstance(entry, Assigned | BaseShift):
+        return entry
+    if isinstance(entry, DISTURBANCES):
+        return type(entry)
+    said = words(type(entry)).items()
+    return type(entry), *(getattr(entry, name) for name, word in said if not word.grows)
+
+
+def _damages(entry: Entry) -> bool:
+    """Whether the robot differs by it."""
+    if not isinstance(entry, Damage):
+        return isinstance(entry, Assigned)
+    said = words(type(entry)).items()
+    return any(np.any(getattr(entry, name)) for name, word in said if word.grows)
 
 
 def _evidence(study: Study) -> Iterator[Mistake]:
@@ -171,8 +222,8 @@ def _evidence(study: Study) -> Iterator[Mistake]:
     if study.scenarios.get("intact"):
         yield Mistake(("scenarios", "intact"), f" is damaged; expected: an empty list {when}")
     for name in RIGID:
-        entries = study.scenarios.get(name, [None])  # what is missing is told below
-        if all(map(_is_idle, entries)):
+        entries = study.scenarios.get(name)  # what is missing is told below
+        if entries is not None and not any(map(_damages, entries)):
             what = "moves nothing" if entries else "is an empty list"
             yield Mistake(("scenarios", name), f" {what}; expected: damages {when}")
     own = study.scenarios[study.scenario]

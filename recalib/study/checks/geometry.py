@@ -8,11 +8,11 @@ from functools import cache
 
 import numpy as np
 
-from recalib.damaged.damage import BaseShift, Damage, apply
+from recalib.damaged.damage import Damage, apply
 from recalib.damaged.words import words
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
 from recalib.files.quantities import LENGTH
-from recalib.nominal.chain import TOLERANCE, Chain
+from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.spelling import instead, listed
@@ -95,33 +95,46 @@ def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | Non
 
 
 def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
-    """Links and joints that the robot lacks, amounts that are too much for it, and a base from
-    which it does not even reach the middle of its workspace.
+    """Links and joints that the robot lacks, amounts that are too much for it, and damages that
+    together do not even leave the middle of its workspace within reach.
     """
-    moved: list[BaseShift] = []
+    lacking, done = {}, []
     for index, entry in enumerate(study.scenarios[scenario]):
-        path = "scenarios", scenario, index
-        if isinstance(entry, BaseShift):
-            moved.append(entry)
-            if not _reaches_middle(robot, moved):
-                key, stood = next(iter(describe(entry).items()))
-                where = f"the middle of the workspace within reach of the {robot.name}"
-                yield unlike((*path, key), stood, f"less, so that it leaves {where}")
-                return
-        elif isinstance(entry, Damage) and (error := _refused(robot, entry)):
-            keys = [word.key for word in words(type(entry)).values()]
-            if isinstance(error, UnknownName):
-                yield unknown((*path, keys[0]), error.name, error.valid)
-            else:
-                yield unlike((*path, keys[1]), describe(entry)[keys[1]], error.valid)
+        if not isinstance(entry, Damage):
+            continue
+        path, error, said = ("scenarios", scenario, index), _refused(robot, entry), describe(entry)
+        if isinstance(error, UnknownName):
+            lacking[(*path, next(iter(said)))] = error
+            continue
+        done.append(entry)
+        amount = next(key for key in said if _grows(entry, key))
+        if error:
+            yield unlike((*path, amount), said[amount], error.valid)
+            return
+        if not _reaches_middle(robot, done):
+            where = f"the middle of the workspace within reach of the {robot.name}"
+            yield unlike((*path, amount), said[amount], f"less, so that it leaves {where}")
+            return
+    if len(lacking) > 1:  # it is meant for another robot
+        names = listed(dict.fromkeys(error.name for error in lacking.values()), "and")
+        has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
+        path, asked = ("scenarios", scenario), (("scenario",), ("experiments", "scenarios"))
+        yield Mistake(path, f" is about {names}; the {robot.name} {has}", asked)
+    else:
+        yield from (unknown(path, error.name, error.valid) for path, error in lacking.items())
 
 
-def _reaches_middle(robot: Robot, moved: Iterable[BaseShift]) -> bool:
-    """Whether a command takes the moved robot to the middle of its workspace."""
-    home = robot.home[None]
-    middle, now = (apply(robot, shifts).forward(home) for shifts in ((), moved))
-    angles, errors = Chain.of(robot.arm).solve(middle @ np.linalg.inv(now) @ middle, home)
-    within = (robot.lower <= angles) & (angles <= robot.upper)
+def _grows(damage: Damage, key: str) -> bool:
+    """Whether a word of a damage says how large it is."""
+    return any(word.key == key and word.grows for word in words(type(damage)).values())
+
+
+def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
+    """Whether a command takes the damaged robot to the middle of its workspace."""
+    damaged, home = apply(robot, damages), robot.home[None]
+    angles, errors = damaged.chain.solve(robot.arm.forward(home), home + damaged.offsets)
+    believed = angles - damaged.offsets
+    within = (robot.lower <= believed) & (believed <= robot.upper)
     return bool(errors[0] <= TOLERANCE and within.all())
 
 

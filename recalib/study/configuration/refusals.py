@@ -20,6 +20,7 @@ SAID = {
     r"a valid dictionary.*": "a mapping",
     "a valid tuple": "a list",
     "a valid boolean": "true or false",
+    r"at most (\d+) items? after validation, not .*": r"\1 values",
     " after validation, not .*": "",
 }
 
@@ -48,7 +49,7 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
                 pass
             case "missing" if isinstance(last, int):  # the last of so many in a list
                 stood = reduce(getitem, path[:-1], whole)
-                found[path[:-1]] = unlike(path[:-1], stood, f"{last + 1} values or more")
+                found[path[:-1]] = unlike(path[:-1], stood, f"{last + 1} values")
             case "missing":
                 found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
             case "too_short" if refusal["input"]:

@@ -25,7 +25,7 @@ from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
-from tests.made_up import INITIAL, LUCK, REPLICATES, MadeUp, few_resamples, without_one
+from tests.made_up import AT_FIRST, INITIAL, LUCK, REPLICATES, MadeUp, few_resamples, without_one
 
 IDS = [claim.id for claim in CLAIMS]
 
@@ -207,6 +207,14 @@ def test_evidence_travels_as_text(supporting):
 )
 def test_other_errors_change_the_verdict(few, tmp_path, claim, final, verdict):
     assert MadeUp(tmp_path, few, final).verdict(claim) == verdict
+
+
+def test_an_error_that_was_none_at_first_decides_nothing(few, tmp_path, monkeypatch):
+    """As of a single link that is short: the rest that remains of rounding says nothing."""
+    monkeypatch.setitem(AT_FIRST, few.scenario, INITIAL * [1, 0])
+    for claim in ("figure-1", "ritter-slow"):
+        measured = MadeUp(tmp_path / claim, few).judged(claim)["measured"]
+        assert "position error" in measured and "orientation error" not in measured
 
 
 def test_the_system_for_which_the_paper_makes_a_claim_decides(few, tmp_path):

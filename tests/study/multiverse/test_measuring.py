@@ -26,6 +26,12 @@ from recalib.study.plan.trainings import budget as budget_of
 ITERATIONS = 4
 
 
+def test_of_an_error_that_is_none_at_first_in_any_seed_nothing_is_asked():
+    first, last = [[8.0, 2.0], [8.0, 0.0]], [[4.0, 1.0], [1.0, 1.0]]
+    errors = np.stack([first, last], axis=1)  # (seed, measurement, kind)
+    assert measuring._remaining(errors) == pytest.approx([0.25])
+
+
 def made_small(its: Universe, **update) -> Universe:
     """With searches of two trials and trainings of a few iterations."""
     budget = its.budget.model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})

@@ -2,7 +2,7 @@
 
 from recalib.study.evidence.results import Evidence
 from recalib.study.inference.intervals import Estimate, geometric
-from recalib.study.inference.measured import KINDS
+from recalib.study.inference.measured import KINDS, NONE
 
 
 def remaining(evidence: Evidence, learner: str, kind: int, scenario: str | None = None) -> Estimate:
@@ -14,5 +14,10 @@ def remaining(evidence: Evidence, learner: str, kind: int, scenario: str | None 
 
 
 def both(evidence: Evidence, learner: str) -> dict[str, Estimate]:
-    """The shares of both errors on the study's own scenario."""
-    return {f"{name} error": remaining(evidence, learner, kind) for kind, name in enumerate(KINDS)}
+    """The shares of both errors on the study's own scenario, but of one that was none at first."""
+    first = evidence.errors(learner, moment="first").min(axis=(0, 1))
+    return {
+        f"{name} error": remaining(evidence, learner, kind)
+        for kind, name in enumerate(KINDS)
+        if first[kind] > NONE
+    }
