@@ -95,7 +95,7 @@ def without_one(evidence: Evidence) -> Iterator[tuple[str, Evidence]]:
     for kind in ("files", "facts"):
         its = getattr(evidence, kind)
         for name in its:
-            left = {other: value for other, value in its.items() if other != name}
+            left = type(its)({other: value for other, value in its.items() if other != name})
             yield name, evidence.model_copy(update={kind: left})
 
 

@@ -40,8 +40,8 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
         (root / "results").symlink_to(folder.resolve())
         copy_viewer(root / "viewer")
         study = SHIPPED if folder.name == RESULTS else folder.name
-        known = {"study": study, "recordings": recordings}
-        known["report"] = (folder / "report.html").exists()
+        report = (folder / "report.html").exists()
+        known = {"study": study, "recordings": recordings, "report": report}
         template = jinja2.Template(TEMPLATE.read_text(encoding="utf-8"), autoescape=True)
         (root / "index.html").write_text(template.render(known), encoding="utf-8")
         try:

@@ -130,7 +130,7 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
             raise _refused(like, unknown((LIKE,), name, valid))
         case stood:
             raise _refused(like, unlike((LIKE,), stood, f"one of {listed(valid, 'and')}"))
-    own = {"name": Path(its.place[0]).stem, "expected": None}
+    own = {"name": Path(str(its.place[0])).stem, "expected": None}
     said = {key: value for key, value in its.content.items() if key != LIKE}
     return [
         *layers_of(other, [*valid.values()]),

@@ -4,8 +4,9 @@ What depends on a robot's geometry is in `recalib.study.checks.geometry`.
 """
 
 import math
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 
@@ -29,6 +30,7 @@ from recalib.study.inference.measured import MOVED, RIGID
 from recalib.study.plan.competitors import MOVES, peers
 from recalib.study.plan.trainings import rules_unless_peer, scenario_of, training
 
+Each = TypeVar("Each")
 MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 numbers
 
 
@@ -40,24 +42,25 @@ def check(study: Study) -> list[Mistake]:
     return []
 
 
-def _places(path: KeyPath, names: Iterable[str]) -> dict[KeyPath, str]:
+def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
     """Where each name of a list, or each key of a mapping, stands."""
     by_key = isinstance(names, Mapping)
-    return {(*path, name if by_key else index): name for index, name in enumerate(names)}
+    return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}
 
 
 def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     known = list(study.every_learner)
-    for places, valid in (
+    found: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
         ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
         (_places(("universes", "factors", "robot"), study.universes.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
         (_places(("experiments", "ladder"), plan.ladder), known),
         (_places(("real", "learners"), real.learners), peers()),
-    ):
+    )
+    for places, valid in found:
         for path, name in places.items():
             if name not in valid:
                 yield unknown(path, name, valid)
@@ -196,7 +199,7 @@ def _scales(study: Study) -> Iterator[Mistake]:
             yield unlike(place, scale, f"up to {most:.4g}, where an encoder is off by 180 deg")
 
 
-def _subject(entry: Entry) -> Hashable:
+def _subject(entry: Entry) -> object:
     """What an entry is about, without by how much; the robot may be moved again and again."""
     if isinstance(entry, Assigned | BaseShift):
         return entry

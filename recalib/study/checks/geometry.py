@@ -17,7 +17,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot, link_end
 from recalib.spelling import instead, listed
 from recalib.study.configuration.damages import Assigned, describe
-from recalib.study.configuration.messages import Mistake, dotted, shown, unknown, unlike
+from recalib.study.configuration.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.plan.trainings import scenario_of
 from recalib.study.scenarios.assignments import Ways
@@ -70,8 +70,8 @@ def _of_robot(name: str, error: RecalibError) -> Mistake:
         case UnknownName():
             keys = ("tool", "home", "limits")
             key = next((key for key in keys if key in error.kind), None)
-            path = (key, error.name) if key in ("home", "limits") else (key,)
             if key:
+                path = (key, error.name) if key in ("home", "limits") else (key,)
                 return unknown(("robots", name, *path), error.name, error.valid)
             stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
             return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
@@ -98,7 +98,8 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
     """Links and joints that the robot lacks, amounts that are too much for it, and damages that
     together do not even leave the middle of its workspace within reach.
     """
-    lacking, done = {}, []
+    lacking: dict[KeyPath, UnknownName] = {}
+    done: list[Damage] = []
     for index, entry in enumerate(study.scenarios[scenario]):
         if not isinstance(entry, Damage):
             continue
@@ -116,12 +117,13 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
             yield unlike((*path, amount), said[amount], f"less, so that it leaves {where}")
             return
     if len(lacking) > 1:  # it is meant for another robot
-        names = listed(dict.fromkeys(error.name for error in lacking.values()), "and")
+        names = listed(dict.fromkeys(its.name for its in lacking.values()), "and")
         has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
-        path, asked = ("scenarios", scenario), (("scenario",), ("experiments", "scenarios"))
-        yield Mistake(path, f" is about {names}; the {robot.name} {has}", asked)
+        asked = ("scenario",), ("experiments", "scenarios")
+        fault = f" is about {names}; the {robot.name} {has}"
+        yield Mistake(("scenarios", scenario), fault, asked)
     else:
-        yield from (unknown(path, error.name, error.valid) for path, error in lacking.items())
+        yield from (unknown(where, its.name, its.valid) for where, its in lacking.items())
 
 
 def _grows(damage: Damage, key: str) -> bool:

@@ -6,7 +6,8 @@ Words, meanings and units stand beside the fields of the damage's class (`recali
 import builtins
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping
-from typing import Annotated, Any, Literal, Union, get_origin
+from types import GenericAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_origin
 
 from pydantic import Discriminator, Field, PlainSerializer, Tag, WrapValidator, create_model
 
@@ -51,15 +52,16 @@ _TYPES = {
 
 def _model(kind: type[Described]) -> type[Frozen]:
     """The words of a damage or a disturbance as a part of the configuration."""
-    said = {}
+    said: dict[str, Any] = {}
     for field in dataclasses.fields(kind):
         word = words(kind)[field.name]
+        its_type: Any
         number = _TYPES[word.quantity, word.signed] if word.quantity else Share
         match get_origin(field.type):
             case None:
                 its_type = Text if field.type is str else number
             case builtins.tuple:
-                its_type = tuple[number, number, number]
+                its_type = GenericAlias(tuple, (number,) * 3)
             case _:  # a choice
                 its_type = field.type
         default = ... if field.default is dataclasses.MISSING else field.default
@@ -67,7 +69,7 @@ def _model(kind: type[Described]) -> type[Frozen]:
     inner = create_model(kind.__name__, __base__=Frozen, __doc__=kind.__doc__, **said)
     if kind.under is None:
         return inner
-    outer = {kind.under: (inner, Field(description=kind.__doc__))}
+    outer: dict[str, Any] = {kind.under: (inner, Field(description=kind.__doc__))}
     return create_model(f"{kind.__name__}Entry", __base__=Frozen, __doc__=kind.__doc__, **outer)
 
 
@@ -84,14 +86,18 @@ def _choice(kind: type[Described], model: type[Frozen]) -> Any:
     return Annotated[model, WrapValidator(read), Tag(model.__name__)]
 
 
-_MODELS = {kind: _model(kind) for kind in (*DAMAGES, *DISTURBANCES)}
-_BY_KEY = {key: model for model in (*_MODELS.values(), Assigned) for key in model.model_fields}
+_MODELS: dict[type[Described], type[Frozen]] = {
+    kind: _model(kind) for kind in (*DAMAGES, *DISTURBANCES)
+}
+_WITH_ASSIGNED: list[type[Frozen]] = [*_MODELS.values(), Assigned]
+_BY_KEY = {key: model for model in _WITH_ASSIGNED for key in model.model_fields}
 
 
 def _name_of(value: Any) -> str | None:
     """The kind that an entry is meant to be: by the first of its words that is one, or nearly."""
     if not isinstance(value, Mapping):
-        return _MODELS.get(type(value), type(value)).__name__
+        kind = type(value)
+        return _MODELS[kind].__name__ if kind in _MODELS else kind.__name__
     exact = next((key for key in value if key in _BY_KEY), None)
     suggested = (nearest(str(key), _BY_KEY) for key in value)
     meant = exact or next(filter(None, suggested), None)
@@ -102,7 +108,8 @@ def describe(entry: "Entry") -> dict[str, Any]:
     """The words that read as just this entry. What is as by default is left out."""
     if isinstance(entry, Assigned):
         return {"assigned": entry.assigned}
-    said, default = {}, {}
+    said: dict[str, Any] = {}
+    default: dict[str, Any] = {}
     for field in dataclasses.fields(entry):
         word, value = words(type(entry))[field.name], getattr(entry, field.name)
         write = word.quantity.write if word.quantity else lambda value: value
@@ -112,18 +119,21 @@ def describe(entry: "Entry") -> dict[str, Any]:
     return {entry.under: said} if entry.under else said
 
 
-Entry = Annotated[
-    Union[
-        *(_choice(kind, model) for kind, model in _MODELS.items()),
-        Annotated[Assigned, Tag(Assigned.__name__)],
-    ],
-    Discriminator(
-        _name_of,
-        custom_error_type="entry",
-        custom_error_message=f"a mapping that begins with {listed(_BY_KEY, 'or')}",
-    ),
-    PlainSerializer(describe),
-]
+if TYPE_CHECKING:
+    Entry = Described | Assigned
+else:
+    Entry = Annotated[
+        Union[
+            *(_choice(kind, model) for kind, model in _MODELS.items()),
+            Annotated[Assigned, Tag(Assigned.__name__)],
+        ],
+        Discriminator(
+            _name_of,
+            custom_error_type="entry",
+            custom_error_message=f"a mapping that begins with {listed(_BY_KEY, 'or')}",
+        ),
+        PlainSerializer(describe),
+    ]
 
 
 def damages_among(entries: Iterable[Entry]) -> list[Damage]:

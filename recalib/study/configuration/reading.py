@@ -29,7 +29,7 @@ def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) ->
     """
     sources = [*map(placed, (path, *overlays))]
     whole = reduce(Placed.under, sources)
-    own = [source.place[0] for source in (sources[1:] or sources)]
+    own = [str(source.place[0]) for source in (sources[1:] or sources)]
     try:
         study = Study.model_validate(whole.plain())
     except ValidationError as error:
@@ -58,7 +58,7 @@ def _at_its_place(
     Args:
         own: the sources that somebody wrote who is told of it.
     """
-    lines = {}
+    lines: dict[tuple, Mistake] = {}
     for mistake in mistakes:
         places = [whole.at(path).place for path in (mistake.path, *mistake.also)]
         place = next((place for place in places if place[0] in own), own[-1:])

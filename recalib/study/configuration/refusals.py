@@ -37,14 +37,15 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
     errors = error.errors(include_url=False)
     for refusal in sorted(errors, key=lambda its: its["type"] == "missing"):
         *parents, last = refusal["loc"]
+        name = str(last)
         path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
-            case "extra_forbidden" if last[:1].isdigit():
+            case "extra_forbidden" if name[:1].isdigit():
                 found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
             case "extra_forbidden":
                 valid = keys(find(parents)[1])
-                meant.add((*path[:-1], nearest(last, valid)))
-                found[path] = Mistake(path, f": unknown key; {instead(last, valid)}")
+                meant.add((*path[:-1], nearest(name, valid)))
+                found[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
             case "missing" if path in meant:
                 pass
             case "missing" if isinstance(last, int):  # the last of so many in a list
@@ -70,7 +71,7 @@ def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
         if len(its) == 1:
             yield its[0]
         elif missing:
-            yield Mistake(path, f" lacks {listed((one.path[-1] for one in its), 'and')}")
+            yield Mistake(path, f" lacks {listed((str(one.path[-1]) for one in its), 'and')}")
         else:
             _, _, expected = its[0].fault.partition(EXPECTED)
             yield unlike(path, reduce(getitem, path, whole), f"each {expected}")

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema
 
@@ -39,11 +40,11 @@ def _meanings(part: type) -> dict[str, str]:
     found = {}
     for kind in reversed(part.__mro__):
         if issubclass(kind, Part):
-            (written,) = ast.parse(inspect.getsource(kind)).body
+            written: Any = ast.parse(inspect.getsource(kind)).body[0]
             for key, below in pairwise(written.body):
                 match key, below:
-                    case ast.AnnAssign(), ast.Expr(ast.Constant(str(text))):
-                        found[key.target.id] = inspect.cleandoc(text)
+                    case ast.AnnAssign(ast.Name(name)), ast.Expr(ast.Constant(str(text))):
+                        found[name] = inspect.cleandoc(text)
     return found
 
 
@@ -60,7 +61,8 @@ def text() -> str:
 
 def find(location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
     """The path and the schema of a place in pydantic's errors, which name choices, too."""
-    schema, path = json_schema(), ()
+    schema: Mapping = json_schema()
+    path: KeyPath = ()
     for part in location:
         schema = resolved(schema)
         if "oneOf" in schema:

@@ -63,6 +63,7 @@ class Placed:
 
 def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
     """Values that stand in no line of a file, such as those from the command line."""
+    content: Any
     match data:
         case Mapping():
             content = {str(key): from_mapping(part, place) for key, part in data.items()}
@@ -126,6 +127,7 @@ class _Loader(yaml.SafeLoader):
         known = self.DEFAULT_SCALAR_TAG, self.resolve(type(node), node.value, (True, False))
         if node.tag not in known:
             _refuse(f"the tag {node.tag}", node)
+        content: Any
         match node:
             case yaml.MappingNode():
                 content = self._mapping(node)

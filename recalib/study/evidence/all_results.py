@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from recalib.study.configuration.switches import IMPROVED, RITTER
+from recalib.study.configuration.switches import RITTER
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import one, typical_errors
@@ -21,8 +21,8 @@ def _on_its_way(evidence: Evidence) -> str:
     It is what Figure 2 says.
     """
     improved, ritter = (
-        evidence.history(evidence.fact(role)).groupby("iteration")[list(ERRORS)].mean()
-        for role in (IMPROVED, RITTER)
+        evidence.history(learner).groupby("iteration")[list(ERRORS)].mean()
+        for learner in (evidence.facts["improved"], evidence.facts["ritter"])
     )
     first = first_within(ritter.index.to_numpy(), ritter.to_numpy(), improved.iloc[-1].to_numpy())
     if not np.isfinite(first):
@@ -37,15 +37,15 @@ def context(evidence: Evidence) -> dict:
     by_id = {claim["id"]: claim for claim in claims}
     return {
         "setups": max(claim["universes"].get("setups", 0) for claim in claims),
-        "own": rows[evidence.fact("scenario"), evidence.fact("improved")],
+        "own": rows[evidence.facts["scenario"], evidence.facts["improved"]],
         "typical": typical_errors(by_id["figure-1"]),
         "published": " and ".join(
-            f"{evidence.fact('published')[error]:g} {unit}"
+            f"{evidence.facts['published'][error]:g} {unit}"
             for error, unit in zip(ERRORS, UNITS, strict=True)
         ),
         "claims": claims,
         "summary": summary,
         "on_its_way": _on_its_way(evidence),
         "tuned_anew": one(by_id["speed-up"], f"factor, as many cells as {CELLS[RITTER]}"),
-        "iterations": evidence.fact("iterations"),
+        "iterations": evidence.facts["iterations"],
     }

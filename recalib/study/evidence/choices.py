@@ -11,16 +11,16 @@ NEEDS = """
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    improved = evidence.fact("improved")
+    improved = evidence.facts["improved"]
     searches = evidence.sought(improved).searches
     return {
-        "setups": evidence.fact("setups")["outcomes"],
+        "setups": evidence.facts["setups"]["outcomes"],
         "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
         "assignments": len(evidence.assignments()),
         "translation": amounts(evidence.scenario("translation")["damages"][0]),
         "rotation": amounts(evidence.scenario("rotation")["damages"][0]),
         "trials": len(evidence.sample(improved)) // searches,
         "searches": searches,
-        "short": evidence.fact("short_searches"),
-        "searches_long": evidence.fact("searches_long"),
+        "short": evidence.facts["short_searches"],
+        "searches_long": evidence.facts["searches_long"],
     }

@@ -60,7 +60,7 @@ def _digest(text: str) -> str:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    told = from_file(evidence.path(DEVIATIONS)).plain()
+    told = from_file(evidence.files[DEVIATIONS]).plain()
     judged = {claim["id"]: verdicts(claim) for claim in evidence.claims()}
     return {
         "deviations": told["deviations"],

@@ -31,7 +31,7 @@ ANEW, ON_THE_WAY = "tuned anew for each length", "on the way of one long trainin
 
 def factor_table(evidence: Evidence) -> list[dict]:
     """A row for each of the twelve: cells, effort, definition, the factor and its verdict."""
-    table, own, rows = evidence.table(shipped.EFFORTS), evidence.fact("iterations"), []
+    table, own, rows = evidence.table(shipped.EFFORTS), evidence.facts["iterations"], []
     for (learner, cells), (effort, pair), definition in product(
         CELLS.items(), EFFORTS.items(), (ANEW, ON_THE_WAY)
     ):
@@ -57,7 +57,7 @@ def leading(evidence: Evidence, learner: str) -> Estimate:
     """The factor by the study's own ladders: equal and full effort, tuned anew."""
     ladders = evidence.ladder(learner), evidence.ladder(IMPROVED)
     rng = evidence.rng("speed-up", learner)
-    return speed_up(*ladders, [evidence.fact("iterations")], rng)[0]
+    return speed_up(*ladders, [evidence.facts["iterations"]], rng)[0]
 
 
 def verdict(estimate: Estimate) -> Verdict:
@@ -118,9 +118,9 @@ def on_the_way(
     """
     target = goal.mean(axis=(0, 1))
     long = [rung for rung in sorted(slow) if rung >= LONG]
-    reaching = [rung for rung in long if (slow[rung][:, :, -1].mean(axis=(0, 1)) <= target).all()]
+    reaching = [rung for rung in long if np.all(slow[rung][:, :, -1].mean(axis=(0, 1)) <= target)]
     rung = (reaching or long[-1:])[0]
     draws = Draws(random)
-    within = (draws.means(slow[rung]) <= draws.means(goal)[:, None]).all(axis=-1)
+    within = np.all(draws.means(slow[rung]) <= draws.means(goal)[:, None], axis=-1)
     first = np.where(within.any(axis=1), grids[rung][within.argmax(axis=1)], np.inf)
     return rung, draws.estimate(first / own)

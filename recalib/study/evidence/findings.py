@@ -129,7 +129,7 @@ def context(evidence: Evidence) -> dict:
         evidence.table(f"ensemble/assignments.{learner}.parquet") for learner in (IMPROVED, RITTER)
     ]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
-    improved = evidence.fact("improved")
+    improved = evidence.facts["improved"]
     sample, searched_for = evidence.sample(improved), evidence.sought(improved)
     return {
         "depends": partial(depends, evidence.words()),
@@ -146,7 +146,7 @@ def context(evidence: Evidence) -> dict:
         "once": spread_of_luck(reference, ONCE),
         "replicates": len(reference),
         "first_campaign": evidence.table(COUNTED).to_dict("records"),
-        "iterations": evidence.fact("iterations"),
+        "iterations": evidence.facts["iterations"],
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),

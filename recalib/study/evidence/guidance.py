@@ -52,8 +52,8 @@ def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    table, budgets = evidence.table("benchmark.csv"), evidence.fact("budgets")
-    reached, threshold = evidence.table("benchmark_moves.csv"), evidence.fact("threshold")
+    table, budgets = evidence.table("benchmark.csv"), evidence.facts["budgets"]
+    reached, threshold = evidence.table("benchmark_moves.csv"), evidence.facts["threshold"]
     its = reached[reached["threshold"] == threshold].set_index(["scenario", "learner"]).sort_index()
     learners = list(table["learner"].unique())
     return {

@@ -18,8 +18,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import product, takewhile
 from pathlib import Path
-
-from pydantic import JsonValue
+from typing import Any
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.damages import Assigned
@@ -38,8 +37,8 @@ OF_MAPS = SWITCHED[:2]  # whose searches go on from others: replicates of their 
 # Not from trainings: measured for a study with evidence, searched for, or shipped
 BEYOND = "ensemble/", "mapping/", "search/", "workflow/"
 
-# What may be known of a study beside its results. Trainings go by their role in the paper.
-FACTS: Mapping[str, Callable[[Study, Trainings], JsonValue]] = {
+# How each of `Facts` follows from a study. Trainings go by their role in the paper.
+FACTS: Mapping[str, Callable[[Study, Trainings], Any]] = {
     "seed": lambda study, _: study.seed,
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
@@ -111,7 +110,7 @@ class Request:
         self.study, self.trainings = study, trainings
         self._root, self._sample_at = root, sample_at
         self._files: dict[str, str] = {}
-        self._facts: dict[str, JsonValue] = {}
+        self._facts: dict[str, Any] = {}
         self.lacking: list[str] = []
 
     @property
@@ -128,7 +127,9 @@ class Request:
     @property
     def evidence(self) -> Evidence:
         """All that was asked for."""
-        return Evidence(root=self._root, files=self._files, facts=self._facts)
+        return Evidence.model_validate(
+            {"root": self._root, "files": self._files, "facts": self._facts}
+        )
 
     def read(self, needs: str) -> "Request":
         """Ask for what these patterns, with spaces between them, mean."""
@@ -143,7 +144,7 @@ class Request:
                     self._file(path, optional)
         return self
 
-    def _fact(self, name: str) -> JsonValue:
+    def _fact(self, name: str) -> Any:
         """None where the study has no learner that it speaks of."""
         try:
             value = self._facts[name] = FACTS[name](self.study, self.trainings)
@@ -217,7 +218,7 @@ class Request:
         return self.study.name == SHIPPED
 
 
-def _lacking_for(fact: str, value: JsonValue, study: Study) -> Iterator[str]:
+def _lacking_for(fact: str, value: Any, study: Study) -> Iterator[str]:
     """What a study would have to say for a fact to tell what it is read for."""
     plan = study.experiments
     if fact == "beside" and not (value or plan.switches):
@@ -229,7 +230,7 @@ def _lacking_for(fact: str, value: JsonValue, study: Study) -> Iterator[str]:
             yield f"experiments.ladder.{IMPROVED}: {own}"
 
 
-def _names(fact: JsonValue) -> Iterable[str]:
+def _names(fact: Any) -> Iterable[str]:
     """The names in a fact, however deep."""
     match fact:
         case str():

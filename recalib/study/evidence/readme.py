@@ -46,7 +46,7 @@ def context(evidence: Evidence) -> dict:
     return {
         "shipped": evidence.shipped,
         "figures": "figures" if evidence.shipped else "../figures",
-        "own": summary.loc[(evidence.fact("scenario"), evidence.fact("improved"))],
+        "own": summary.loc[(evidence.facts["scenario"], evidence.facts["improved"])],
         "typical": typical_errors(claims["figure-1"]),
         "claims": claims,
         "sentences": in_a_sentence(claims),

@@ -43,17 +43,17 @@ def real_errors(runs: "pd.DataFrame", seed: int) -> "pd.DataFrame":
 
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
-    table, published = evidence.table("real.csv"), evidence.fact("published_mm")
+    table, published = evidence.table("real.csv"), evidence.facts["published_mm"]
     errors: dict[str, dict[int, str]] = {}
     for row in table.to_dict("records"):
         name, _, twin = row["learner"].partition(" ")
         its = errors.setdefault(f"{label_of(name)} {twin}".strip(), {})
         its[row["poses"]] = f"{row[ERROR]:.3f}"
     return {
-        "robot": evidence.fact("real_robot").upper(),
+        "robot": evidence.facts["real_robot"].upper(),
         "before": published["before_mm"],
         "after": published["after_mm"],
-        "poses": evidence.fact("real_poses"),
+        "poses": evidence.facts["real_poses"],
         "errors": errors,
         "ends": {name: max(its.items()) for name, its in errors.items() if TWIN in name},
         "subsets": table["subsets"].max(),

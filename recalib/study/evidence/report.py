@@ -58,7 +58,7 @@ def context(evidence: Evidence) -> dict:
     one = next(iter(samples.values()))
     return {
         **evidence.facts,
-        "own": runs.get((evidence.fact("scenario"), evidence.fact("improved"))),
+        "own": runs.get((evidence.facts["scenario"], evidence.facts["improved"])),
         "runs": runs,
         "settings": {learner: _spread(best(sample)) for learner, sample in samples.items()},
         "rounds": one["round"].nunique(),
@@ -143,8 +143,8 @@ def write(
     evidence: Evidence,
     pages: list[Path],
     rst: Path,
-    read: list[Path] = (),
-    figures: list[Path] = (),
+    read: Sequence[Path] = (),
+    figures: Sequence[Path] = (),
 ) -> None:
     """Write the pages of a study's report.
 

@@ -2,10 +2,11 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import numpy as np
-from pydantic import JsonValue
+from pydantic import AfterValidator
+from typing_extensions import TypedDict  # pydantic needs this one before Python 3.12
 
 from recalib.errors import RecalibError
 from recalib.numerics.randomness import generator
@@ -32,6 +33,50 @@ class Undeclared(RecalibError):
         super().__init__(f"{what} is read, but not among the declared needs")
 
 
+class Declared(dict):
+    """What was declared, by name. Raises Undeclared for all else."""
+
+    def __missing__(self, name: str) -> NoReturn:
+        raise Undeclared(name)
+
+
+class Facts(TypedDict, total=False):
+    """What may be known of a study beside its results; see `recalib.study.evidence.needs`."""
+
+    seed: int
+    robot: str
+    scenario: str
+    scenarios: list[str]
+    recordings: list[str]
+    elsewhere: dict[str, str]
+    published: dict[str, float]
+    published_mm: dict[str, float]
+    iterations: int
+    improved: str
+    ritter: str
+    short: str
+    compared: list[str]
+    learners: list[str]
+    beside: list[str]
+    switched: list[str]
+    ladder: dict[str, list[tuple[int, str]]]
+    setups: dict[str, int]
+    rough_trials: int
+    coupling_poses: int
+    balls: int
+    points: int
+    radius: float
+    assignment_poses: int
+    short_searches: int
+    searches_long: int
+    tests: int
+    measure_every: int
+    real_robot: str
+    real_poses: list[int]
+    budgets: list[int]
+    threshold: float
+
+
 class Evidence(Frozen):
     """Results by name: what a claim, a figure or a page declared, and may read.
 
@@ -42,8 +87,8 @@ class Evidence(Frozen):
     """
 
     root: str
-    files: dict[str, str]
-    facts: dict[str, JsonValue]
+    files: Annotated[dict[str, str], AfterValidator(Declared)]
+    facts: Annotated[Facts, AfterValidator(Declared)]
 
     @property
     def inputs(self) -> list[str]:
@@ -60,23 +105,11 @@ class Evidence(Frozen):
         """Whether the study is the one of the README."""
         return self.study == SHIPPED
 
-    def fact(self, name: str) -> JsonValue:
-        """One of the facts. Raises Undeclared."""
-        if name not in self.facts:
-            raise Undeclared(name)
-        return self.facts[name]
-
-    def path(self, name: str) -> str:
-        """Where a file lies. Raises Undeclared."""
-        if name not in self.files:
-            raise Undeclared(name)
-        return self.files[name]
-
     def table(self, name: str) -> "pd.DataFrame":
         """What a table holds. Raises Undeclared."""
         import pandas as pd
 
-        return (pd.read_parquet if name.endswith(".parquet") else pd.read_csv)(self.path(name))
+        return (pd.read_parquet if name.endswith(".parquet") else pd.read_csv)(self.files[name])
 
     def history(self, learner: str, scenario: str | None = None) -> "pd.DataFrame":
         """A row for each seed and measurement of a training.
@@ -85,7 +118,7 @@ class Evidence(Frozen):
             learner: name of the training.
             scenario: the study's own unless given.
         """
-        return self.table(f"runs/{scenario or self.fact('scenario')}/{learner}.parquet")
+        return self.table(f"runs/{scenario or self.facts['scenario']}/{learner}.parquet")
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
         """Position [cm] and orientation errors [degrees], last or first measurement.
@@ -96,13 +129,13 @@ class Evidence(Frozen):
 
     def ladder(self, learner: str) -> dict[int, np.ndarray]:
         """Final errors (search, seed, 2) for each number of iterations that it was trained for."""
-        return {rung: self.errors(name) for rung, name in self.fact("ladder")[learner]}
+        return {rung: self.errors(name) for rung, name in self.facts["ladder"][learner]}
 
     def assignments(self) -> "pd.DataFrame":
         """The initial errors of every assignment of the paper's damage."""
         from recalib.study.scenarios.assignments import TIE
 
-        table = self.table(f"assignments/{self.fact('robot')}.parquet")
+        table = self.table(f"assignments/{self.facts['robot']}.parquet")
         return table.assign(distance=table["distance"].round(TIE))
 
     def nearest_assignment(self) -> "pd.Series":
@@ -114,24 +147,24 @@ class Evidence(Frozen):
         """All trials of the searches for a training, a row each."""
         from recalib.study.experiments.samples import read_sample
 
-        return read_sample(self.path(f"search/{learner}.csv"))
+        return read_sample(self.files[f"search/{learner}.csv"])
 
     def sought(self, learner: str) -> "Sought":
         """What the searches for a training could spend, and on what."""
         from recalib.study.experiments.samples import searched_for
 
-        return searched_for(self.path(f"search/{learner}.csv"))
+        return searched_for(self.files[f"search/{learner}.csv"])
 
     def scenario(self, scenario: str | None = None) -> dict:
         """A damage as resolved."""
-        return self._read(f"scenarios/{scenario or self.fact('scenario')}.json")
+        return self._read(f"scenarios/{scenario or self.facts['scenario']}.json")
 
     def claims(self) -> list[dict]:
         """The judged claims."""
         return self._read("claims.json")
 
     def _read(self, name: str):
-        return json.loads(Path(self.path(name)).read_text(encoding="utf-8"))
+        return json.loads(Path(self.files[name]).read_text(encoding="utf-8"))
 
     def setups(self, table: str) -> "pd.DataFrame | None":
         """A row for each replicate of each alternative setup; None unless all are measured.
@@ -141,7 +174,7 @@ class Evidence(Frozen):
         """
         import pandas as pd
 
-        names = pieces(table, self.fact("setups")[table])
+        names = pieces(table, self.facts["setups"][table])
         if not set(names) & set(self.files):
             return None
         return pd.concat(map(self.table, names), ignore_index=True)
@@ -152,8 +185,8 @@ class Evidence(Frozen):
 
     def words(self) -> Words:
         """The factors of the setups in words."""
-        return from_file(self.path(FACTORS)).plain()
+        return from_file(self.files[FACTORS]).plain()
 
     def rng(self, *keys: str) -> np.random.Generator:
         """Randomness of an interval."""
-        return generator(self.fact("seed"), "evidence", *keys)
+        return generator(self.facts["seed"], "evidence", *keys)

@@ -37,7 +37,7 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
 def speed_up(
     slow: Mapping[int, np.ndarray],
     fast: Mapping[int, np.ndarray],
-    targets: Iterable,
+    targets: Iterable[int | np.ndarray],
     random: np.random.Generator,
 ) -> list[Estimate]:
     """Iterations that the slow learner needs over those of the fast one, for each target.
@@ -58,9 +58,9 @@ def speed_up(
         for ladder in (slow, fast)
     ]
 
-    def estimate(target) -> Estimate:
-        if np.isscalar(target):
-            goal, quick = means[1][:, list(fast).index(target)], float(target)
+    def estimate(target: int | np.ndarray) -> Estimate:
+        if isinstance(target, int):
+            goal, quick = means[1][:, list(fast).index(target)], np.array(float(target))
         else:
             goal = np.asarray(target)
             quick = iterations_needed(np.array(list(fast)), means[1], goal)

@@ -82,7 +82,7 @@ def compete(
         controller = scenario.controller()
         learner = Timed(
             build_tuned(rules, sample, [run + 1 for run in runs])
-            if rules
+            if rules and sample
             else make_peer(name, seeds, controller.robot)
         )
         poses = Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scenario.scenario)

@@ -50,8 +50,8 @@ def train_seeds(
     """
     resolved, iterations = Resolved.read(scenario), rules.iterations
     controller, scope = resolved.controller(), resolved.scenario
-    runs = np.arange(first, last)
-    searches = 1 + runs // seeds
+    runs = range(first, last)
+    searches = 1 + np.array(runs) // seeds
     plant = resolved.plant(controller, seed, runs)
     learner = build_tuned(rules, sample, searches)
     poses = Stream.SCENARIO.draw(seed, runs, iterations, measuring.tests, scenario=scope)
@@ -63,4 +63,4 @@ def train_seeds(
     save(learned, learner, controller.robot)
     columns = history.columns()
     run = columns.pop("run")
-    return {"search": searches[run], "seed": runs[run]} | columns
+    return {"search": searches[run], "seed": first + run} | columns

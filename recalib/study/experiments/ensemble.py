@@ -66,7 +66,7 @@ def train_draws(
     controller = nominal_controller(nominal)
     robot, iterations = controller.robot, rules.iterations
     ways = Ways(nominal.robot.links, shorten, robot.joints, shift)
-    order = generator(seed, "ensemble", series).permutation(len(ways))
+    order = generator(seed, "ensemble", series).permutation(len(ways)).tolist()
     drawn = list(islice(feasible(robot, ways, order, max(scales)), first, last))
     cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
     arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]

@@ -140,7 +140,11 @@ def train_on(
 
 
 def train_for_results(
-    plant: Commandable, learner: Learner, poses: ResultPoses, measure_at: Sequence[int], **how
+    plant: Commandable,
+    learner: Learner,
+    poses: SearchPoses | ResultPoses,
+    measure_at: Sequence[int],
+    **how,
 ) -> History:
     """As `train_on`. Raises TypeError: the poses are those of a search."""
     return train_on(plant, learner, ResultPoses.only(poses), measure_at, **how)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 import pandas as pd
@@ -19,10 +20,19 @@ from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
+from recalib.study.experiments.tracker import (
+    Measurements,
+    known_frame,
+    read_of,
+    read_whole_description,
+)
 from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
+
+if TYPE_CHECKING:
+    from recalib.learners.geometric import GeometricLearner
+    from recalib.learners.observer import Observer
 
 ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
 
@@ -41,7 +51,8 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
 
 def identified(kind: str, arm: Arm, measurements: Measurements) -> Calibration:
     """The arm as a learner of a kind that knows the nominal one identifies it."""
-    return class_of(kind).identify(arm, Observations(measurements.angles, measurements.measured))
+    identifying = cast("type[GeometricLearner]", class_of(kind))
+    return identifying.identify(arm, Observations(measurements.angles, measurements.measured))
 
 
 def _black_box(its: Peer, robot: Robot, known: Measurements, unknown: Measurements) -> np.ndarray:
@@ -52,7 +63,7 @@ def _black_box(its: Peer, robot: Robot, known: Measurements, unknown: Measuremen
     ]
     reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
     workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
-    learner = class_of(its.kind).from_settings(its.settings, 1, robot)
+    learner = cast("Observer", class_of(its.kind).from_settings(its.settings, 1, robot))
     sent, achieved = _coordinates(arm, workspace, known)
     learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
     sent, achieved = _coordinates(arm, workspace, unknown)
@@ -118,7 +129,7 @@ def learn_from_tables(
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
+    robot = with_tool_point(nominal_robot(nominal), known_frame(said.target)[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
     for count in poses:
@@ -159,7 +170,7 @@ def learn_on_twin(
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
+    robot = with_tool_point(nominal_robot(nominal), known_frame(said.target)[:3, 3])
     twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}

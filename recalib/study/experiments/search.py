@@ -6,7 +6,7 @@ ones a third of each range around the best so far. Every range is logarithmic; f
 drawn as fractions of initial ones.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,7 +79,10 @@ def schedule(trials: Mapping, rules: Rules, repeat: int = 1) -> Schedule:
     return Schedule(column("initial_width"), final, column("initial_rate"), column("final_rate"))
 
 
-SCORES = {"worse": np.maximum, "geometric_mean": lambda first, second: np.sqrt(first * second)}
+SCORES: Mapping[str, Callable] = {
+    "worse": np.maximum,
+    "geometric_mean": lambda first, second: np.sqrt(first * second),
+}
 
 
 def scores(trials: Mapping, budget: "Budget") -> "pd.Series":

@@ -8,6 +8,7 @@ import urllib.request
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
@@ -69,16 +70,21 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
     it does not get to the nominal positions in the table).
     """
     rows = read_measurements(path, arm, description)
-    if rows.positions is None or rows.nominal is None:
+    if rows.coordinates is None or rows.positions is None or rows.nominal is None:
         raise InvalidFile(
             path, f"it lacks {', '.join(NOMINAL)} or what was measured; expected: both"
         )
-    base = np.linalg.inv(description.instrument)
-    check_nominal(arm, rows.coordinates, rows.nominal, base, np.eye(4))
-    turn, place = description.instrument[:3, :3], description.instrument[:3, 3]
+    instrument = known_frame(description.instrument)
+    check_nominal(arm, rows.coordinates, rows.nominal, np.linalg.inv(instrument), np.eye(4))
+    turn, place = instrument[:3, :3], instrument[:3, 3]
     return Measurements(
         rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
     )
+
+
+def known_frame(frame: np.ndarray | None) -> np.ndarray:
+    """A frame of a whole description."""
+    return cast(np.ndarray, frame)
 
 
 def fetch(source: Source, table: Path) -> None:

@@ -47,14 +47,16 @@ def search_for(
     controller, seeds = resolved.controller(), [*range(budget.seeds)]
     found = []
     for number in range(first + 1, last + 1):  # nothing is that of another, or of results
-        poses = Stream.SEARCH.draw(
-            budget.seed,
-            seeds,
-            learner.iterations,
-            tests,
-            number=number,
-            training=training,
-            scenario=resolved.scenario,
+        poses = SearchPoses.only(
+            Stream.SEARCH.draw(
+                budget.seed,
+                seeds,
+                learner.iterations,
+                tests,
+                number=number,
+                training=training,
+                scenario=resolved.scenario,
+            )
         )
 
         def robots(runs: int, stream: str = poses.name) -> Commandable:

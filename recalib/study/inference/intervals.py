@@ -36,7 +36,9 @@ class Draws:
     """
 
     def __init__(self, random: np.random.Generator):
-        self._random, self._of_seeds, self._searches = random, {}, []
+        self._random = random
+        self._of_seeds: dict[tuple[int, ...], np.ndarray] = {}
+        self._searches: list[int] = []
 
     def means(self, values: np.ndarray) -> np.ndarray:
         """Means (1 + RESAMPLES, ...) of a training's values (search, seed, ...)."""

@@ -4,7 +4,7 @@
 the quantization error. These centers do not need to move".
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -48,7 +48,10 @@ def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.n
     exponents = -0.5 * np.square(places[:, None] - places).sum(axis=-1)
     centres, iterations = starts.copy(), poses.shape[1]
     for t in range(iterations):
-        width, rate = (exponential(*ends, t / iterations) for ends in (WIDTHS, RATES))
+        width, rate = (
+            exponential(np.array(start), np.array(end), t / iterations)
+            for start, end in (WIDTHS, RATES)
+        )
         offsets = poses[:, [t]] - centres
         winner = np.square(offsets).sum(axis=-1).argmin(axis=1)
         centres += rate * np.exp(exponents[winner] / width**2)[..., None] * offsets
@@ -91,7 +94,9 @@ def quantisation(
     def drawn(name: str, count: int) -> np.ndarray:
         return np.stack([rng.uniform(-1, 1, (count, dimensions)) for rng in randoms[name]])
 
-    placed = {name: [regular_grid(shape, name)] * seeds for name in CENTRES}
+    placed: dict[str, Iterable[np.ndarray]] = {
+        name: [regular_grid(shape, name)] * seeds for name in CENTRES
+    }
     for count in iterations:
         name = f"kohonen_{count}"
         placed[name] = kohonen(drawn(name, cells), drawn(name, count), shape)

@@ -60,10 +60,10 @@ class Designed(Frozen):
     def from_row(cls, row: Mapping[str, str]) -> Self:
         """What a row of the file says. A file may have other factors than a new one would."""
         levels = {name: text for name, text in row.items() if name not in cls.model_fields}
-        rest = {name: text for name, text in row.items() if name not in levels}
+        rest: dict[str, Any] = {name: text for name, text in row.items() if name not in levels}
         rest["home_deg"] = rest["home_deg"].split()
         rest |= {name: yaml.safe_load(rest[name]) for name in LISTS}
-        return cls(levels=levels, **rest)
+        return cls.model_validate(rest | {"levels": levels})
 
 
 def _in_words(entries: Sequence[Entry]) -> str:

@@ -95,9 +95,9 @@ def draw(setting: Setting, universe: int, row: Row) -> Designed:
         row=row.number,
         seed=seed,
         levels={name: str(level) for name, level in levels.items()},
-        home_deg=[
+        home_deg=tuple(
             float(f"{np.degrees(robot.home[robot.joints.index(joint)]):.6g}") for joint in joints
-        ],
+        ),
         homes_refused=refused,
         moved=moved(setting.moved, scale, random if levels["displacement"] == "random" else None),
         damage=damage,
@@ -107,11 +107,12 @@ def draw(setting: Setting, universe: int, row: Row) -> Designed:
 
 
 def moved(
-    shifts: Sequence[BaseShift], scale: float, random: np.random.Generator | None
-) -> list[BaseShift]:
+    shifts: Sequence[Entry], scale: float, random: np.random.Generator | None
+) -> tuple[BaseShift, ...]:
     """By what the whole robot is moved and turned, in random directions where they are random."""
     found = []
     for shift in shifts:
+        assert isinstance(shift, BaseShift)  # checked before: `recalib.study.checks.consistency`
         lengths, turn = np.array(shift.translation), Rotation.from_euler("xyz", shift.rotation)
         if random is not None:
             ways = random.normal(size=(2, 3))
@@ -125,7 +126,7 @@ def moved(
                 tuple(np.radians(angles.round(2)).tolist()),
             )
         )
-    return found
+    return tuple(found)
 
 
 def _controller(

@@ -69,7 +69,7 @@ def _trained(
     grid = [iterations]
     if iterations >= LONG:
         grid = np.geomspace(FIRST, iterations, WATCHED).round().astype(int).tolist()
-    settings = np.repeat(winners.to_dict("records"), each)
+    settings = [winner for winner in winners.to_dict("records") for _ in range(each)]
     history = train_for_results(
         resolved.plant(resolved.controller(), seed, seeds),
         build(learner, settings),

@@ -15,7 +15,7 @@ from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
-from recalib.study.experiments.poses import Stream, train_for_results
+from recalib.study.experiments.poses import SearchPoses, Stream, train_for_results
 from recalib.study.experiments.trials import Search, best_of
 from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
@@ -72,7 +72,7 @@ class World:
             robots=lambda runs: Plant(self.controller, arm),
             rules=rules_in(universe, learner),
             budget=universe.budget,
-            poses=poses,
+            poses=SearchPoses.only(poses),
             fixed=fixed,
             error=universe.error,
             learner=kind,

@@ -93,7 +93,7 @@ def _joined(words: Any) -> str:
     return str(words)
 
 
-def properties(job: Recording, resolved: Resolved) -> dict[str, str]:
+def properties(job: Recording, resolved: Resolved) -> dict[str, Any]:
     """The job that was done, what it was done on, and with which packages."""
     versions = {package: importlib.metadata.version(package) for package in PACKAGES}
     return {

@@ -42,8 +42,8 @@ def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker
     for damage in damages:
         if isinstance(damage, LinkShortening):
             of_links.setdefault(damage.link, []).append(damage)
-        elif not isinstance(damage, BaseShift):
-            of_joints.setdefault(damage.joint, []).append(damage)
+        elif joint := getattr(damage, "joint", None):
+            of_joints.setdefault(joint, []).append(damage)
     found = []
     for link, its in of_links.items():
         end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])

@@ -86,8 +86,8 @@ def send_map(scene: Scene, cells: Cells) -> None:
     """
     unit, (_, rows) = unit_of(scene.workspace), scene.motion.measurements()
     points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
-    style = rr.Points3D(cells.centres, colors=BELIEVED)
-    scene.show("map/cells", points, len(cells.centres), style)
+    cell = rr.Points3D(cells.centres, colors=BELIEVED)
+    scene.show("map/cells", points, len(cells.centres), cell)
     arrows = rr.Arrows3D.columns(vectors=cells.corrections[rows].reshape(-1, 3))
-    style = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=BELIEVED)
-    scene.show("map/corrections", arrows, len(cells.centres), style)
+    arrow = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=BELIEVED)
+    scene.show("map/corrections", arrows, len(cells.centres), arrow)

@@ -29,7 +29,7 @@ def quiet() -> dict[str, str]:
 @contextmanager
 def viewer(*options: str, log: int | IO = subprocess.DEVNULL) -> Iterator[subprocess.Popen]:
     """The program with these options, ended at the end of the block."""
-    command = [PROGRAM, "--bind", HERE, *options]
+    command = [str(PROGRAM), "--bind", HERE, *options]
     process = subprocess.Popen(command, env=quiet(), stdout=log, stderr=log)
     try:
         yield process

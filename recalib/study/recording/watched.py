@@ -80,14 +80,14 @@ def watch(
     """
     workspace, shown = controller.robot.workspace, visiting_order(poses.tests[0, :POSES])
     commands, thetas, weights = [], [], []
-    has_cells = isinstance(learner, HierarchicalLearner)
+    maps = learner if isinstance(learner, HierarchicalLearner) else None
 
     def on_progress(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
-        if has_cells:
-            theta = next(iter(learner.maps.values())).theta
+        if maps:
+            theta = next(iter(maps.maps.values())).theta
             thetas.append(theta.all[0, ..., POSITION].copy())
-            weights.append(_neighbourhood(learner, poses.desired[0], iteration))
+            weights.append(_neighbourhood(maps, poses.desired[0], iteration))
 
     history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
     goals, home = workspace.to_poses(shown), controller.robot.home
@@ -97,10 +97,10 @@ def watch(
     repeated = plant.execute(np.repeat(commands[-1][None], REPEATED, axis=1)).achieved[0]
     measured = workspace.to_poses(repeated).reshape(len(shown), REPEATED, 4, 4)
     cells = None
-    if has_cells:
+    if maps:
         half_ranges = workspace.half_ranges[POSITION]
         cells = Cells(
-            centres=workspace.centre[:3, 3] + learner.nets.w_k * half_ranges,
+            centres=workspace.centre[:3, 3] + maps.nets.w_k * half_ranges,
             weights=np.stack(weights),
             corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
         )

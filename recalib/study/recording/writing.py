@@ -16,7 +16,7 @@ from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
 from recalib.study.configuration.damages import damages_among, disturbances_among
 from recalib.study.experiments import campaign
-from recalib.study.experiments.poses import Stream
+from recalib.study.experiments.poses import ResultPoses, Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import ERRORS, errors_of
@@ -101,14 +101,14 @@ def write_recording(
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
-        measure_at = range(job.moves + 1)  # of today's: after each move
+        measure_at = list(range(job.moves + 1))  # of today's: after each move
         if rules := job.learners[name]:
             measure_at = campaign.measured_at(job.measuring, rules.iterations)
         poses = Stream.SCENARIO.draw(
             job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
         )
         plant = resolved.plant(controller, job.seed, [seed])
-        watched[name] = watch(controller, plant, learner, poses, measure_at)
+        watched[name] = watch(controller, plant, learner, ResultPoses.only(poses), measure_at)
         if name in measured:
             _compare(path, name, watched[name].history.columns(), measured[name])
     main = next(iter(watched.values()))

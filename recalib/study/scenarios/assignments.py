@@ -9,7 +9,7 @@ from itertools import permutations, product
 
 import numpy as np
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import Along, EncoderShift, LinkShortening, apply
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from recalib.numerics.randomness import generator
@@ -21,7 +21,7 @@ TIE = 9  # decimals of a distance: nearer to one another than that, rounding wou
 
 
 def shortenings(
-    links: Sequence[str], lengths: Sequence[float], along: str
+    links: Sequence[str], lengths: Sequence[float], along: Along
 ) -> list[tuple[LinkShortening, ...]]:
     """Every way to take the lengths [m] off as many different links."""
     ways = dict.fromkeys(
@@ -56,7 +56,7 @@ class Ways:
         lengths: Sequence[float],
         joints: Sequence[str],
         angles: Sequence[float],
-        along: str = "line",
+        along: Along = "line",
     ):
         self._links, self._joints = list(links), list(joints)
         self.short, self.shifted = shortenings(links, lengths, along), shifts(joints, angles)

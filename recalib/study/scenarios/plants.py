@@ -114,7 +114,7 @@ def resolve(
         seed: of the study.
         assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
-    assigned = Assignment.read(assignment).damages if assignment else ()
+    assigned = damages_among(Assignment.read(assignment).damages) if assignment else []
     resolved: list[Entry] = []
     for entry in damages:
         resolved += entry.part_of(assigned) if isinstance(entry, Assigned) else [entry]

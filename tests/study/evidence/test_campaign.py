@@ -44,7 +44,7 @@ def test_a_piece_that_was_not_declared_is_missed(few, tmp_path):
 )
 def test_tables_are_those_of_the_project_whose_results_are_read(few, root, project):
     ask = Request(few, Trainings(few), root, str).read(REFERENCE)
-    assert ask.evidence.path(REFERENCE) == f"{project}{REFERENCE}"
+    assert ask.evidence.files[REFERENCE] == f"{project}{REFERENCE}"
 
 
 def test_another_study_has_no_campaign(few, tmp_path):

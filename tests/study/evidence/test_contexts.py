@@ -25,4 +25,4 @@ def test_ritters_is_said_to_have_both_errors_of_the_improved_one_on_its_way(last
     )
     histories = {"improved": ours, "ritter_own": ritters}
     roles = {"improved": "improved", "ritter": "ritter_own"}
-    assert _on_its_way(SimpleNamespace(history=histories.get, fact=roles.get)) == text
+    assert _on_its_way(SimpleNamespace(history=histories.get, facts=roles)) == text

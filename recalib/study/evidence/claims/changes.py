@@ -17,13 +17,13 @@ RATIO_OF = "error with it / without it"
 
 def compare(evidence: Evidence, ours: str, theirs: str) -> Estimate:
     """The error of one training over that of another."""
-    errors = (combined(evidence.errors(name)) for name in (ours, theirs))
-    return ratio(*errors, evidence.rng(ours, theirs))
+    own, others = (combined(evidence.errors(name)) for name in (ours, theirs))
+    return ratio(own, others, evidence.rng(ours, theirs))
 
 
 def with_and_without(evidence: Evidence, switch: Switch) -> dict[str, tuple[str, str]]:
     """The trainings with a change and without it, by system."""
-    pairs = (evidence.fact("improved"), switch.without), (switch.added, evidence.fact("short"))
+    pairs = (evidence.facts["improved"], switch.without), (switch.added, evidence.facts["short"])
     return dict(zip(SYSTEMS, pairs, strict=True))
 
 

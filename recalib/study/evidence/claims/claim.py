@@ -79,7 +79,7 @@ class Finding:
                 bounds[label] = parts
         return {
             "measured": {
-                label: rounded(value) for label, value in (measured | self.numbers).items()
+                label: rounded(value) for label, value in {**measured, **self.numbers}.items()
             },
             "interval": interval,
             "bounds": bounds,

@@ -10,7 +10,7 @@ LEFT = Limit(0.1)
 
 
 def measure(evidence, limits):
-    improved = evidence.fact("improved")
+    improved = evidence.facts["improved"]
     shares, errors = both(evidence, improved), evidence.errors(improved)
     final = errors[typical(errors)].mean(axis=0)
     return Finding(

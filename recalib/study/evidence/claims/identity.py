@@ -11,11 +11,11 @@ ERROR = Limit(0.001)
 
 
 def measure(evidence, limits):
-    worst = evidence.history(evidence.fact("improved"), SCENARIO)[list(ERRORS)].max()
-    ritter = evidence.errors(evidence.fact("short"), SCENARIO).mean(axis=(0, 1))
+    worst = evidence.history(evidence.facts["improved"], SCENARIO)[list(ERRORS)].max()
+    ritter = evidence.errors(evidence.facts["short"], SCENARIO).mean(axis=(0, 1))
     note = (
         f"Ritter's map, which shares values, does not keep the identity: {ritter[0]:.2g} cm and"
-        f" {ritter[1]:.2g} degrees after {evidence.fact('iterations')} iterations."
+        f" {ritter[1]:.2g} degrees after {evidence.facts['iterations']} iterations."
     )
     numbers = {"largest position error [cm]": worst.iloc[0]}
     numbers["largest orientation error [degrees]"] = worst.iloc[1]

@@ -8,7 +8,7 @@ NEAR = 0.05  # of both published errors
 
 
 def measure(evidence, limits):
-    table, published = evidence.assignments(), evidence.fact("published")
+    table, published = evidence.assignments(), evidence.facts["published"]
     below = {
         f"share of assignments below {published[error]:g} {error.split('_')[-1]}": float(
             (table[error] < published[error]).mean()

@@ -7,7 +7,7 @@ from recalib.study.inference.measured import ERRORS, KINDS, NONE, RIGID
 
 
 def measure(evidence, limits):
-    estimates, largest, improved = {}, {}, evidence.fact("improved")
+    estimates, largest, improved = {}, {}, evidence.facts["improved"]
     for scenario in RIGID:
         for kind, name in enumerate(KINDS):
             label = f"{scenario.replace('_', ' and ')}, {name} error"

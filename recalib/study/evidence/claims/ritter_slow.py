@@ -9,7 +9,7 @@ LEFT = Limit(0.25)
 
 
 def measure(evidence, limits):
-    shares = both(evidence, evidence.fact("short"))
+    shares = both(evidence, evidence.facts["short"])
     return Finding({"Ritter's": min(shares.values())} | shares)
 
 

@@ -11,7 +11,7 @@ LONG = Limit(50.0)  # more than 10,000 iterations over 200
 
 
 def measure(evidence, limits):
-    own, found, ends, notes = evidence.fact("iterations"), {}, {}, []
+    own, found, ends, notes = evidence.facts["iterations"], {}, {}, []
     for learner, cells in CELLS.items():
         rungs, label = evidence.ladder(learner), f"factor, as many cells as {cells}"
         found[label] = leading(evidence, learner)
