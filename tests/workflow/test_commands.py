@@ -99,7 +99,6 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make pictures SCENARIO=translation": "needs a Vulkan driver, and minutes where it is software",
     "make view STUDY=ur3": "opens a window",
     "make web STUDY=my_arm": "serves until it is interrupted",
-    "make web STUDY=ur3": "serves until it is interrupted",
     "make web STUDY=quick": "serves until it is interrupted",
     "make study STUDY=ur3": "a minute, and as make quick",
     "make study STUDY=coarse": "three minutes",
