@@ -20,7 +20,7 @@ from workflow import watch
 
 PATIENCE = 120  # seconds: the viewer draws in software
 SOFTWARE = "--use-angle=swiftshader", "--enable-unsafe-swiftshader"  # WebGL without a graphics card
-OWN = "Links and encoders"  # the recording of the study's own scenario
+OWN = "links and encoders"  # the recording of the study's own scenario
 SHADED = 2000  # colours of the right half where an arm is drawn: text and grids have some hundred
 
 
