@@ -29,6 +29,7 @@ quick: study ## a small replication, in two minutes with its set-up: results/stu
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(if $(STUDY_FILE),,$(error there is no $(STUDY).yaml; see docs/bend.md))
+	@.venv/bin/python -m workflow.readable $(STUDY_FILE)
 	$(SNAKEMAKE) --quiet rules reason host
 	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
