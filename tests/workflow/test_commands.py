@@ -14,6 +14,9 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").g
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
 MODULE = re.compile(r"`(python -m [^`]+)`")  # in the text
 PROGRAM = re.compile(r"^ *(\S*python|pip|make|snakemake|recalib|git) ", re.MULTILINE)
+LONG = {"quick", "faults", "reproduce", "mutants", "peers"}
+LONG |= {"tune", "power", "reference", "universes", "horizons"}
+TIME = re.compile(r"minutes|hour|time left")
 SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
 EXECUTED = {  # by a test, or by the check of a change
     "make": ".ci/run",
@@ -195,6 +198,8 @@ def test_make_help_names_every_target_and_pages_name_no_other():
     )
     helped = {line.split()[0] for line in told.stdout.splitlines() if len(line.split()) > 2}
     assert helped == targets
+    timed = {line.split()[0] for line in told.stdout.splitlines() if TIME.search(line)}
+    assert timed >= LONG, "whoever waits knows for how long"
     named = {
         target
         for page in PAGES
