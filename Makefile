@@ -30,6 +30,7 @@ quick: study ## a small replication, in two minutes with its set-up: results/stu
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(NO_SUCH)
+	@.venv/bin/python -m workflow.readable $(STUDY_FILE)
 	$(SNAKEMAKE) --quiet rules reason host
 	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
@@ -91,13 +92,13 @@ lowest: tools ## the library's tests with the lowest versions that pyproject.tom
 slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults; says what is missing for it
 	.venv/bin/python -m pytest -n0 -rs tests/slurm
 
-faults: tools ## kill runs, start two at once, damage files, fill the disk
+faults: tools ## kill runs, start two at once, damage files, fill the disk (10 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
 verify: setup ## remove results that have changed since they were written
 	.venv/bin/python -m workflow.digests results
 
-mutants: tools ## plant small random errors in the code, and list those that no test notices: docs/mutants.md
+mutants: tools ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
 	$(PIP) --no-build-isolation --editable .[mutants]
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
@@ -150,7 +151,7 @@ notebook: setup ## damage an arm with sliders, in a browser; installs marimo, wh
 	$(PIP) --no-build-isolation --editable .[notebook]
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
-tune: setup ## repeat all searches for widths and rates, and ship what is found
+tune: setup ## repeat all searches for widths and rates, and ship what is found (an hour)
 	$(SNAKEMAKE) tune
 	cp results/search/*.csv workflow/search/
 

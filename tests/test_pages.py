@@ -7,6 +7,7 @@ from functools import cache
 import pandas as pd
 import pytest
 
+from recalib.study.evidence import words
 from recalib.study.evidence.checks import expect
 from recalib.study.evidence.pages import PAGES, render
 from recalib.study.evidence.readme import in_a_sentence
@@ -100,8 +101,32 @@ def test_the_readme_has_each_claim_in_a_line_under_its_verdict(made_up):
     }
 
 
+def test_a_verdict_that_holds_of_one_system_alone_names_it():
+    its = {"universes": {"status": "measured", "mean": 0.9, "mean_interval": [0.8, 0.95]}}
+    claim = its | {"id": "separate-maps", "verdict": "supported"}
+    systems = {name: {"verdict": "supported"} for name in ("ours", "theirs")}
+    assert in_a_sentence({"separate-maps": claim | {"systems": systems}}) == {
+        "separate-maps": "error x 0.9 (0.8 to 0.95)"
+    }
+    systems["theirs"] = {"verdict": "no effect"}
+    assert in_a_sentence({"separate-maps": claim | {"systems": systems}}) == {
+        "separate-maps": "ours: error x 0.9 (0.8 to 0.95); theirs: no effect"
+    }
+
+
+def test_readers_are_told_which_number_is_which(made_up):
+    section = (
+        rendered("results.md", made_up).split("### Which number is which\n")[1].split("\n##")[0]
+    )
+    summary = pd.read_csv(made_up.path("summary.csv")).set_index(["scenario", "learner"])
+    own = summary.loc[(made_up.study.scenario, "improved")]
+    assert f"{own.seeds} repetitions: {own.searches} searches with" in section
+    assert words.pair(own, "final") in section, "the mean over all, not of the typical search"
+
+
 def test_the_readme_is_read_in_a_few_minutes():
     text = README.read_text(encoding="utf-8")
+    assert "today" in text.split("\n\n")[1].split(". ")[1], "why it matters comes second"
     assert len(text.split()) <= 1100
     assert len(re.findall(r"^\|", text, re.MULTILINE)) <= 20, "rows of tables"
 

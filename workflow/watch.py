@@ -13,15 +13,21 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
-import jinja2
+from rerun.chunk import RrdReader
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
+from recalib.study.evidence.report import layout
+from recalib.study.plan.recordings import TODAYS, Recording
+from recalib.study.recording.naming import in_words
 from recalib.study.recording.viewer import HERE
 from recalib.study.recording.web_viewer import copy_viewer
+from recalib.study.scenarios.plants import Resolved
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
+FIGURES = Path(__file__).resolve().parents[1] / "figures"  # the committed ones
 # The viewer is WebAssembly, which counts as eval.
 POLICY = "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'"
 
@@ -32,17 +38,22 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
 
     Raises RecalibError where nothing is recorded, or where another program has the port.
     """
-    recordings = sorted(path.name for path in (folder / "recordings").glob("*.rrd"))
+    recordings = sorted((folder / "recordings").glob("*.rrd"))
     if not recordings:
         raise RecalibError(f"no recording in {folder / 'recordings'}; `make quick` makes some")
     with TemporaryDirectory() as temporary:
         root = Path(temporary)
         (root / "results").symlink_to(folder.resolve())
+        (root / "figures").symlink_to(FIGURES)
         copy_viewer(root / "viewer")
-        study = SHIPPED if folder.name == RESULTS else folder.name
-        report = (folder / "report.html").exists()
-        known = {"study": study, "recordings": recordings, "report": report}
-        template = jinja2.Template(TEMPLATE.read_text(encoding="utf-8"), autoescape=True)
+        shipped = folder.name == RESULTS
+        shown = [_shown(path, root, shipped) for path in recordings]
+        known = {
+            "study": SHIPPED if shipped else folder.name,
+            "recordings": sorted(shown, key=lambda its: its["picture"] is None),
+            "report": (folder / "report.html").exists(),
+        }
+        template = layout().from_string(TEMPLATE.read_text(encoding="utf-8"))
         (root / "index.html").write_text(template.render(known), encoding="utf-8")
         try:
             server = ThreadingHTTPServer((HERE, port), partial(_Handler, directory=temporary))
@@ -51,6 +62,33 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
             raise RecalibError(f"port {port} is taken; {another}") from None
         with server:
             yield server
+
+
+def _shown(recording: Path, root: Path, shipped: bool) -> dict[str, Any]:
+    """What the page shows of a recording: its name, its damages in words, a picture if any.
+
+    Args:
+        root: the folder that is served.
+        shipped: whether the pictures that are committed are of its study.
+    """
+    name, folder = recording.stem, recording.parents[1]
+    damages = Resolved.read(folder / "scenarios" / f"{name}.json").damages
+    places = [f"results/figures/{name}_before.png"]
+    arms = ["results/figures/arm_before.png", *["figures/arm_before.png"] * shipped]
+    if any((root / arm).exists() for arm in arms) and _is_own(recording):
+        places += arms
+    picture = next((place for place in places if (root / place).exists()), None)
+    words = "; ".join(map(in_words, damages)) or "nothing is wrong with this arm"
+    return {"name": name, "damages": words, "picture": picture}
+
+
+def _is_own(recording: Path) -> bool:
+    """Whether it is that of its study's own scenario: one of today's learners is in it alone."""
+    for chunk in RrdReader(recording).store().stream().to_chunks():
+        if chunk.entity_path == "/__properties/run":
+            ((job,),) = chunk.to_record_batch()["job"].to_pylist()
+            return TODAYS in Recording.model_validate_json(job).learners
+    return False
 
 
 class _Handler(SimpleHTTPRequestHandler):

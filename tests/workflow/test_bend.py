@@ -3,12 +3,15 @@
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
 from recalib.study.plan.trainings import Trainings
 from recalib.study.studies import read_studies
 from tests.conftest import ROOT
+from tests.project import Project
+from workflow import readable
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
@@ -73,3 +76,27 @@ def test_a_command_speaks_of_its_study(project, command, said):
 def test_a_study_without_a_file_is_refused(project):
     refused = make(project, "study", "STUDY=my_leg")
     assert refused.returncode and "there is no my_leg.yaml" in refused.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("# nothing yet\n", "1:1: no configuration; expected: keys with their values"),
+        ("robot: [ur5\n", "2:1: no YAML: expected ',' or ']', but got '<stream end>'"),
+    ],
+)
+def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeypatch):
+    monkeypatch.chdir(project)
+    Path("my_leg.yaml").write_text(text, encoding="utf-8")
+    assert "-m workflow.readable my_leg.yaml\n" in make(project, "study", "STUDY=my_leg").stdout
+    with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(said)}"):
+        readable.main("my_leg.yaml")
+    readable.main("my_arm.yaml")
+
+
+@pytest.mark.slow
+def test_a_study_is_refused_with_its_mistakes_alone(tmp_path):
+    (tmp_path / "my_leg.yaml").write_text("like: quick\nrobot: kuka\n", encoding="utf-8")
+    ran = Project(tmp_path, "--configfile", "my_leg.yaml").run("--dry-run")
+    *_, last = ran.badly().said.splitlines()
+    assert last.startswith("my_leg.yaml:2:1: robot is 'kuka'; expected: ur10")

@@ -10,7 +10,8 @@ from tests.conftest import ROOT
 
 # A command at the beginning of a line, without what depends on the machine.
 COMMAND = re.compile(
-    r"^(?:sudo )?((?:make|cp|git|cat|\.venv/bin/python)\b(?: (?!PYTHON=|\|\||#)\S+)*)", re.MULTILINE
+    r"^(?:sudo )?((?:make|cp|git|cat|command|\.venv/bin/python)\b(?: (?!PYTHON=|\|\||#)\S+)*)",
+    re.MULTILINE,
 )
 WORKFLOWS = ROOT / ".github" / "workflows"
 
@@ -30,6 +31,11 @@ def test_github_runs_what_the_check_of_a_change_runs():
     here = commands((ROOT / ".ci" / "run").read_text(encoding="utf-8"))
     assert "make" in here and len(here) > 10
     assert elsewhere == here
+
+
+def test_the_browser_is_there_before_a_test_needs_it():
+    before, tests, _ = (ROOT / ".ci" / "run").read_text(encoding="utf-8").partition("\nmake test\n")
+    assert tests and " chromium chromium-driver " in before
 
 
 def test_every_python_that_is_promised_runs_the_tests():

@@ -11,7 +11,12 @@ import pytest
 from tests.conftest import ROOT, copy_project
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-BLOCK = re.compile(r"^ *```sh\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
+MODULE = re.compile(r"`(python -m [^`]+)`")  # in the text
+PROGRAM = re.compile(r"^ *(\S*python|pip|make|snakemake|recalib|git) ", re.MULTILINE)
+LONG = {"quick", "faults", "reproduce", "mutants"}
+LONG |= {"tune", "power", "reference", "universes", "horizons"}
+TIME = re.compile(r"minutes|hour|time left")
 SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
 EXECUTED = {  # by a test, or by the check of a change
     "make": ".ci/run",
@@ -99,7 +104,6 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make pictures SCENARIO=translation": "needs a Vulkan driver, and minutes where it is software",
     "make view STUDY=ur3": "opens a window",
     "make web STUDY=my_arm": "serves until it is interrupted",
-    "make web STUDY=ur3": "serves until it is interrupted",
     "make web STUDY=quick": "serves until it is interrupted",
     "make study STUDY=ur3": "a minute, and as make quick",
     "make study STUDY=coarse": "three minutes",
@@ -108,24 +112,42 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
 }
 BY_HAND = {
     "pip install '.[laboratory,vision]'": "part of what make vision installs",
+    "pip install '.[laboratory,vision,live]'": "part of what make vision and make live install",
     "pip install '.[laboratory]'": "part of what make setup installs",
     "snakemake --cores 1 results/real/fit.csv": "fetches a table from the network",
     "recalib calibrate ur5_robot.urdf results/real/fit.csv --tool tool0"
     " --description workflow/real/ur5.toml": "with the table that was fetched",
     "git status --short": "of the reader's own checkout",
     "snakemake --profile profiles/slurm universes": "an hour on a cluster; see make slurm",
+    "python -m recalib.study.configuration.schema": "a test compares what it has written",
+    "python -m recalib.study.evidence.deviations": "a test compares what it prints",
+    "python -m tests.station.bars": "whole tables of calibrations",
+    "python -m tests.station.film": "a film that was looked at",
+    "python -m tests.station.paper_live": "15 minutes",
+    "python -m tests.station.recording": "5 minutes; a test makes its learners",
+    "python -m tests.vision.bars": "whole tables of calibrations; tests use its parts",
+    "python -m tests.vision.several": "whole tables of calibrations",
 }
 
 
 def commands() -> list[str]:
-    """All commands of all pages, without their comments."""
-    lines = (
+    """All commands of all pages, without their comments; in the text, those that run a module."""
+    texts = [page.read_text(encoding="utf-8") for page in PAGES]
+    lines = {
         line.partition("#")[0].strip()
-        for page in PAGES
-        for block in BLOCK.findall(page.read_text(encoding="utf-8"))
+        for text in texts
+        for language, block in BLOCK.findall(text)
+        if language == "sh"
         for line in block.splitlines()
-    )
-    return sorted({*filter(None, lines)} - {*SETTING})
+    }
+    modules = {command for text in texts for command in MODULE.findall(text)}
+    return sorted({*filter(None, lines), *modules} - {*SETTING})
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.name for page in PAGES])
+def test_a_block_of_commands_is_one_of_sh(page):
+    blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
+    assert not [block for language, block in blocks if language != "sh" and PROGRAM.search(block)]
 
 
 def test_what_is_said_of_commands_is_said_of_those_on_pages():
@@ -176,6 +198,8 @@ def test_make_help_names_every_target_and_pages_name_no_other():
     )
     helped = {line.split()[0] for line in told.stdout.splitlines() if len(line.split()) > 2}
     assert helped == targets
+    timed = {line.split()[0] for line in told.stdout.splitlines() if TIME.search(line)}
+    assert timed >= LONG, "whoever waits knows for how long"
     named = {
         target
         for page in PAGES

@@ -132,6 +132,18 @@ def test_the_front_leads_to_every_kind_of_page_and_shows_no_graph(visit, browser
     assert browser.execute_script(HIDDEN)
 
 
+def test_each_title_on_the_front_opens_its_page(visit, browser, report):
+    browser.get(report.as_uri())
+    browser.execute_script(STILL)
+    click(browser, "//nav//span[.='Workflow']")
+    titles = [link.text for link in browser.find_elements(By.CSS_SELECTOR, ".prose li a")]
+    assert sorted(titles) == sorted(visit.drawings)
+    for title in titles:
+        click(browser, f'//a[normalize-space()="{title}"]')
+        read(browser, title, SimpleNamespace(drawings={}, broken=0, table=[]))
+        click(browser, "//nav//span[.='Workflow']")  # as the front says
+
+
 def where(browser, report, screen: dict, *parts: str) -> list[dict]:
     """Where parts of the report lie when it is opened on a screen."""
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)

@@ -3,8 +3,6 @@
 import sys
 from pathlib import Path
 
-from snakemake.exceptions import WorkflowError
-
 ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT))
 
@@ -30,7 +28,7 @@ try:
         ROOT, settings.configfiles, settings.config, asking=workflow.is_main_process
     )
 except RecalibError as error:
-    raise WorkflowError(str(error)) from None
+    sys.exit(str(error))  # an exception would be told with this file and line, where no mistake is
 
 TRAININGS = {root: Trainings(each) for root, each in STUDIES.items()}
 

@@ -96,13 +96,13 @@ rule before_and_after:
             "{root}/figures/{recording}_before.png",
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "1: before recalibration"},
+            labels={"page": "1: before recalibration"},
         ),
         after=report(
             "{root}/figures/{recording}_after.png",
             caption="../report/pictures.rst",
             category="Pictures",
-            labels={"picture": "2: after recalibration"},
+            labels={"page": "2: after recalibration"},
         ),
     log:
         "{root}/logs/before_and_after/{recording}.log",

@@ -1,12 +1,14 @@
 """What a study consists of, a target for each of them, and what the shipped one publishes."""
 
+from snakemake.exceptions import WorkflowError
+
 from workflow.alone import check_known, check_writable, hold
 
 try:
     check_writable(".snakemake")
     check_known(STUDIES)
 except RecalibError as error:
-    raise WorkflowError(str(error)) from None
+    sys.exit(str(error))
 
 
 def folder_of(job):

@@ -6,7 +6,7 @@ from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.words import headline, one, percent, short, typical_errors
+from recalib.study.evidence.words import headline, of_others, one, percent, short, typical_errors
 from recalib.study.inference.intervals import Estimate
 
 NEEDS = "summary.csv claims.json improved scenario"
@@ -18,14 +18,19 @@ ORDINARY = {
 
 
 def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
-    """Each claim with the number that judges it, by its id."""
+    """Each claim with the number that judges it, by its id; of which system, if others differ."""
     return {
-        claim.id: claim.short.format(
-            number=headline(claims[claim.id], short), percent=headline(claims[claim.id], percent)
-        )
+        claim.id: _of_its_system(claims[claim.id], claim.short)
         for claim in CLAIMS
         if claim.id in claims
     }
+
+
+def _of_its_system(claim: Mapping, sentence: str) -> str:
+    said = sentence.format(number=headline(claim, short), percent=headline(claim, percent))
+    if others := of_others(claim):
+        return "; ".join([f"{next(iter(claim['systems']))}: {said}", *others])
+    return said
 
 
 def _readings(claim: Mapping) -> dict[str, dict[str, str]]:

@@ -92,15 +92,17 @@ def typical_errors(claim: Mapping) -> str:
 
 def verdicts(claim: Mapping) -> str:
     """The verdict on a claim, and that on each other system beside it."""
-    first, *others = claim["systems"] or [""]
-    text = f"**{claim['verdict']}**"
-    different = [
-        f"{system}: {claim['systems'][system]['verdict']}"
-        for system in others
-        if claim["systems"][system]["verdict"] != claim["verdict"]
+    judged = f" ({next(iter(claim['systems']))})" if len(claim["systems"]) > 1 else ""
+    return "; ".join([f"**{claim['verdict']}**{judged}", *of_others(claim)])
+
+
+def of_others(claim: Mapping) -> list[str]:
+    """Each system on which a claim has another verdict than on the one that judges it."""
+    return [
+        f"{system}: {its['verdict']}"
+        for system, its in claim["systems"].items()
+        if its["verdict"] != claim["verdict"]
     ]
-    judged = f" ({first})" if others else ""
-    return f"{text}{judged}" + "".join(f"; {verdict}" for verdict in different)
 
 
 def over_setups(its: Mapping) -> str:

@@ -83,7 +83,8 @@ def _plots(
     learners: Sequence[str], watched: Mapping[str, Watched], published: Mapping[str, float]
 ) -> Iterable[rrb.TimeSeriesView]:
     learned = max(its.history.iterations[-1] for its in watched.values())
-    bounds = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, learned))
+    # beyond the last iteration, or its own number would have no room
+    bounds = (rrb.TimeRangeBoundary.absolute(seq=end) for end in (0, round(1.1 * learned)))
     iterations = rrb.TimeAxis(view_range=rr.TimeRange(*bounds))
     for quantity, title in TITLES.items():
         errors = [watched[learner].history.columns()[quantity].max() for learner in learners]

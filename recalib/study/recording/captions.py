@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from recalib.study.configuration.damages import Entry, damages_among, describe
+from recalib.study.configuration.damages import damages_among
 from recalib.study.inference.measured import ERRORS
 from recalib.study.plan.competitors import label_of
 from recalib.study.plan.recordings import Recording
 from recalib.study.recording.measurements import enlarged
+from recalib.study.recording.naming import in_words
 from recalib.study.recording.watched import Watched
 from recalib.study.scenarios.plants import Resolved
 
@@ -77,20 +78,6 @@ def progress(resolved: Resolved, watched: Watched) -> list[str]:
     when[0], when[-1] = f"before {what}", f"after {what}"
     pairs = zip(when, _errors(watched), strict=True)
     return [f"{words}: mean errors {errors}" for words, errors in pairs]
-
-
-def in_words(entry: Entry) -> str:
-    """What is wrong, in the words of the configuration."""
-    return _joined(describe(entry))
-
-
-def _joined(words: Any) -> str:
-    match words:
-        case dict():
-            return ", ".join(f"{key} {_joined(value)}" for key, value in words.items())
-        case list():
-            return ", ".join(words)
-    return str(words)
 
 
 def properties(job: Recording, resolved: Resolved) -> dict[str, Any]:

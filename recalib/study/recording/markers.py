@@ -8,7 +8,7 @@ import pinocchio as pin
 
 from recalib.damaged.damage import BaseShift, Damage, LinkShortening, apply
 from recalib.nominal.robots import Robot, link_end
-from recalib.study.configuration.damages import describe
+from recalib.study.recording.naming import amount, name, part_of
 
 HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
 
@@ -42,8 +42,8 @@ def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker
     for damage in damages:
         if isinstance(damage, LinkShortening):
             of_links.setdefault(damage.link, []).append(damage)
-        elif joint := getattr(damage, "joint", None):
-            of_joints.setdefault(joint, []).append(damage)
+        elif part := part_of(damage):
+            of_joints.setdefault(part, []).append(damage)
     found = []
     for link, its in of_links.items():
         end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
@@ -70,15 +70,9 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     return flat @ placement.rotation.T + placement.translation
 
 
-def _words(name: str, damages: Sequence[Damage]) -> str:
-    """What is wrong with a link or joint of this name."""
-    short = name.removesuffix("_link").removesuffix("_joint").replace("_", " ")
-    return f"{short}: {', '.join(map(_amount, damages))}"
-
-
-def _amount(damage: Damage) -> str:
-    (key, _), (_, amount), *_ = describe(damage).items()
-    return f"{amount} short" if isinstance(damage, LinkShortening) else f"{key} {amount}"
+def _words(part: str, damages: Sequence[Damage]) -> str:
+    """What is wrong with a link or joint."""
+    return f"{name(part)}: {', '.join(map(amount, damages))}"
 
 
 def _axis(robot: Robot, joint: int) -> np.ndarray:

@@ -46,7 +46,9 @@ class _Patient:
 
 def before_and_after(recording: Path, before: Path, after: Path) -> None:
     """Pictures of the arm before and after its recalibration; see `take_pictures`."""
-    take_pictures(recording, {before: BEFORE, after: ends(recording)[1]})
+    first, last = ends(recording)
+    # the last frame of learning: its number is one of iterations, and the arm rests there, too
+    take_pictures(recording, {before: BEFORE, after: first + last})
 
 
 def take_pictures(
@@ -87,7 +89,7 @@ def take_film(recording: Path, film: Path) -> None:
     """
     first, last = ends(recording)
     visits = np.arange(max(first, -SHOWN), 0, STEP)
-    learning = np.linspace(0, last + first, len(visits), dtype=int)
+    learning = np.linspace(0, first + last, len(visits), dtype=int)
     frames = np.concatenate([visits, learning, last + 1 + visits])
     with tempfile.TemporaryDirectory() as folder:
         shown = {Path(folder, f"{number}.png"): int(frame) for number, frame in enumerate(frames)}

@@ -51,7 +51,7 @@ def test_tables_hold_what_the_results_say(known, figures, made_up):
 def test_the_front_leaves_to_snakemake_what_only_it_knows(known, figures):
     text = report.front(known, figures)
     assert f":file: {figures['figure1']}\n\n" in text
-    assert "{% for category in categories" in text and "recordings/links_encoders.rrd" in text
+    assert "{% for page in parts.values()" in text and "recordings/links_encoders.rrd" in text
     assert ":file:" not in report.front(known, {})
 
 

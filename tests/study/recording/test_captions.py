@@ -20,14 +20,15 @@ def test_it_keeps_its_job_its_damage_and_what_made_it(job, columns):
 
     assert Recording.model_validate_json(said("job")) == job
     assert said("robot") == "ur10" and said("numpy") == np.__version__
-    assert json.loads(said("damage"))[1] == "link forearm_link, shorten 4 cm"
+    assert json.loads(said("damage"))[1] == "forearm: 4 cm short"
 
 
 def test_its_texts_name_the_robot_what_is_wrong_with_it_and_the_learners(columns):
     _, texts = columns("/about", "TextDocument:text")
     for words in (
         "UR10",
-        "link forearm_link, shorten 4 cm",
+        "forearm: 4 cm short",
+        "elbow: encoder -4 deg",
         "translate 1 cm, 0 m, -2 cm",
         "noise position 0.2 mm, orientation 0.0003 rad",
         f"visits {POSES} poses (white axes) and misses them",

@@ -16,7 +16,7 @@ from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.study.inference.measured import ERRORS
 from recalib.study.plan.trainings import Measuring
-from recalib.study.recording import captions, pictures
+from recalib.study.recording import captions, naming, pictures
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.measurements import enlarged
 from recalib.study.recording.phases import ARM, CLOCK
@@ -75,7 +75,7 @@ def test_all_that_is_said_is_as_kept(written, small, data_regression):
         "about": captions.about(its, watched).splitlines(),
         "beside": captions.beside(watched).splitlines(),
         "progress": [captions.progress(its, one) for one in watched.values()],
-        "words": [captions.in_words(entry) for entry in its.damages],
+        "words": [naming.in_words(entry) for entry in its.damages],
         "damage": [said["robot"], *json.loads(said["damage"])],
         "keys": sorted(said),
         "job": sorted(json.loads(said["job"])),

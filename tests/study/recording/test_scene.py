@@ -1,6 +1,6 @@
 """What a recording shows is what was measured, where it was."""
 
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +14,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
 from recalib.study.experiments.poses import Stream
 from recalib.study.inference.measured import ERRORS
-from recalib.study.recording import colours, markers, measurements, scene
+from recalib.study.recording import colours, labels, markers, measurements, scene
 from recalib.study.recording.blueprint import TITLES, _plots
 from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
@@ -170,6 +170,25 @@ def test_leaders_follow_the_arm_to_labels_off_it_off_the_workspace_and_off_one_a
         assert (ends == ends[0]).all() and np.linalg.norm(in_picture(sight, ends[0]) - place) < 0.45
 
 
+@pytest.mark.parametrize("side", [-1, 1])
+def test_leaders_cross_neither_one_another_nor_the_words_of_another_label(side):
+    """A start above all labels and beyond their inner side, and others towards the middle."""
+    starts = side * np.array([[0.55, -0.2], [0.95, -0.3], [0.2, -0.7], [0.4, -0.4]])
+    half, lines = 0.3, []
+    order = labels.in_order(side, starts)
+    for place, label in enumerate(order):
+        at = side * np.array([labels.ASIDE, labels.GAP * place - labels.ABOVE])
+        free = place == len(order) - 1
+        lines.append((starts[label], labels.leader_end(side, at, half, starts[label], free), at))
+    along = np.linspace(0, 1, 500)[:, None]
+    points = [start + along * (end - start) for start, end, _ in lines]
+    for one, other in permutations(range(len(lines)), 2):
+        apart = np.linalg.norm(points[one][:, None] - points[other], axis=-1)
+        assert apart.min() > 0.01, "leaders"
+        inside = np.abs(points[one] - lines[other][2] + [0, labels.LINE]) < [half, labels.LINE / 2]
+        assert not inside.all(axis=1).any(), "words"
+
+
 def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(recording, columns):
     training = recording[1]["improved"]
     assert training.scatter.shape == (POSES, REPEATED, 3)
@@ -262,7 +281,7 @@ def test_plots_reach_to_the_last_iteration_of_the_longest_training():
     views = _plots(["long", "short"], {"long": trained(200), "short": trained(50)}, {})
     for view in views:
         (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
-        assert [shown["start"], shown["end"]] == [0, 200]
+        assert [shown["start"], shown["end"]] == [0, 220], "with room for the number of the last"
 
 
 def test_fewer_poses_are_visited_in_fewer_frames():
