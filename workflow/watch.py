@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 import jinja2
 
 from recalib.errors import RecalibError
+from recalib.laboratory.viewer import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
-from recalib.study.recording.viewer import HERE
 from recalib.study.recording.web_viewer import copy_viewer
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
