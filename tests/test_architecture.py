@@ -27,6 +27,7 @@ LOOKS = {
     "laboratory/watching.py": {"rerun"},
     "laboratory/viewing.py": {"rerun"},
 }
+PROGRAM = {"laboratory/viewer.py": {"rerun_cli"}}  # of the viewer, which comes with rerun
 # What needs the extra `vision`: modules that nothing imports at once but each other.
 PICTURES = {
     "laboratory/observe.py": {"cv2"},
@@ -182,7 +183,7 @@ def test_the_library_knows_of_no_study_and_needs_what_it_declares():
             names = imported(path)
             assert not [name for name in names if name.startswith("recalib.study")], path
             tops = {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"recalib"}
-            looks = (LOOKS | PICTURES | LIVE).get(
+            looks = (LOOKS | PROGRAM | PICTURES | LIVE).get(
                 path.relative_to(ROOT / "recalib").as_posix(), set()
             )
             assert tops <= {*NEEDED.values()} | looks, path

@@ -18,11 +18,11 @@ from typing import Any
 from rerun.chunk import RrdReader
 
 from recalib.errors import RecalibError
+from recalib.laboratory.viewer import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.evidence.report import layout
 from recalib.study.plan.recordings import TODAYS, Recording
 from recalib.study.recording.naming import in_words
-from recalib.study.recording.viewer import HERE
 from recalib.study.recording.web_viewer import copy_viewer
 from recalib.study.scenarios.plants import Resolved
 

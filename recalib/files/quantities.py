@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from recalib.errors import InvalidQuantity
+from recalib.errors import InvalidQuantity, InvalidSetting
 
 _TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
 _DIGITS = 15, 16, 17  # what rounding leaves as it was written; what tells all floats apart
@@ -23,12 +23,20 @@ class Quantity:
     name: str
     units: Mapping[str, float]
 
-    def read(self, text: str) -> float:
+    def read(self, text: object) -> float:
         """The number of SI units that the text means. Raises InvalidQuantity."""
         match = _TEXT.fullmatch(text) if isinstance(text, str) else None
         if match is None or match[2] not in self.units or math.isinf(float(match[1])):
             raise InvalidQuantity(text, self.units)
         return float(match[1]) * self.units[match[2]]
+
+    def value_of(self, key: str, text: object) -> float:
+        """As `read`, of what a key or an option is given. Raises InvalidSetting, which names it."""
+        try:
+            return self.read(text)
+        except InvalidQuantity:
+            valid = f"{self.name} in {', '.join(self.units)}"
+            raise InvalidSetting(key, text, valid) from None
 
     def write(self, value: float) -> str:
         """A short text that reads as just this number of SI units, which must be finite."""

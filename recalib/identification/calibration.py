@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import pinocchio as pin
 
-from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms
+from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
 from recalib.identification.frames import HELD, Frames
 from recalib.identification.linearisation import displacements
@@ -77,8 +77,7 @@ class Calibration:
         standing = self._standing(joints)
         jacobians = np.empty((len(joints), 6, joints.shape[1]))
         poses = np.empty((len(joints), 4, 4))
-        for target in np.unique(targets):
-            rows = targets == target
+        for target, rows in by_sight(targets, len(joints)):
             arm = self._arms_to_targets[target]
             poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
         return self._shifted(poses, joints, targets), jacobians
@@ -143,9 +142,14 @@ class Calibration:
         """By the pattern of the first target, as the instrument would see it."""
         if self.pattern is None:
             return poses
+        base, target, from_base, from_target = self._first_frames
+        return from_base @ self._shifted(base @ poses @ target, joints) @ from_target
+
+    @cached_property
+    def _first_frames(self) -> tuple[np.ndarray, ...]:
+        """Of the first instrument and target (4, 4) [m], and their inverses: seldom inverted."""
         base, target = self.frames.base, self.frames.targets[0]
-        shifted = self._shifted(base @ poses @ target, joints)
-        return np.linalg.inv(base) @ shifted @ np.linalg.inv(target)
+        return base, target, np.linalg.inv(base), np.linalg.inv(target)
 
     def _shifted(
         self, poses: np.ndarray, joints: np.ndarray, targets: np.ndarray | None = None
@@ -154,12 +158,13 @@ class Calibration:
         if self.pattern is None:
             return poses
         by = self.pattern.predict(joints) * np.repeat(self.estimate.noise, 3)
-        if targets is not None:
+        if targets is not None and len(self.model.frames.further):
             by = turned(self.axes(targets), by)
         moved = poses.copy()
         moved[:, :3, 3] += by[:, :3]
         if by.shape[1] == 6:
-            moved[:, :3, :3] = Rotation.from_rotvec(by[:, 3:]).as_matrix() @ poses[:, :3, :3]
+            for pose, turn in zip(moved, by[:, 3:], strict=True):
+                pose[:3, :3] = pin.exp3(turn) @ pose[:3, :3]
         return moved
 
     def state(self) -> State:

@@ -210,8 +210,10 @@ class ErrorModel:
 
     def terms(self, joints: np.ndarray) -> np.ndarray:
         """The joint terms (n, term, joints) at joint coordinates (n, joints) [rad, m]."""
-        terms = [term(self.nominal, joints) for term, _ in self._terms.values()]
-        return np.stack(terms, axis=1) if terms else np.empty((len(joints), 0, self._joints))
+        terms = np.empty((len(joints), len(self._terms), self._joints))
+        for index, (term, _) in enumerate(self._terms.values()):
+            terms[:, index] = term(self.nominal, joints)
+        return terms
 
     def standing(self, parameters: np.ndarray, joints: np.ndarray, terms: np.ndarray) -> np.ndarray:
         """Where the joints stand (n, joints) [rad, m].
@@ -235,7 +237,7 @@ class ErrorModel:
         """
         standing = self.standing(parameters, joints, self.terms(joints))
         poses = np.empty((len(joints), 4, 4))
-        for sight, rows in _by_sight(targets, len(joints)):
+        for sight, rows in by_sight(targets, len(joints)):
             poses[rows] = self.arm(parameters, sight).forward(standing[rows])
         return poses
 
@@ -261,7 +263,7 @@ class ErrorModel:
         count, links = self._joints, 6 * self._joints
         poses = np.empty((len(joints), 4, 4))
         jacobians = np.zeros((len(joints), 6, len(parameters)))
-        for sight, rows in _by_sight(targets, len(joints)):
+        for sight, rows in by_sight(targets, len(joints)):
             arm, (start, end) = self.arm(parameters, sight), self._ends[sight]
             poses[rows], by_joint, placements = arm.forward_and_all_jacobians(standing[rows])
             own = np.stack([motions[start], *motions[1:count], motions[end]])
@@ -276,7 +278,7 @@ class ErrorModel:
         return poses, jacobians
 
 
-def _by_sight(sights: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
+def by_sight(sights: np.ndarray | None, count: int) -> list[tuple[int, slice | np.ndarray]]:
     """Each sight that there are rows of, with its rows."""
     if sights is None or not np.any(sights):
         return [(0, slice(count))]

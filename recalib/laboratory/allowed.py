@@ -33,7 +33,7 @@ class Box:
             valid = "ranges of x, y and z, as in '-40 cm to 40 cm, 30 cm to 80 cm, 10 cm to 1 m'"
             raise InvalidSetting("--box", text, valid)
         low, high = np.array(
-            [[LENGTH.read(end) for end in its.groups()] for its in ranges if its]
+            [[LENGTH.value_of("--box", end) for end in its.groups()] for its in ranges if its]
         ).T
         if (low >= high).any():
             raise InvalidSetting("--box", text, "each range from its lower end to its upper end")

@@ -4,10 +4,10 @@ import argparse
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 
-from recalib.errors import RecalibError
+from recalib.errors import RecalibError, UnknownName
 from recalib.laboratory.outputs import check_new, is_taken, new
 
 CAMERAS = "fixed", "hand"
@@ -17,7 +17,11 @@ EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better t
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command, and return its exit code. A mistake is one sentence on stderr."""
-    given = _parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else arguments
+    parser, commands = _parser()
+    if words and not words[0].startswith("-") and words[0] not in commands:
+        parser.error(str(UnknownName("command", words[0], commands)))
+    given = parser.parse_args(words)
     # NumPy reads it when it is imported. Of matrices so small, each thread would wait for others:
     # where something else is at work, ten times as long as it takes one alone.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -42,7 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return REFUSED
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
+    """What reads the command line, and the names of the commands."""
     parser = argparse.ArgumentParser(
         prog="recalib", description="Recalibrate a robot arm from measurements.", epilog=EPILOGUE
     )
@@ -83,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("--error", help="predicted error to end at, such as '0.3 mm'")
     own.add_argument(
         "--most",
-        type=_positive,
+        type=int,
         default=60,
         help="rows to end at in any case (default: %(default)s)",
     )
@@ -97,7 +102,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     own.add_argument(
         "--speed",
-        type=_part,
+        type=float,
         default=0.1,
         help="share of the possible speed (default: %(default)s)",
     )
@@ -106,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     own.add_argument("--board", type=Path, help="board in the station's pictures (TOML)")
     own.add_argument("--lens", type=Path, help="lens calibration (YAML), with --board")
-    own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
+    own.add_argument("--camera", choices=CAMERAS, help="where it is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")
     own.add_argument("--view", action="store_true", help="show it in a window of rerun")
     own.add_argument(
@@ -152,11 +157,9 @@ def _parser() -> argparse.ArgumentParser:
     own = add("board", _board, "draw a calibration board to print")
     own.add_argument("--kind", default="charuco", help="charuco or apriltag (default: %(default)s)")
     own.add_argument(
-        "--columns", type=_positive, default=7, help="squares in a row (default: %(default)s)"
+        "--columns", type=int, default=7, help="squares in a row (default: %(default)s)"
     )
-    own.add_argument(
-        "--rows", type=_positive, default=5, help="rows of squares (default: %(default)s)"
-    )
+    own.add_argument("--rows", type=int, default=5, help="rows of squares (default: %(default)s)")
     own.add_argument("--square", default="36 mm", help="width of a square (default: %(default)s)")
     own.add_argument("--out", default="board", help="new folder to write (default: %(default)s)")
 
@@ -172,23 +175,13 @@ def _parser() -> argparse.ArgumentParser:
     own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
     own.add_argument("--name", default="camera", help="its name, if there are several cameras")
     own.add_argument("--out", default="observed", help="new folder to write (default: %(default)s)")
-    return parser
+    return parser, commands.choices
 
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or not int(text):
         raise argparse.ArgumentTypeError(f"{text!r} is no number from 1 on")
     return int(text)
-
-
-def _part(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not 0 < number <= 1:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number above 0 and up to 1")
-    return number
 
 
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
@@ -292,7 +285,9 @@ def _board(given: argparse.Namespace) -> int:
     from recalib.vision.boards import printable
     from recalib.vision.printing import BAR, draw_board
 
-    board = printable(given.kind, given.columns, given.rows, LENGTH.read(given.square))
+    board = printable(
+        given.kind, given.columns, given.rows, LENGTH.value_of("--square", given.square)
+    )
     with new(given.out, folder=True) as made:
         wide, high = draw_board(board, made / "board.pdf", made / "board.svg")
         (made / "board.toml").write_text(board.described(), encoding="utf-8")

@@ -96,7 +96,7 @@ def solve(
     goals = desired.measured
     if goals is None:
         goals = arm.forward(desired.joints)
-    if len(arm.joints) < 6 and goals.ndim == 3:
+    if arm.model.nv < 6 and goals.ndim == 3:
         goals = goals[:, :3, 3]
     starts = [joints] if joints is not None else _nearest(correction, goals, targets)
     lower, upper = arm.model.lowerPositionLimit, arm.model.upperPositionLimit

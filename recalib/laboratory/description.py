@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_file
 from recalib.laboratory.columns import FARTHEST
@@ -111,10 +111,7 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
-    try:
-        number = kind.read(text)
-    except InvalidQuantity:
-        raise InvalidSetting(key, text, f"{kind.name} in {', '.join(kind.units)}") from None
+    number = kind.value_of(key, text)
     most, valid = FARTHEST[kind]
     if abs(number) > most:
         raise InvalidSetting(key, text, f"up to {valid}")

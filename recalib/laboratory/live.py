@@ -6,17 +6,20 @@ from os import PathLike
 
 import numpy as np
 
-from recalib.errors import InvalidFile, RecalibError
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError
+from recalib.identification.diagnostics import FEWEST
 from recalib.identification.observations import Observations
 from recalib.laboratory.allowed import AllowedPostures, Box
 from recalib.laboratory.description import Description
 from recalib.laboratory.record import Record
 from recalib.laboratory.running import AHEAD, RunningCalibration
 from recalib.nominal.kinematics import Arm
-from recalib.station.guarded import Guarded
+from recalib.station.guarded import REACHED, Guarded
 from recalib.station.interface import Station, StationFailed
 
 USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
+NARROWEST = 2 * REACHED  # rad: postures that are nearer count as one
+LONGEST = 86_400.0  # s that a move or a measurement may take
 UNSEEN = 10  # postures in a row without a sight of the target: it is lost, or they are too far
 
 
@@ -32,6 +35,8 @@ class LiveSettings:
         box: in which the nominal tool link stays; None where the limits of the joints are enough.
         speed: of the fastest joint, as a part of what it allows.
         patience: s that the station may take for an answer.
+
+    Raises InvalidSetting: no calibration goes by these.
     """
 
     error: float | None = None
@@ -40,6 +45,20 @@ class LiveSettings:
     box: Box | None = None
     speed: float = 0.1
     patience: float = 60.0
+
+    def __post_init__(self) -> None:
+        if self.error is not None and not 0 < self.error < np.inf:
+            raise InvalidSetting("--error", f"{1e3 * self.error:g} mm", "more than zero")
+        if self.most < FEWEST:
+            valid = f"at least {FEWEST} rows, which a calibration needs"
+            raise InvalidSetting("--most", self.most, valid)
+        if not NARROWEST < self.span < np.inf:
+            valid = f"more than {np.degrees(NARROWEST):.2g} deg: nearer postures count as one"
+            raise InvalidSetting("--span", f"{np.degrees(self.span):g} deg", valid)
+        if not 0 < self.speed <= 1:
+            raise InvalidSetting("--speed", self.speed, "above 0 and up to 1")
+        if not 0 < self.patience <= LONGEST:
+            raise InvalidSetting("--patience", f"{self.patience:g} s", "above 0 s, up to a day")
 
 
 class Interrupted(RecalibError):
@@ -83,7 +102,8 @@ def calibrate_live(
     except BaseException as error:
         if station is not None:
             station.stop()
-        on_progress(f"stopped; {len(record)} rows are in {record.path}: the same call goes on")
+        if len(record):
+            on_progress(f"stopped; {len(record)} rows are in {record.path}: the same call goes on")
         if isinstance(error, KeyboardInterrupt):
             told = "was not open yet" if station is None else "was told to stop"
             raise Interrupted(f"interrupted; the station {told}") from None
@@ -177,7 +197,8 @@ def _enough(
         f"row {count}: predicted error by the model {1e3 * error.by_model:.3g} mm, by the last rows"
         f" {by_rows}"
     )
-    total = f"the predicted error is {1e3 * error.total:.3g} mm"
+    known = np.isfinite(error.total)
+    total = f"the predicted error is {f'{1e3 * error.total:.3g} mm' if known else 'not known yet'}"
     if settings.error is not None and error.total <= settings.error:
         return f"{total}; {1e3 * settings.error:g} mm was asked for"
     if running.is_settled(rows) and error.ahead > (1 - USELESS) * error.by_model:

@@ -31,13 +31,15 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     """
     arm = load_arm(given.urdf, given.tool, given.base)
     settings = LiveSettings(
-        None if given.error is None else LENGTH.read(given.error),
+        None if given.error is None else LENGTH.value_of("--error", given.error),
         given.most,
-        ANGLE.read(given.span),
+        ANGLE.value_of("--span", given.span),
         None if given.box is None else Box.read(given.box),
         given.speed,
-        TIME.read(given.patience),
+        TIME.value_of("--patience", given.patience),
     )
+    if given.board is None and (given.lens or given.camera):
+        raise InvalidSetting("--board", None, "a board, which --lens and --camera are for")
     for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
         signal.signal(number, signal.default_int_handler)
     opening: Callable[[], Station] = partial(open_station, given.station)

@@ -1,15 +1,16 @@
 """A live calibration in the Rerun viewer: the arm, what is believed of it, the predicted error."""
 
-import os
 from pathlib import Path
 
 import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
+from rerun.experimental import ViewerClient
 
 from recalib.errors import InvalidSetting
 from recalib.identification.observations import Observations
 from recalib.laboratory.running import RunningCalibration
+from recalib.laboratory.viewer import HERE, answer, free_port, start
 from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
 from recalib.nominal.kinematics import Arm
 
@@ -25,23 +26,15 @@ class LiveView:
     error is as large as it ever was, and blue where it is gone.
 
     Args:
-        rec: where it goes; a viewer unless given.
+        rec: where it goes; a window unless given.
         source: of the URDF at the path `urdf`.
 
-    Raises InvalidSetting: there is no viewer.
+    Raises InvalidSetting: no window opens.
     """
 
     def __init__(self, arm: Arm, source: bytes, urdf: Path, rec: rr.RecordingStream | None = None):
         self._arm, self._worst = arm, 0.0
-        if rec is None:
-            os.environ["CI"] = "true"  # with it, the viewer collects and sends no statistics
-            rec = rr.RecordingStream("recalib live")
-            try:
-                rec.spawn()
-            except RuntimeError:
-                valid = "the viewer of rerun in PATH, as after: . .venv/bin/activate"
-                raise InvalidSetting("--view", "without a viewer", valid) from None
-        self._rec = rec
+        self._rec = rec = rec or _window()
         rec.send_blueprint(_BLUEPRINT)
         rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         self._visuals, _ = log_meshes(rec, source, urdf, ARM)
@@ -70,6 +63,21 @@ class LiveView:
         rec.log("error/by_the_model", rr.Scalars(1e3 * error.by_model))
         if np.isfinite(error.by_rows):
             rec.log("error/by_the_last_rows", rr.Scalars(1e3 * error.by_rows))
+
+
+def _window() -> rr.RecordingStream:
+    """What goes to a window of its own, which stays open when this process ends."""
+    port = free_port()
+    process, url = start("--port", port), f"rerun+http://{HERE}:{port}/proxy"
+    try:
+        # it listens before it finds that there is no display; only a window tells its state
+        answer(process, lambda: ViewerClient(url).get_state())
+    except ConnectionError:
+        process.terminate()
+        raise InvalidSetting("--view", "without a window", "a display, for rerun") from None
+    rec = rr.RecordingStream("recalib live")
+    rec.connect_grpc(url)
+    return rec
 
 
 _BLUEPRINT = rrb.Blueprint(

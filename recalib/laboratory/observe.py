@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.columns import Table, read_table
 from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.laboratory.outputs import new
@@ -151,6 +152,11 @@ def observe(
     names = table.cells[PICTURE]
     if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
+    for name, unit in table.units.items():  # a joint that is no number is told before the search
+        if quantity := next((its for its in (ANGLE, LENGTH) if unit in its.units), None):
+            table.numbers(name, quantity)
+    if not Path(folder).is_dir():
+        raise InvalidFile(folder, "there is no such folder of pictures")
     on_progress(f"the board in {len(names)} pictures")
     pictures = [
         _searched(Path(folder) / name, row, name, sheet) for row, name in enumerate(names, 1)
@@ -160,7 +166,7 @@ def observe(
         raise InvalidFile(folder, f"none of the pictures in {table.path.name} can be read")
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
-    found, pictures = _posed(_compared(pictures, size), sheet, size, given)
+    found, pictures = _posed(_compared(pictures, size, given is not None), sheet, size, given)
     files = sorted(path.name for path in Path(folder).iterdir() if path.is_file())
     strangers = [name for name in files if name not in names and name != table.path.name]
     named = "_".join(NAME.findall(Path(board).stem)) or "board"
@@ -211,15 +217,20 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
         return picture.refused(str(error))
 
 
-def _compared(pictures: Sequence[Picture], size: tuple[int, int]) -> list[Picture]:
-    """Without those of another size, those that are there twice, and those that are blurred."""
+def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool) -> list[Picture]:
+    """Without those of another size, those that are there twice, and those that are blurred.
+
+    Args:
+        by_lens: whether the size is that of a lens which was given.
+    """
+    expected = "expected, as by the lens" if by_lens else "expected"
     first: dict[str, str] = {}
     done = []
     for its in pictures:
         other = first.setdefault(its.digest, its.name) if its.size else its.name
         if its.size not in (size, None):
             found, valid = (f"{wide} x {high}" for wide, high in (its.size, size))
-            its = its.refused(f"it has {found} pixels; expected: {valid}")
+            its = its.refused(f"it has {found} pixels; {expected}: {valid}")
         elif other != its.name:
             its = its.refused(f"it is the same picture as {other}")
         done.append(its)

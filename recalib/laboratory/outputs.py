@@ -51,7 +51,11 @@ def new(path: str | os.PathLike[str], folder: bool = False) -> Iterator[Path]:
     check_new(path, folder)
     top, making = _places(path)
     made = making / Path(os.path.abspath(path)).relative_to(top.parent)
-    making.mkdir(exist_ok=True)
+    try:
+        making.mkdir(exist_ok=True)
+    except OSError as error:
+        reason = f"nothing can be made in {top.parent}: {error.strerror}; try: another --out"
+        raise InvalidFile(path, reason) from None
     with _held(making):
         try:
             _remove(making / top.name)

@@ -7,7 +7,7 @@ import numpy as np
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 # Of x, y and z the two others, in a circle.
-NEXT, LAST = [1, 2, 0], [2, 0, 1]
+NEXT, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 # From the groups (m,) that are asked for and their joint angles (m, n, joint) [rad] to the poses
 # (m, n, 4, 4) [m] of the tool and its Jacobians (m, n, 6, joint) there.

@@ -25,10 +25,11 @@ class Covariance(Kernel):  # type: ignore[misc]  # scikit-learn has no types
         The latter include the noise; `eval_gradient` adds their gradient (n, n, d + 3) by the
         hyperparameters.
         """
-        trend, smooth, *lengths, noise = np.exp(self.theta)
+        sizes = np.exp(self.theta)
+        trend, smooth, lengths, noise = sizes[0], sizes[1], sizes[2:-1], sizes[-1]
         others = X if Y is None else Y
         linear = trend * (1 + X @ others.T)
-        squares = cdist(X / np.array(lengths), others / np.array(lengths), "sqeuclidean")
+        squares = cdist(X / lengths, others / lengths, "sqeuclidean")
         bell = smooth * np.exp(-squares / 2)
         if Y is not None:
             return linear + bell

@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.util
+import os
 import re
 import shlex
 from collections.abc import Callable
@@ -30,6 +31,8 @@ def open_station(text: str) -> Station:
             raise StationFailed(f"{text!r} is no command line: {error}") from None
         if not command:
             raise StationFailed("STATION is empty; expected: FILE.py:NAME, or a command line")
+        if len(command) == 1 and _lacks_a_name(command[0]):
+            raise StationFailed(f"{text} lacks the NAME of a class; expected: FILE.py:NAME")
         return ProgramStation(command)
     try:
         make: Callable[[], Station] = getattr(_module(named["home"]), named["name"])
@@ -38,6 +41,11 @@ def open_station(text: str) -> Station:
         raise
     except Exception as error:  # of code that is not ours
         raise StationFailed(f"{text} cannot be made: {type(error).__name__}: {error}") from error
+
+
+def _lacks_a_name(text: str) -> bool:
+    """Whether it is a file of Python, or a module with a colon, and no program."""
+    return text.endswith(":") or (text.endswith(".py") and not os.access(text, os.X_OK))
 
 
 def _module(home: str) -> ModuleType:

@@ -9,7 +9,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from recalib.errors import InvalidFile, InvalidQuantity, InvalidSetting
+from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
 from recalib.files.storage import read_file
 
@@ -17,6 +17,7 @@ CHARUCO, APRILTAG = KINDS = "charuco", "apriltag"
 DICTIONARIES = {CHARUCO: "4X4_100", APRILTAG: "APRILTAG_36H11"}  # of the boards that we print
 BORDER = 1  # modules of black about the bits of a marker
 GAP = {CHARUCO: 1, APRILTAG: 2}  # modules of white between a marker and what is next to it
+SMALLEST, LARGEST = 1e-3, 1.0  # m, of a square
 MOST = 16_000  # bytes of a description
 
 
@@ -46,13 +47,17 @@ class Board:
         for name in ("columns", "rows"):
             if not isinstance(getattr(self, name), int) or not 2 <= getattr(self, name) <= 50:
                 raise InvalidSetting(name, getattr(self, name), "a whole number from 2 to 50")
+        if not SMALLEST <= self.square <= LARGEST:
+            valid = f"from {1e3 * SMALLEST:g} mm, which a camera can tell, to {LARGEST:g} m"
+            raise InvalidSetting("square", f"{1e3 * self.square:g} mm", valid)
         if not 0 < self.marker < self.square:
             raise InvalidSetting("marker", f"{1e3 * self.marker:g} mm", "less than the square")
         if not hasattr(cv2.aruco, f"DICT_{self.dictionary}"):
             raise InvalidSetting("dictionary", self.dictionary, "one of OpenCV, such as 4X4_100")
-        if self.markers > len(self.alphabet.bytesList):
-            found = f"{self.dictionary} for {self.markers} markers"
-            raise InvalidSetting("dictionary", found, "one with as many")
+        if self.markers > (most := len(self.alphabet.bytesList)):
+            found = f"{self.columns} x {self.rows}, with {self.markers} markers"
+            valid = f"at most {most} markers: {self.dictionary} has no more"
+            raise InvalidSetting("columns x rows", found, valid)
 
     @property
     def markers(self) -> int:
@@ -124,9 +129,9 @@ def read_board(path: str | PathLike[str]) -> Board:
         names = [its.name for its in fields(Board)]
         if not isinstance(given, dict) or sorted(given) != sorted(names):
             raise InvalidSetting("[board]", given, ", ".join(names))
-        lengths = {name: LENGTH.read(given[name]) for name in ("square", "marker")}
+        lengths = {name: LENGTH.value_of(name, given[name]) for name in ("square", "marker")}
         return Board(**given | lengths | {"dictionary": str(given["dictionary"]).upper()})
-    except (InvalidSetting, InvalidQuantity) as error:
+    except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
     except ValueError as error:  # not UTF-8, or not TOML
         raise InvalidFile(path, f"it is no TOML: {error}") from None

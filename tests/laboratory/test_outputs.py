@@ -232,3 +232,15 @@ def test_two_at_once_do_not_mix(tmp_path):
         with pytest.raises(InvalidFile, match="another process fills it; try: another --out"):
             fill_two(tmp_path / "out")
     assert content(tmp_path) == {"out": b"whole"}
+
+
+def test_where_nothing_can_be_made_one_is_told_of_the_name_that_was_asked_for(
+    tmp_path, monkeypatch
+):
+    def mkdir(path, **options):
+        raise FileNotFoundError(2, "No such file or directory", str(path))
+
+    monkeypatch.setattr(Path, "mkdir", mkdir)
+    said = "new: nothing can be made in .*: No such file"
+    with pytest.raises(InvalidFile, match=said), new(tmp_path / "new"):
+        pass

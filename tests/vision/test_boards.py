@@ -46,10 +46,10 @@ def test_a_board_is_read_as_it_is_described(board, tmp_path):
     ("line", "said"),
     [
         ("columns = 7|columns = 1", "columns is 1; expected: a whole number from 2 to 50"),
-        ('square = "36 mm"|square = 36', "36 is no quantity"),
+        ('square = "36 mm"|square = 36', "square is 36; expected: a length in mm, cm, m"),
         ('square = "36 mm"|square = "20 mm"', "expected: less than the square"),
         ("4X4_100|9X9", "dictionary is '9X9'"),
-        ("rows = 5|rows = 40", "4X4_100 for 140 markers"),
+        ("rows = 5|rows = 40", "with 140 markers'; expected: at most 100 markers: 4X4_100"),
         ("rows = 5|", "expected: kind, columns, rows"),
         ("[board]|[board", "it is no TOML"),
     ],

@@ -3,6 +3,7 @@
 import re
 import sys
 import tomllib
+from dataclasses import replace
 
 import cv2
 import numpy as np
@@ -144,6 +145,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
         ("picture,j [rad]\na.png,0\na.png,1\n", "'a.png' is in more than one row"),
         ("picture,j [rad]\na.png,0\n", "none of the pictures in joints.csv can be read"),
         ("picture,j [rad]\ngrey.png,0\n", "0 of 1 pictures can be used; .* it shows 0 markers"),
+        ("picture,j [deg]\ngrey.png,abc\n", "row 1 of column 'j' is 'abc'; expected: a number"),
     ],
 )
 def test_what_cannot_be_observed_is_refused(table, said, tmp_path, capsys):
@@ -155,6 +157,23 @@ def test_what_cannot_be_observed_is_refused(table, said, tmp_path, capsys):
     board = f"--board={tmp_path / 'board' / 'board.toml'}"
     assert main(["observe", *arguments, board]) == REFUSED
     assert re.search(said, capsys.readouterr().err)
+
+
+def test_a_folder_that_is_not_there_is_told_before_anything_is_sought(taken):
+    _, _, (folder, *files) = taken(1)
+    told = []
+    with pytest.raises(RecalibError, match="nopics: there is no such folder of pictures"):
+        observe(folder / "nopics", *files, on_progress=told.append)
+    assert not told
+
+
+def test_a_lens_of_another_size_says_that_it_is_the_lens(taken):
+    _, _, (folder, joints, board, lens) = taken(1)
+    lens.write_text(replace(LENS, size=(960, 640)).as_ros())
+    with pytest.raises(
+        RecalibError, match="1280 x 960 pixels; expected, as by the lens: 960 x 640"
+    ):
+        observe(folder, joints, board, lens)
 
 
 def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):

@@ -11,6 +11,7 @@ from rerun.chunk import RrdReader
 from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
+from recalib.laboratory.viewer import PROGRAM, quiet
 from recalib.nominal import meshes
 from recalib.nominal.poses import position_error
 from recalib.study.experiments import campaign, search
@@ -22,7 +23,6 @@ from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.phases import POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
-from recalib.study.recording.viewer import PROGRAM, quiet
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
 from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
 from workflow.scripts import call

@@ -14,7 +14,7 @@ import rerun_cli
 T = TypeVar("T")
 HERE = "127.0.0.1"
 # Not the script that starts it, so that it can be ended.
-PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
+PROGRAM = Path(str(rerun_cli.__file__)).with_name("rerun")
 PATIENCE = 60.0  # seconds for it to start and to load, in software on a busy machine
 
 
@@ -26,11 +26,18 @@ def quiet() -> dict[str, str]:
     return os.environ | {"CI": "true"}
 
 
-@contextmanager
-def viewer(*options: str, log: int | IO = subprocess.DEVNULL) -> Iterator[subprocess.Popen]:
-    """The program with these options, ended at the end of the block."""
+def start(*options: str, log: int | IO[str] = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
+    """The program with these options; a Ctrl-C in the terminal is not for it."""
     command = [str(PROGRAM), "--bind", HERE, *options]
-    process = subprocess.Popen(command, env=quiet(), stdout=log, stderr=log)
+    return subprocess.Popen(command, env=quiet(), stdout=log, stderr=log, start_new_session=True)
+
+
+@contextmanager
+def viewer(
+    *options: str, log: int | IO[str] = subprocess.DEVNULL
+) -> Iterator[subprocess.Popen[bytes]]:
+    """The program with these options, ended at the end of the block."""
+    process = start(*options, log=log)
     try:
         yield process
     finally:
@@ -38,7 +45,7 @@ def viewer(*options: str, log: int | IO = subprocess.DEVNULL) -> Iterator[subpro
         process.wait()
 
 
-def answer(process: subprocess.Popen, ask: Callable[[], T]) -> T:
+def answer(process: subprocess.Popen[bytes], ask: Callable[[], T]) -> T:
     """What it answers as soon as it listens. Raises ConnectionError: it ended, or never does."""
     deadline = time.monotonic() + PATIENCE
     while process.poll() is None and time.monotonic() < deadline:
