@@ -111,7 +111,8 @@ def test_setups_are_said_by_mean_heterogeneity_and_luck():
     assert words.over_setups(counted) == text + held
     some = words.over_setups(setups(setups=30, setups_left_out=2))
     assert some == f"{text}; known in 30 of 32 setups"
-    assert words.over_setups({"status": "not measured"}) == "not measured"
+    for status in ("not measured", "cannot vary"):
+        assert words.over_setups({"status": status}) == status
 
 
 depends = partial(words.depends, from_file(ROOT / FACTORS).plain())
