@@ -4,12 +4,15 @@ import argparse
 import io
 import os
 import sys
-from collections.abc import Callable, Sequence
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from recalib.errors import RecalibError
 from recalib.laboratory.outputs import check_new, is_taken, new
 
+CACHE = "MPLCONFIGDIR"  # the variable with the folder of Matplotlib's
 CAMERAS = "fixed", "hand"
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -25,7 +28,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
     try:
         check_new(given.out, given.makes_folder)
-        return given.command(given)
+        with _no_cache_at_home():
+            return given.command(given)
     except RecalibError as error:
         message = str(error)
     except OSError as error:
@@ -211,6 +215,23 @@ def _part(text: str) -> float:
     if not 0 < number <= 1:
         raise argparse.ArgumentTypeError(f"{text!r} is no number above 0 and up to 1")
     return number
+
+
+@contextmanager
+def _no_cache_at_home() -> Iterator[None]:
+    """Have Matplotlib keep its list of fonts in a folder that is removed, unless the user has one.
+
+    A command writes what it says that it writes. To make the list anew takes less than a second.
+    """
+    if CACHE in os.environ:
+        yield
+        return
+    with tempfile.TemporaryDirectory(prefix="recalib-") as folder:
+        os.environ[CACHE] = folder
+        try:
+            yield
+        finally:
+            del os.environ[CACHE]
 
 
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
