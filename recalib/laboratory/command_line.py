@@ -219,9 +219,9 @@ def _part(text: str) -> float:
 
 @contextmanager
 def _no_cache_at_home() -> Iterator[None]:
-    """Have Matplotlib keep its list of fonts in a folder that is removed, unless the user has one.
+    """Have Matplotlib keep its list of fonts in a folder that is removed, unless one is set.
 
-    A command writes what it says that it writes. To make the list anew takes less than a second.
+    A command writes only what it says. Making the list anew takes it a fraction of a second.
     """
     if CACHE in os.environ:
         yield

@@ -9,7 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory import command_line
+from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.measurements import Measurements
@@ -182,10 +183,21 @@ def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calib
     home.mkdir()
     temporary.mkdir()
     own = {"HOME": str(home), "TMPDIR": str(temporary)}
-    elsewhere = {"MPLCONFIGDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME"}
+    elsewhere = {CACHE, "XDG_CACHE_HOME", "XDG_CONFIG_HOME"}
     kept = {name: value for name, value in os.environ.items() if name not in elsewhere}
     files = [str(calibrated.parent / name) for name in ("arm.urdf", "measurements.csv")]
     command = [sys.executable, "-m", "recalib", "calibrate", *files, f"--out={out}"]
     subprocess.run(command, env=kept | own, check=True, capture_output=True)
     assert (out / "page.html").exists()
     assert not [*home.rglob("*"), *temporary.rglob("*")]
+
+
+def test_a_folder_that_is_set_for_the_list_of_fonts_is_used(monkeypatch):
+    used = []
+    monkeypatch.setattr(command_line, "_next", lambda _: used.append(os.environ[CACHE]))
+    monkeypatch.setenv(CACHE, "mine")
+    main(["next", "calibration"])
+    monkeypatch.delenv(CACHE)
+    main(["next", "calibration"])
+    assert used[0] == "mine" != used[1]
+    assert CACHE not in os.environ and not os.path.exists(used[1])
