@@ -7,9 +7,12 @@ MOST, SOME = 10, 3  # names in a sentence: of all that are valid, or as examples
 
 
 def nearest(word: str, valid: Iterable[str]) -> str | None:
-    """The valid word that is the fewest edits away, if those are at most a third of the word."""
+    """The valid word that is the fewest edits away, if those are at most a third of the word.
+
+    Capitals do not count.
+    """
     alike = [other for other in valid if 3 * abs(len(word) - len(other)) <= len(word)]
-    edits = {other: _edits(word, other) for other in alike}
+    edits = {other: _edits(word.casefold(), other.casefold()) for other in alike}
     best = min(edits, key=lambda other: edits[other], default=None)
     return best if best is not None and 3 * edits[best] <= len(word) else None
 

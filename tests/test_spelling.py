@@ -13,6 +13,7 @@ URDFS = ["a1.urdf", "finger_edu.urdf", "panda.urdf", "ur10_robot.urdf", "ur5_rob
         ("urr5_robot.urdf", "ur5_robot.urdf"),
         ("ur5_robto.urdf", "ur5_robot.urdf"),  # a swap is one edit
         ("pandra.urdf", "panda.urdf"),
+        ("PANDA.URDF", "panda.urdf"),  # capitals are no edits
         ("nowhere.urdf", None),
         ("iiwa14.urdf", None),
         ("", None),

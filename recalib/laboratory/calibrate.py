@@ -265,8 +265,8 @@ def _check_several(paths: Sequence[Path], given: Description) -> None:
     """Raise InvalidFile unless they are folders of several cameras, and nothing else is known."""
     for path in paths:
         if not path.is_dir():
-            valid = "expected: one table, or the folders that observe wrote"
-            raise InvalidFile(path, f"it is not the only one and no folder; {valid}")
+            valid = "expected: one, or the folders that observe wrote"
+            raise InvalidFile(path, f"it is one of {len(paths)} tables; {valid}")
     if given.instrument is not None or given.target is not None:
         raise InvalidFile(
             paths[1],

@@ -14,14 +14,19 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.quantities import ANGLE, LENGTH, Quantity
+from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.files.storage import read_file
 from recalib.spelling import instead
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
-FARTHEST = {ANGLE: (4 * np.pi, "720 deg"), LENGTH: (10.0, "10 m")}  # that an arm could reach
+FARTHEST = {  # that an arm could reach, and that a clock could show
+    ANGLE: (4 * np.pi, "720 deg"),
+    LENGTH: (10.0, "10 m"),
+    TIME: (1e10, "1e10 s"),
+}
+SEPARATORS = {";": "semicolons", "\t": "tabs"}  # that others write in place of commas
 MOST, MOST_ROWS = 32_000_000, 10_000  # bytes; rows, which a computer calibrates by in an hour
 
 
@@ -121,8 +126,9 @@ def table_of(
     if len(rows) < 2:
         raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
     headings = [cell.strip() for cell in rows[0]]
-    if len(headings) == 1 and ";" in headings[0]:
-        raise InvalidFile(path, "its columns are separated by semicolons; expected: commas")
+    for separator, name in SEPARATORS.items():
+        if len(headings) == 1 and separator in headings[0]:
+            raise InvalidFile(path, f"its columns are separated by {name}; expected: commas")
     if unknown := [heading for heading in columns if heading not in headings]:
         raise InvalidFile(
             path, f"its description names column {unknown[0]!r}; it has {', '.join(headings)}"
@@ -140,6 +146,8 @@ def table_of(
         meant = columns.get(heading, heading)
         if meant == IGNORED:
             continue
+        if not meant and not heading:
+            raise InvalidFile(path, f"column {index + 1} has no heading")
         parts = _HEADING.fullmatch(meant)
         if not parts or not parts["name"]:
             raise InvalidFile(path, f"heading {meant!r} is no name with a unit, as 'x [mm]' is")
@@ -162,7 +170,8 @@ def _date(cell: str) -> float:
 
 
 def _number(cell: str) -> float:
+    """The number in a cell, or that there is none. Python alone reads 1_0, as ten."""
     try:
-        return float(cell)
+        return math.nan if "_" in cell else float(cell)
     except ValueError:
         return math.nan

@@ -4,12 +4,15 @@ import argparse
 import io
 import os
 import sys
-from collections.abc import Callable, Collection, Sequence
+import tempfile
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from recalib.errors import RecalibError, UnknownName
 from recalib.laboratory.outputs import check_new, is_taken, new
 
+CACHE = "MPLCONFIGDIR"  # the variable with the folder of Matplotlib's
 CAMERAS = "fixed", "hand"
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
@@ -29,7 +32,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.reconfigure(errors="backslashreplace")  # names may have letters that it lacks
     try:
         check_new(given.out, given.makes_folder)
-        return given.command(given)
+        with _no_cache_at_home():
+            return given.command(given)
     except RecalibError as error:
         message = str(error)
     except OSError as error:
@@ -62,19 +66,23 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
         return own
 
     def add_arm(own: argparse.ArgumentParser) -> None:
-        own.add_argument("--tool", help="tool link; needed only if the arm has several ends")
-        own.add_argument("--base", help="link whose frame poses are given in (default: the root)")
-        own.add_argument("--description", type=Path, help="frames, columns and distances (TOML)")
+        own.add_argument(
+            "--tool", type=_name, help="tool link; needed only if the arm has several ends"
+        )
+        own.add_argument(
+            "--base", type=_name, help="link whose frame poses are given in (default: the root)"
+        )
+        own.add_argument("--description", type=_path, help="frames, columns and distances (TOML)")
         own.add_argument(
             "--out", default="calibration", help="new folder to write (default: %(default)s)"
         )
 
     urdf = "URDF file, or the name of an arm of example-robot-data"
     own = add("calibrate", _calibrate, "identify the arm's parameters from measurements")
-    own.add_argument("urdf", help=urdf)
+    own.add_argument("urdf", type=_name, help=urdf)
     own.add_argument(
         "measurements",
-        type=Path,
+        type=_path,
         nargs="+",
         help="table (CSV), or the folders that observe wrote, one for each camera",
     )
@@ -83,8 +91,10 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
     own = add(
         "live", _live, "move, measure and calibrate until the predicted error is small enough"
     )
-    own.add_argument("station", help="FILE.py:NAME, MODULE:NAME, or a quoted command line")
-    own.add_argument("urdf", help=urdf)
+    own.add_argument(
+        "station", type=_name, help="FILE.py:NAME, MODULE:NAME, or a quoted command line"
+    )
+    own.add_argument("urdf", type=_name, help=urdf)
     own.add_argument("--error", help="predicted error to end at, such as '0.3 mm'")
     own.add_argument(
         "--most",
@@ -109,19 +119,22 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
     own.add_argument(
         "--patience", default="60 s", help="time limit of a move or measurement (%(default)s)"
     )
-    own.add_argument("--board", type=Path, help="board in the station's pictures (TOML)")
-    own.add_argument("--lens", type=Path, help="lens calibration (YAML), with --board")
+    own.add_argument("--board", type=_path, help="board in the station's pictures (TOML)")
+    own.add_argument("--lens", type=_path, help="lens calibration (YAML), with --board")
     own.add_argument("--camera", choices=CAMERAS, help="where it is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")
     own.add_argument("--view", action="store_true", help="show it in a window of rerun")
     own.add_argument(
-        "--table", default="measurements.csv", help="new, or begun by live (default: %(default)s)"
+        "--table",
+        type=_path,
+        default="measurements.csv",
+        help="new, or begun by live (default: %(default)s)",
     )
     add_arm(own)
 
     own = add("correct", _correct, "compute commands that reach the desired poses")
-    own.add_argument("calibration", type=Path, help="folder that calibrate wrote")
-    own.add_argument("desired", type=Path, help="desired poses or joint coordinates (CSV)")
+    own.add_argument("calibration", type=_path, help="folder that calibrate wrote")
+    own.add_argument("desired", type=_path, help="desired poses or joint coordinates (CSV)")
     own.add_argument(
         "--frame",
         choices=("base", "instrument"),
@@ -138,9 +151,12 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
         _next,
         "propose the most informative postures, and say whether more are worth measuring",
     )
-    own.add_argument("calibration", type=Path, help="folder that calibrate wrote")
+    own.add_argument("calibration", type=_path, help="folder that calibrate wrote")
     own.add_argument(
-        "candidates", type=Path, nargs="?", help="postures to choose from (CSV); drawn unless given"
+        "candidates",
+        type=_path,
+        nargs="?",
+        help="postures to choose from (CSV); drawn unless given",
     )
     own.add_argument(
         "--count", type=_positive, default=10, help="number of postures (default: %(default)s)"
@@ -148,7 +164,7 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
     own.add_argument("--out", default="next.csv", help="new file to write (default: %(default)s)")
 
     own = add("urdf", _urdf, "write a URDF from Denavit-Hartenberg parameters")
-    own.add_argument("links", type=Path, help="table (CSV): joint, a, alpha, d, theta, kind")
+    own.add_argument("links", type=_path, help="table (CSV): joint, a, alpha, d, theta, kind")
     own.add_argument(
         "--convention", default="standard", help="standard or modified (default: %(default)s)"
     )
@@ -164,13 +180,13 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
     own.add_argument("--out", default="board", help="new folder to write (default: %(default)s)")
 
     own = add("observe", _observe, "find the board in pictures, and calibrate the lens")
-    own.add_argument("pictures", type=Path, help="folder of pictures")
+    own.add_argument("pictures", type=_path, help="folder of pictures")
     own.add_argument(
-        "joints", type=Path, help="table (CSV) of joint coordinates, with a column picture"
+        "joints", type=_path, help="table (CSV) of joint coordinates, with a column picture"
     )
-    own.add_argument("--board", type=Path, default="board/board.toml", help="its description")
+    own.add_argument("--board", type=_path, default="board/board.toml", help="its description")
     own.add_argument(
-        "--lens", type=Path, help="lens calibration (YAML); from the pictures unless given"
+        "--lens", type=_path, help="lens calibration (YAML); from the pictures unless given"
     )
     own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
     own.add_argument("--name", default="camera", help="its name, if there are several cameras")
@@ -178,10 +194,37 @@ def _parser() -> tuple[argparse.ArgumentParser, Collection[str]]:
     return parser, commands.choices
 
 
+def _name(text: str) -> str:
+    if not text:
+        raise argparse.ArgumentTypeError("'' is no name")
+    return text
+
+
+def _path(text: str) -> Path:
+    return Path(_name(text))
+
+
 def _positive(text: str) -> int:
     if not text.isdecimal() or not int(text):
         raise argparse.ArgumentTypeError(f"{text!r} is no number from 1 on")
     return int(text)
+
+
+@contextmanager
+def _no_cache_at_home() -> Iterator[None]:
+    """Have Matplotlib keep its list of fonts in a folder that is removed, unless one is set.
+
+    A command writes only what it says. Making the list anew takes it a fraction of a second.
+    """
+    if CACHE in os.environ:
+        yield
+        return
+    with tempfile.TemporaryDirectory(prefix="recalib-") as folder:
+        os.environ[CACHE] = folder
+        try:
+            yield
+        finally:
+            del os.environ[CACHE]
 
 
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
@@ -195,7 +238,7 @@ def _live(given: argparse.Namespace) -> int:
     from recalib.laboratory.live_command import measure_live
 
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
-    return _calibrate_from(given, [Path(given.table)])
+    return _calibrate_from(given, [given.table])
 
 
 def _calibrate_from(given: argparse.Namespace, tables: Sequence[Path]) -> int:
@@ -227,7 +270,8 @@ def _correct(given: argparse.Namespace) -> int:
 
     correction = load_correction(given.calibration / CORRECTION)
     in_instrument = given.frame == "instrument"
-    commands = correct(correction, read_desired(given.desired, correction.arm), in_instrument)
+    desired = read_desired(given.desired, correction.arm, in_instrument)
+    commands = correct(correction, desired, in_instrument)
     write_postures(given.out, correction.arm, commands.joints, commands.poses)
     ends = unidentifiable_ends(correction)
     if ends and not in_instrument:

@@ -15,7 +15,9 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.linearisation import LEVER
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
+from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
+from recalib.nominal.poses import orientation_error, position_error
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
@@ -63,7 +65,7 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     targets = _targets(correction, desired) if in_instrument else None
     found, errors, reached = solve(correction, desired, targets)
     if not reached.all():
-        refuse(correction, found, errors, reached)
+        refuse(correction, desired, targets, found, errors, reached)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = MARGIN * (high - low)
     beyond = (found < low - margin) | (found > high + margin)
@@ -92,12 +94,7 @@ def solve(
     Returns joint coordinates (n, joints), their errors (n,) in m or rad, and whether a desired pose
     is reached within the arm's limits (n,).
     """
-    arm, joints = correction.arm, desired.coordinates
-    goals = desired.measured
-    if goals is None:
-        goals = arm.forward(desired.joints)
-    if arm.model.nv < 6 and goals.ndim == 3:
-        goals = goals[:, :3, 3]
+    arm, joints, goals = correction.arm, desired.coordinates, _goals(correction.arm, desired)
     starts = [joints] if joints is not None else _nearest(correction, goals, targets)
     lower, upper = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
     found, errors = starts[0].copy(), np.full(len(goals), np.inf)
@@ -113,6 +110,14 @@ def solve(
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
         reached[rows] = within
     return found, errors, reached
+
+
+def _goals(arm: Arm, desired: Measurements) -> np.ndarray:
+    """Poses (n, 4, 4) or positions (n, 3) [m] that are desired."""
+    goals = desired.measured
+    if goals is None:
+        goals = arm.forward(desired.joints)
+    return goals[:, :3, 3] if arm.model.nv < 6 and goals.ndim == 3 else goals
 
 
 def _targets(correction: Correction, desired: Measurements) -> np.ndarray:
@@ -178,14 +183,33 @@ def _newton(
     return found[:, 0], errors[:, 0]
 
 
+def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
+    """From a pose (4, 4) to a pose or position that is desired, in words."""
+    if goal.ndim == 1:
+        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
+    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
+    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
+
+
 def refuse(
-    correction: Correction, found: np.ndarray, errors: np.ndarray, reached: np.ndarray
+    correction: Correction,
+    desired: Measurements,
+    targets: np.ndarray | None,
+    found: np.ndarray,
+    errors: np.ndarray,
+    reached: np.ndarray,
 ) -> None:
-    """Raise NotReached, of what `solve` returned."""
+    """Raise NotReached, of what `solve` was asked and what it returned."""
     rows = np.flatnonzero(~reached)
     first, model = rows[0], correction.arm.model
     if errors[first] > TOLERANCE:
-        reason = f"the nearest posture leaves {errors[first]:.2g} m or rad"
+        its = None if targets is None else targets[[first]]
+        goal, there = _goals(correction.arm, desired)[first], found[[first]]
+        if its is None:
+            pose = correction.calibration.forward(there)[0]
+        else:
+            pose = correction.calibration.predict(there, its)[0]
+        reason = f"the nearest posture found is {_gap(pose, goal)} away"
     else:
         outside = (found[first] < model.lowerPositionLimit) | (
             found[first] > model.upperPositionLimit

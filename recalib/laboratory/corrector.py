@@ -43,5 +43,5 @@ class Corrector:
         numbers = None if target is None else np.array([names.index(target)])
         found, errors, reached = solve(self._correction, desired, numbers)
         if not reached.all():
-            refuse(self._correction, found, errors, reached)
+            refuse(self._correction, desired, numbers, found, errors, reached)
         return found[0]

@@ -1,6 +1,6 @@
 """What was measured of an arm, read from a table; docs/own_arm.md describes its columns."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 
@@ -20,11 +20,14 @@ NOMINAL = "x_nominal", "y_nominal", "z_nominal"
 MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place of x, y, z
 QUATERNION = "qx", "qy", "qz", "qw"
 ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
-VECTORS = {POSITION: LENGTH, NOMINAL: LENGTH, MISSED: LENGTH} | ROTATIONS
+DESIRED = {POSITION: LENGTH} | ROTATIONS
+VECTORS = DESIRED | {NOMINAL: LENGTH, MISSED: LENGTH}
 OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wrote
 PICTURE = "picture"  # the column with the names of files, which says nothing of an arm
-LABELS, TIMES = ("target", "socket"), "time"
+TARGET, TIMES = "target", "time"
+LABELS = TARGET, "socket"
 SKEW = 0.01  # of a quaternion's length, as instruments round it
+STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
 
 
@@ -90,15 +93,25 @@ def read_measurements(
         raise InvalidFile(path, "nothing was measured in it; expected: x, y, z or socket")
     if read.positions is not None and read.sockets is not None:
         raise InvalidFile(path, "it has both positions and sockets; expected: one of them")
+    if (np.ptp(read.coordinates, axis=0) < STILL).all():
+        raise InvalidFile(path, "no joint moves in it; expected: rows of different postures")
     return read
 
 
-def read_desired(path: str | PathLike[str], arm: Arm) -> Measurements:
+def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = False) -> Measurements:
     """Desired joint coordinates, poses or positions of the tool in the arm's base, or both.
 
-    Raises InvalidFile as `read_measurements` does, but one row is enough.
+    Args:
+        in_instrument: the poses or positions are those of targets in the instrument's frame.
+
+    Raises InvalidFile as `read_measurements` does, but one row is enough; and where a column says
+    nothing of what is desired.
     """
-    read = _read(read_table(path), arm)
+    table = read_table(path)
+    if TARGET in table and not in_instrument:
+        raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
+    table.check_columns([*_names(arm, DESIRED), *[TARGET] * in_instrument, PICTURE])
+    read = _read(table, arm)
     if read.coordinates is None and read.positions is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
     return read
@@ -121,8 +134,7 @@ def measurements_so_far(
 
 def _read(table: Table, arm: Arm) -> Measurements:
     path = table.path
-    components = (name for group in VECTORS for name in group)
-    table.check_columns([*arm.joints, *components, *LABELS, TIMES, PICTURE])
+    table.check_columns([*_names(arm, VECTORS), *LABELS, TIMES, PICTURE])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -149,6 +161,11 @@ def _read(table: Table, arm: Arm) -> Measurements:
     )
 
 
+def _names(arm: Arm, vectors: Iterable[tuple[str, ...]]) -> list[str]:
+    """The columns of joints, and those of the components of vectors."""
+    return [*arm.joints, *(name for group in vectors for name in group)]
+
+
 def _times(table: Table) -> np.ndarray | None:
     """Seconds (n,) from whenever."""
     if TIMES not in table:
@@ -171,6 +188,12 @@ def _labels(table: Table, column: str) -> np.ndarray | None:
     if "" in labels:
         row = labels.index("") + 1
         raise InvalidFile(table.path, f"row {row} of column {column!r} is empty; expected: a name")
+    first: dict[str, str] = {}
+    for label in labels:
+        if label != (other := first.setdefault(label.casefold(), label)):
+            raise InvalidFile(
+                table.path, f"column {column!r} has {other!r} and {label!r}; expected: one of them"
+            )
     return np.array(labels)
 
 

@@ -4,11 +4,13 @@ import fcntl
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.storage import IN_THE_MAKING
+
+MARK = "made-by-recalib"  # a file in the folder of what is in the making: what lies there is ours
 
 
 def check_new(path: str | os.PathLike[str], folder: bool = False) -> None:
@@ -24,7 +26,7 @@ def check_new(path: str | os.PathLike[str], folder: bool = False) -> None:
     top, making = _places(path)
     if not top.parent.is_dir() or not os.access(top.parent, os.W_OK):
         raise InvalidFile(path, f"nothing can be made in {top.parent}; try: another --out")
-    if os.path.lexists(making) and not _is_left(making, top.name):
+    if os.path.lexists(making) and not _is_ours(making):
         raise InvalidFile(making, "it is in the way of what will be made; try: another --out")
 
 
@@ -58,12 +60,15 @@ def new(path: str | os.PathLike[str], folder: bool = False) -> Iterator[Path]:
         raise InvalidFile(path, reason) from None
     with _held(making):
         try:
+            (making / MARK).touch()
             _remove(making / top.name)
             (made if folder else made.parent).mkdir(parents=True, exist_ok=True)
             yield made
             check_new(path, folder)
             os.rename(making / top.name, top)
         finally:
+            with suppress(OSError):
+                _remove(making / top.name)  # before the mark, which says that it may be removed
             shutil.rmtree(making, ignore_errors=True)
 
 
@@ -75,10 +80,12 @@ def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
     return top, top.with_name(f".{top.name}{IN_THE_MAKING}")
 
 
-def _is_left(making: Path, name: str) -> bool:
-    """Whether a killed process left this folder."""
-    folder = making.is_dir() and not making.is_symlink()
-    return folder and {path.name for path in making.iterdir()} <= {name}
+def _is_ours(making: Path) -> bool:
+    """Whether a killed process left this folder: it is marked, or was not yet and is empty."""
+    if making.is_symlink() or not making.is_dir():
+        return False
+    names = [path.name for path in making.iterdir()]
+    return not names or MARK in names
 
 
 def _remove(path: Path) -> None:

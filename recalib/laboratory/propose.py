@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.errors import InvalidSetting
+from recalib.errors import InvalidSetting, RecalibError
 from recalib.identification.design import most_informative
 from recalib.laboratory.correct import solve
 from recalib.laboratory.correction import Correction
@@ -22,6 +22,10 @@ BEYOND = 0.1  # of the measured range, on either side
 OUTERMOST = 0.05  # of a joint's range at either end, a tenth in all: there arms behave otherwise
 PROBES = 200  # postures whose predictions are judged
 ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth measuring
+
+
+class NoUsefulPosture(RecalibError):
+    """No candidate is within reach, and off the ends of joint ranges."""
 
 
 @dataclass(frozen=True)
@@ -50,13 +54,11 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
         candidates: joint coordinates, or poses of the tool in the arm's base, of which those that
             are out of reach or near the end of a joint's range are left out; drawn unless given.
 
-    Raises InvalidSetting where they would have to be drawn for a ball in sockets, or none is left.
+    Raises InvalidSetting where they would have to be drawn for a ball in sockets, and
+    NoUsefulPosture where none is left.
     """
     if candidates is not None:
-        postures = _reachable(correction, candidates)
-        if not len(postures):
-            valid = "within reach, and off the ends of joint ranges"
-            raise InvalidSetting("candidates", f"{len(candidates)} postures of no use", valid)
+        postures = _useful(correction, candidates)
     elif len(correction.calibration.frames.sockets):
         raise InvalidSetting("candidates", None, "postures in which the ball sits in a socket")
     else:
@@ -99,10 +101,22 @@ def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
     return lower + margin, upper - margin
 
 
-def _reachable(correction: Correction, candidates: Measurements) -> np.ndarray:
+def _useful(correction: Correction, candidates: Measurements) -> np.ndarray:
+    """Candidates (n, joints) within reach, and off the ends of joint ranges."""
     if candidates.positions is None:
         found, reached = candidates.joints, np.ones(len(candidates), dtype=bool)
     else:
         found, _, reached = solve(correction, candidates)
     lower, upper = joint_limits(correction.arm)
-    return found[reached & ((found >= lower) & (found <= upper)).all(axis=1)]
+    useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
+    if not reached.any():
+        raise NoUsefulPosture(
+            f"none of the {len(candidates)} candidates can be reached;"
+            " are their poses in the arm's base?"
+        )
+    if not useful.any():
+        raise NoUsefulPosture(
+            f"{reached.sum()} of {len(candidates)} candidates can be reached, each with a joint"
+            " near the end of its range; try: candidates with all joints away from it"
+        )
+    return found[useful]

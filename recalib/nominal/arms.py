@@ -1,5 +1,6 @@
 """Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
 
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,11 +11,13 @@ import pinocchio as pin
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.files.storage import read_file
 from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
+from recalib.nominal.foreign_messages import caught_messages
 from recalib.nominal.kinematics import Arm, tool_frame
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
 UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
+ERROR = "Error:"  # before what urdfdom finds wrong; where in its code stands on another line
 FARTHEST, HEAVIEST = 1e3, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
@@ -100,9 +103,11 @@ class _Tree:
             if name in links:  # Pinocchio takes frames of one name for another
                 joint.set("name", name + NAMESAKE)
         try:
-            self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
-        except (ValueError, RecursionError):  # what is wrong, urdfdom has written to stderr
-            raise UnsuitableRobot(f"{path} is no URDF that Pinocchio can read") from None
+            with caught_messages() as messages:
+                self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
+        except (ValueError, RecursionError):
+            reasons = [f"{path} is no URDF that Pinocchio can read", *_mistakes(robot, messages)]
+            raise UnsuitableRobot(": ".join(reasons[:2])) from None
         self._name = path.name
         self._joints = {link_of(joint, "child"): joint for joint in robot.iterfind("joint")}
         # of links in a circle, which hang on nothing, Pinocchio knows nothing
@@ -126,8 +131,10 @@ class _Tree:
             and base in self._way_up(link)
             and any(joint.get("type") != "fixed" for joint in self._joints_up(link, base))
         ]
+        if not ends:
+            raise UnsuitableRobot(f"no joint of {self._name} moves a link that hangs on {base}")
         if len(ends) != 1:
-            valid = f"a link of {self._name}; at its ends are {', '.join(ends) or 'none'}"
+            valid = f"a link of {self._name}; at its ends are {', '.join(ends)}"
             raise InvalidSetting("tool", None, valid)
         return ends[0]
 
@@ -159,6 +166,27 @@ class _Tree:
             joints.append(self._joints[link])
             link = link_of(joints[-1], "parent")
         return joints
+
+
+def _mistakes(robot: ElementTree.Element, messages: list[str]) -> Iterator[str]:
+    """What is wrong with a URDF: vectors that are none, and then what urdfdom wrote."""
+    for part in robot:
+        vectors = ((its, key, its.get(key)) for its in part.iter() for key in ("xyz", "rpy"))
+        for element, key, text in vectors:
+            if text is not None and not _is_vector(text):
+                where = f"the {element.tag} of {part.get('name')}"
+                yield f"{where} has {key} {text!r}; expected: three numbers"
+    for line in messages:
+        if line.startswith(ERROR):
+            yield line.removeprefix(ERROR).strip().rstrip(".")
+
+
+def _is_vector(text: str) -> bool:
+    try:
+        numbers = [float(number) for number in text.split()]
+    except ValueError:
+        return False
+    return len(numbers) == 3 and bool(np.isfinite(numbers).all())
 
 
 def _bound(joint: ElementTree.Element) -> None:

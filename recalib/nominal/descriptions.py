@@ -56,7 +56,8 @@ def package_of(urdf: str | PathLike[str]) -> str | None:
         raise InvalidFile(urdf, "it is a folder; expected: a file")
     if path.name != name:
         raise InvalidFile(urdf, "there is no such file")
-    raise UnknownName("file or URDF of example-robot-data", name, _packaged_urdfs())
+    valid = {*_packaged_urdfs(), *(file.name for file in Path.cwd().glob("*.urdf"))}
+    raise UnknownName("file or URDF of example-robot-data", name, valid)
 
 
 @cache
@@ -88,7 +89,10 @@ def parsed(source: bytes, path: Path) -> ElementTree.Element:
     Raises UnsuitableRobot: not XML, in another encoding than it says, or a robot of too many parts.
     """
     try:
-        robot = ElementTree.fromstring(source.decode(encoding(source)))
+        text = source.decode(encoding(source))
+        if text.encode(encoding(source)) != source:  # a corrected one could not keep its bytes
+            raise UnicodeError
+        robot = ElementTree.fromstring(text)
     except (LookupError, UnicodeError):
         raise UnsuitableRobot(f"{path} is no URDF: its text is not {encoding(source)}") from None
     except ElementTree.ParseError:

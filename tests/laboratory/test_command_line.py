@@ -3,14 +3,18 @@
 import hashlib
 import json
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 
-from recalib.laboratory.command_line import DONE, NO_BETTER, REFUSED, main
+from recalib.laboratory import command_line
+from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
 from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.measurements import Measurements
+from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import (
     ARM,
     NOISE,
@@ -151,3 +155,49 @@ def test_a_command_leaves_linear_algebra_to_one_thread_before_numpy_counts_cores
     monkeypatch.delenv("OPENBLAS_NUM_THREADS")
     assert main(["next", "nowhere"]) == REFUSED
     assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
+
+
+@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
+def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
+    arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(3)
+    joints = np.array([0, -1.4, 2.1, -2.9, -1.6, 0]) + random.uniform(-0.5, 0.5, (40, 6))
+    joints[:, 0] = angle
+    offsets = np.radians(random.uniform(-1, 1, 6))
+    noise = NOISE * random.standard_normal((40, 3))
+    write(
+        tmp_path / "rows.csv", table(arm, joints, arm.forward(joints + offsets)[:, :3, 3] + noise)
+    )
+    arguments = ["ur10_robot.urdf", f"{tmp_path}/rows.csv", "--tool=tool0", f"--out={tmp_path}/out"]
+    assert main(["calibrate", *arguments]) == DONE
+    at = f"{np.degrees(angle):.1f} deg"
+    said = f"shoulder_pan_joint stood still at {at}: nothing is known of its own errors"
+    assert said in capsys.readouterr().out.splitlines()
+    told = json.loads((tmp_path / "out" / "parameters.json").read_text())
+    values = [row["value"] for row in told["parameters"] if row["name"].startswith("offset of ")]
+    assert abs(values[0]) < 1e-9 < 1e-2 < np.abs(values[1:]).max()
+
+
+@pytest.mark.slow  # in a process of its own
+def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calibrated, tmp_path):
+    home, temporary, out = (tmp_path / name for name in ("home", "temporary", "out"))
+    home.mkdir()
+    temporary.mkdir()
+    own = {"HOME": str(home), "TMPDIR": str(temporary)}
+    elsewhere = {CACHE, "XDG_CACHE_HOME", "XDG_CONFIG_HOME"}
+    kept = {name: value for name, value in os.environ.items() if name not in elsewhere}
+    files = [str(calibrated.parent / name) for name in ("arm.urdf", "measurements.csv")]
+    command = [sys.executable, "-m", "recalib", "calibrate", *files, f"--out={out}"]
+    subprocess.run(command, env=kept | own, check=True, capture_output=True)
+    assert (out / "page.html").exists()
+    assert not [*home.rglob("*"), *temporary.rglob("*")]
+
+
+def test_a_folder_that_is_set_for_the_list_of_fonts_is_used(monkeypatch):
+    used = []
+    monkeypatch.setattr(command_line, "_next", lambda _: used.append(os.environ[CACHE]))
+    monkeypatch.setenv(CACHE, "mine")
+    main(["next", "calibration"])
+    monkeypatch.delenv(CACHE)
+    main(["next", "calibration"])
+    assert used[0] == "mine" != used[1]
+    assert CACHE not in os.environ and not os.path.exists(used[1])

@@ -15,7 +15,7 @@ from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correct import correct
+from recalib.laboratory.correct import NotReached, correct
 from recalib.laboratory.correction import Correction, load_correction
 from recalib.laboratory.measurements import Measurements
 from recalib.laboratory.propose import BEYOND, _drawn
@@ -97,6 +97,14 @@ def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
+
+
+@pytest.mark.parametrize("in_instrument", [False, True])
+def test_how_far_off_an_arm_stays_is_told_in_millimetres_and_degrees(correction, in_instrument):
+    turned = np.diag([1.0, -1.0, -1.0])[None]
+    far = Measurements(1, None, np.array([[9.0, 0.0, 0.0]]), turned)
+    with pytest.raises(NotReached, match=r"found is 8\d\d\d mm and [\d.]+ deg away"):
+        correct(correction, far, in_instrument)
 
 
 def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correction):

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.measurements import read_measurements
+from recalib.laboratory.measurements import read_desired, read_measurements
 from recalib.nominal.arms import load_arm
 
 ROWS = 10
@@ -72,6 +72,12 @@ def test_targets_and_sockets_are_named(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
     assert [*read.sockets] == [*read.targets] == names and read.positions is None
+
+
+def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(gantry, write):
+    names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
+    read = read_desired(write(joints() | positions() | names), gantry, in_instrument=True)
+    assert [*read.targets] == names["target"] and np.allclose(read.positions[-1], 0.002)
 
 
 def test_what_is_no_text_is_refused(gantry, tmp_path):

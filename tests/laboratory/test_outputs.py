@@ -6,7 +6,7 @@ import shutil
 import signal
 import sys
 import tempfile
-from contextlib import chdir, redirect_stderr
+from contextlib import chdir, redirect_stderr, suppress
 from io import StringIO
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from recalib.errors import InvalidFile
 from recalib.laboratory import calibrate, files
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.files import NAMES
-from recalib.laboratory.outputs import new
+from recalib.laboratory.outputs import MARK, new
 
 LINKS = "joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,0,-90,412,0\nboom,300,0,0,0\n"
 INPUTS = "arm.urdf", "rows.csv", "links.csv"
@@ -92,8 +92,9 @@ def test_an_empty_folder_will_do_and_parents_are_made(laboratory, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
 
 
+HIDDEN = ".calibration.part", ".commands.csv.part"  # where commands make their results
 NAME = st.sampled_from(
-    [*INPUTS, *NAMES, "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
+    [*INPUTS, *NAMES, *HIDDEN, "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
 )
 ENTRY = st.one_of(
     st.tuples(st.just("file"), st.binary(max_size=4)),
@@ -124,7 +125,13 @@ def fill(folder: Path, entries: dict) -> None:
     out=st.one_of(st.none(), NAME, st.tuples(NAME, NAME).map("/".join), st.just(".")),
 )
 def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, command, out):
-    """Links and pipes among it, also to nothing: a run adds something, or says why it does not."""
+    """Links and pipes among it, also to nothing: a run adds something, or says why it does not.
+
+    Only an empty folder where results are made is taken for what a killed run left.
+    """
+    for name in HIDDEN:
+        if entries.get(name) == ("folder", {}):
+            del entries[name]
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         fill(folder, entries)
@@ -140,7 +147,7 @@ def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, comm
         assert {name: after.get(name) for name in before} == before
         added = after.keys() - before.keys()
         assert bool(added) == (code == DONE)
-        assert not [name for name in added if ".part" in name]
+        assert ".part" in str(out) or not [name for name in added if ".part" in name]
 
 
 @pytest.fixture
@@ -224,6 +231,37 @@ def test_what_is_told_of_an_interruption_is_true(command, laboratory, tmp_path, 
             assert whole in (None, its)
             whole = its
     assert number > 5 and whole is not None
+
+
+def test_what_lies_where_results_are_made_stays_unless_it_is_marked(tmp_path):
+    (tmp_path / ".out.part" / "out").mkdir(parents=True)
+    (tmp_path / ".out.part" / "out" / "mine").write_text("mine")
+    before = content(tmp_path)
+    with pytest.raises(InvalidFile, match=r"\.out\.part: it is in the way of what will be made"):
+        fill_two(tmp_path / "out")
+    assert content(tmp_path) == before
+    (tmp_path / ".out.part" / MARK).touch()
+    fill_two(tmp_path / "out")
+    assert {path.name for path in tmp_path.iterdir()} == {"out"}
+
+
+def test_killed_while_it_cleans_up_after_an_error_the_next_run_tidies_up(tmp_path, strike):
+    number, killed = 0, True
+    while killed:
+        number += 1
+        out = tmp_path / str(number) / "out"
+        out.parent.mkdir()
+        if not (child := os.fork()):
+            with suppress(ZeroDivisionError), new(out, folder=True) as made:
+                (made / "one").touch()
+                strike(number, lambda: os.kill(os.getpid(), signal.SIGKILL))
+                1 / 0  # noqa: B018
+            os._exit(0)
+        _, status = os.waitpid(child, 0)
+        killed = os.WIFSIGNALED(status)
+        fill_two(out)
+        assert {path.name for path in out.parent.iterdir()} == {"out"}
+    assert number > 3
 
 
 def test_two_at_once_do_not_mix(tmp_path):

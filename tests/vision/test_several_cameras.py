@@ -290,7 +290,7 @@ def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
 def test_several_tables_and_known_frames_are_refused(tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left")
     right = write_session(tmp_path / "right", beside(SEED), "right")
-    with pytest.raises(RecalibError, match="it is not the only one and no folder"):
+    with pytest.raises(RecalibError, match="it is one of 2 tables; expected: one, or the folders"):
         calibrated(left, right / "measurements.csv")
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
     with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
