@@ -23,6 +23,7 @@ from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.fault_words import in_words
 from recalib.laboratory.knowledge import check_distances, frames_by_sights
 from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
@@ -101,8 +102,7 @@ class Calibrated:
     @property
     def ends(self) -> list[str]:
         """What the targets are, in words."""
-        plain = len(self.targets) == 1 or self.observations.optics is not None
-        return [name if plain else f"target {name}" for name in self.targets]
+        return _ends(self.targets, self.observations)
 
     @property
     def sights(self) -> list[str]:
@@ -227,8 +227,10 @@ def calibrate_arm(
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
+        session = observations, frames, tables, instruments, _ends(targets, observations)
+        reasons = [in_words(fault, *session) for fault in error.faults]
         ranges = rows_of(observations, names) if len(tables) > 1 else []
-        raise Untrustworthy("; ".join([str(error), *ranges])) from None
+        raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     return Calibrated(
         path,
         source,
@@ -243,6 +245,11 @@ def calibrate_arm(
         instruments,
         scales,
     )
+
+
+def _ends(targets: Sequence[str], observations: Observations) -> list[str]:
+    plain = len(targets) == 1 or observations.optics is not None
+    return [name if plain else f"target {name}" for name in targets]
 
 
 def sight_names(
