@@ -8,7 +8,8 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RAND
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.fault_words import in_words
 
-RESIZED = 0.015  # of a board: links are seldom longer or shorter by as much
+RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
+TOGETHER = 0.3  # the part of residuals that may remain, were all links longer by one factor
 OUTVOTED = 0.5  # of the rows of a sight: were more outliers, something of it is not as described
 CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
@@ -19,12 +20,17 @@ def doubts(result: Calibrated) -> Iterator[str]:
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
-    for board, scale in result.board_scales.items():
-        if abs(beside := scale - 1) > RESIZED:
+    said, advice = "its description", "measure it again"
+    if result.observations.optics is not None:
+        advice = "measure its squares"
+    elif result.observations.measured is not None:
+        said, advice = "the table says", "check its unit, and the instrument's scale"
+    for what, (factor, remaining) in result.scales.items():
+        if abs(beside := factor - 1) > RESIZED and remaining < TOGETHER:
             yield (
-                f"Careful: if links are as long as the URDF has them, {board} is"
-                f" {100 * abs(beside):.1f} percent {'larger' if beside > 0 else 'smaller'} than its"
-                " description; measure its squares."
+                f"Careful: if links are as long as the URDF has them, {what} is"
+                f" {100 * abs(beside):.1f} percent {'larger' if beside > 0 else 'smaller'} than"
+                f" {said}; {advice}."
             )
     validation = result.validation
     if validation.chosen != HYBRID:

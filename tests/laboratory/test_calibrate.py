@@ -123,6 +123,11 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
         propose(result.correction, 3)
 
 
+def test_a_distance_of_another_scale_is_doubted(in_sockets):
+    told = summary(by_ball(DISTANCE.format("left", 270), in_sockets))
+    assert "the distance between left and right is 11.1 percent larger than its descr" in told
+
+
 def test_balls_in_sockets_of_the_wrong_names_are_refused(in_sockets):
     heading, *rows = in_sockets.read_text().splitlines()
     names = {"left": "right", "right": "left"}

@@ -1,5 +1,6 @@
 """What makes a calibration doubtful stands in its first line."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Observations
+from recalib.identification.scales import Scale
 from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
@@ -33,7 +35,7 @@ def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) ->
     )
     rows = Observations(np.zeros((ROWS, 6)), times=times)
     return SimpleNamespace(
-        validation=validation, faults=found, observations=rows, board_scales={}, **NAMES
+        validation=validation, faults=found, observations=rows, scales={}, **NAMES
     )
 
 
@@ -66,6 +68,23 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
 def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
     (told,) = doubts(result({}, GEOMETRIC, (fault,), times))
     assert told.startswith("Careful: ") and said in told
+
+
+@pytest.mark.parametrize(
+    ("scale", "said"),
+    [
+        (Scale(1.02, 0.1), "what was measured is 2.0 percent larger than the table says"),
+        (Scale(0.9, 0.1), "what was measured is 10.0 percent smaller than the table says"),
+        (Scale(1.02, 0.5), ""),
+        (Scale(1.01, 0.1), ""),
+    ],
+)
+def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
+    found = result({}, GEOMETRIC)
+    found.observations = replace(found.observations, measured=np.zeros((ROWS, 3)))
+    found.scales = {"what was measured": scale}
+    told = " ".join(doubts(found))
+    assert said in told and bool(told) == bool(said)
 
 
 def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:
