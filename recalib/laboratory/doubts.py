@@ -20,13 +20,13 @@ def doubts(result: Calibrated) -> Iterator[str]:
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
-    said, advice = "its description", "measure it again"
-    if result.observations.optics is not None:
-        advice = "measure its squares"
+    said, advice, most = "its description", "measure it again", TOGETHER
+    if result.observations.optics is not None:  # printers scale often, instruments seldom
+        advice, most = "measure its squares", np.inf
     elif result.observations.measured is not None:
         said, advice = "the table says", "check its unit, and the instrument's scale"
     for what, (factor, remaining) in result.scales.items():
-        if abs(beside := factor - 1) > RESIZED and remaining < TOGETHER:
+        if abs(beside := factor - 1) > RESIZED and remaining < most:
             yield (
                 f"Careful: if links are as long as the URDF has them, {what} is"
                 f" {100 * abs(beside):.1f} percent {'larger' if beside > 0 else 'smaller'} than"
