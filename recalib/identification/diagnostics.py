@@ -1,18 +1,35 @@
 """Checks of an identification: one that cannot be trusted is refused, with a reason in numbers."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from recalib.errors import RecalibError
-from recalib.identification.estimation import Estimate
+from recalib.identification.calibration import Calibration
+from recalib.identification.link_lengths import link_lengths
+from recalib.identification.observations import Observations
 from recalib.identification.postures import Postures
+from recalib.identification.sequence import Fault, faults
 
 FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
 NAMED = 5  # rows to look at first
+# Of a link, and of all links together: a change beyond both is no wear. The damage of the paper
+# takes a tenth of a link, and a fortieth of them together.
+OTHER_LINK, OTHER_ARM = 0.2, 0.05
 
 
 class Untrustworthy(RecalibError):
-    """An identification whose accuracy cannot be known, or that has none."""
+    """An identification whose accuracy cannot be known, or that has none.
+
+    Args:
+        problem: what is wrong, in words.
+        found: faults in the sequence of rows, which may be why.
+    """
+
+    def __init__(self, problem: str, found: Sequence[Fault] = ()):
+        super().__init__(problem)
+        self.faults = found
 
 
 def check_postures(postures: Postures) -> Postures:
@@ -26,19 +43,45 @@ def check_postures(postures: Postures) -> Postures:
     return postures
 
 
-def check_estimate(estimate: Estimate) -> None:
-    """Raise Untrustworthy unless an estimate of the geometry has converged and leaves noise."""
-    noise = estimate.noise
-    if not estimate.converged:
+def check_estimate(geometry: Calibration, observations: Observations, counted: np.ndarray) -> None:
+    """Raise Untrustworthy unless an estimate of the geometry has converged and leaves noise.
+
+    Args:
+        counted: (n,) whether a row is not grossly off.
+    """
+    noise = geometry.estimate.noise
+    if not geometry.estimate.converged:
         raise Untrustworthy(
             "the geometry was still changing when its identification was stopped, with a noise of"
             f" {1e3 * noise[0]:.2g} mm; try: more rows, in postures less alike"
         )
     if (noise > NOISIEST[: len(noise)]).any():
         found = [f"{1e3 * noise[0]:.1f} mm", *(f"{np.degrees(turn):.1f} deg" for turn in noise[1:])]
-        rows = np.argsort(estimate.weights, kind="stable")[:NAMED] + 1
+        residuals = geometry.residuals(observations) / np.repeat(noise, 3)
+        rows = np.argsort(-np.square(residuals).sum(axis=1), kind="stable")[:NAMED] + 1
         raise Untrustworthy(
             f"residuals of the best fit are {' and '.join(found)} along each axis, the largest in"
             f" rows {', '.join(map(str, rows))} (the first is 1); expected: up to"
-            f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg"
+            f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg",
+            faults(geometry, observations, counted),
+        )
+
+
+def check_links(geometry: Calibration) -> None:
+    """Raise Untrustworthy unless links are about as long as those of the nominal arm.
+
+    Wrong units and wrong names of sockets may be explained by another arm, without any noise.
+    """
+    nominal = geometry.model.nominal
+    right, found = link_lengths(nominal, geometry.model.own_arm(geometry.estimate.parameters))
+    limits = np.maximum(OTHER_LINK * right, OTHER_ARM * right.sum())
+    beyond = np.abs(found - right) - limits
+    if (beyond > 0).any():
+        worst = int(beyond.argmax())
+        raise Untrustworthy(
+            f"the measurements make the link behind {nominal.joints[worst]}"
+            f" {1e3 * found[worst]:.0f} mm long; expected: about {1e3 * right[worst]:.0f} mm, as"
+            " the arm's description has it; try: other units"
+            + ", or other names of sockets"
+            * bool(geometry.model.frames.sockets.size)
         )

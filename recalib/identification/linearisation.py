@@ -70,6 +70,7 @@ class Linearisation:
             if its.optics is not None:  # measured poses move with them: the other way
                 columns = model.optics_columns
                 residuals += its.optics.slopes @ parameters[columns]
+                jacobians = jacobians[:, : residuals.shape[1]]
                 jacobians[:, :, columns] = -its.optics.slopes
                 residuals, jacobians = its.whitened(residuals), its.whitened(jacobians)
             for kind in range(observations.kinds):

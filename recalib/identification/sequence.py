@@ -8,7 +8,7 @@ that is too large for chance, is reported.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from scipy.special import fdtrc
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import JOINT_ERRORS, ErrorModel
+from recalib.identification.estimation import identify
 from recalib.identification.linearisation import Linearisation, displacements
 from recalib.identification.observations import Observations
 from recalib.identification.postures import find_postures
@@ -53,10 +54,25 @@ class Fault:
 def faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
     """What the rows of each series show by their order, if they were measured in that order.
 
+    A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
+    fault, all others are looked for without it.
+
     Args:
         geometry: what was identified from them.
         counted: (n,) whether a row is not grossly off.
     """
+    found = _faults(geometry, observations, counted)
+    if len(found) < 2 or found[0].kind != LAG:
+        return found
+    punctual = _without(found[0], observations)
+    again = identify(geometry.model, punctual, geometry.estimate, counted.astype(float))
+    others = _faults(replace(geometry, estimate=again), punctual, counted)
+    its = LAG, found[0].sight
+    return found[:1] + [fault for fault in others if (fault.kind, fault.sight) != its]
+
+
+def _faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
+    """The same, all by one linearisation."""
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
@@ -89,6 +105,14 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     return found
 
 
+def _without(lag: Fault, observations: Observations) -> Observations:
+    """The same at the joint coordinates of the moments at which poses were measured."""
+    joints, series = observations.joints.copy(), observations.series
+    rows = series == series[observations.targets == lag.sight][0]
+    joints[rows] -= lag.size * _speeds(joints[rows], _times(observations)[rows])
+    return replace(observations, joints=joints)
+
+
 class _Candidate(NamedTuple):
     """A fault that there may be.
 
@@ -108,7 +132,7 @@ class _Candidate(NamedTuple):
 
 def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_Candidate]:
     """All of them, whose columns are those of whitened residuals."""
-    times = np.arange(len(observations)) if observations.times is None else observations.times
+    times = _times(observations)
     poses = geometry.predict(observations.joints, observations.targets)
     instruments, targets = geometry.model.frames.sights[observations.targets].T
     seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
@@ -186,16 +210,25 @@ class _Unexplained:
         return scipy.linalg.cho_solve(self._factor, pulls)
 
 
+def _times(observations: Observations) -> np.ndarray:
+    """When rows were measured (n,), in seconds, or in rows where nobody wrote it down."""
+    return np.arange(len(observations)) if observations.times is None else observations.times
+
+
 def _late(geometry: Calibration, observations: Observations, times: np.ndarray) -> np.ndarray:
     """How targets go back with time (n, k) [m, rad], at the speed of the step to each row."""
-    times, first, numbers = np.unique(times, return_index=True, return_inverse=True)
-    lasted = np.diff(times)  # of rows at one time all are as fast
-    speeds = np.diff(observations.joints[first], axis=0) / lasted[:, None]
-    speeds = np.concatenate([0 * speeds[:1], speeds])[numbers]
-    small = SMALL * np.median(lasted)
+    small = SMALL * np.median(np.diff(np.unique(times)))
     here = geometry.predict(observations.joints, observations.targets)
-    before = geometry.predict(observations.joints - small * speeds, observations.targets)
+    earlier = observations.joints - small * _speeds(observations.joints, times)
+    before = geometry.predict(earlier, observations.targets)
     return displacements(here, before)[:, : 3 * observations.kinds] / small
+
+
+def _speeds(joints: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """How fast joints (n, joints) moved on the step to each row; rows at one time are as fast."""
+    times, first, numbers = np.unique(times, return_index=True, return_inverse=True)
+    speeds = np.diff(joints[first], axis=0) / np.diff(times)[:, None]
+    return np.concatenate([0 * speeds[:1], speeds])[numbers]
 
 
 def _moved(poses: np.ndarray, instruments: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib.identification.calibration import Calibration, calibrate, calibrate_again
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.diagnostics import check_estimate, check_postures
+from recalib.identification.diagnostics import check_estimate, check_links, check_postures
 from recalib.identification.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
@@ -107,14 +107,17 @@ def validate(
     """
     check_postures(find_postures(observations.joints, arm.slides, noise=0.0))
     on_progress("geometry")
-    estimate = identify_by_consensus(ErrorModel(arm, OFFSETS, frames), observations)
-    check_estimate(estimate)
+    model = ErrorModel(arm, OFFSETS, frames)
+    estimate = identify_by_consensus(model, observations)
+    counted = estimate.weights >= OUTLYING
+    geometry = Calibration(model, estimate)
+    check_estimate(geometry, observations, counted)
+    check_links(geometry)
     postures = check_postures(find_postures(observations.joints, arm.slides, estimate.noise[0]))
     candidates = {
         kind: [held(terms, postures.still) for terms in options]
         for kind, options in CANDIDATES.items()
     }
-    counted = estimate.weights >= OUTLYING
     weights = counted.astype(float)
     full = {}
     for kind in (NOTHING, GEOMETRIC):

@@ -10,7 +10,6 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
-from recalib.identification.board_scale import board_scales
 from recalib.identification.calibration import Calibration, turned
 from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.error_model import OFFSETS, ErrorModel
@@ -19,10 +18,12 @@ from recalib.identification.frames import Frames
 from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.repeatability import weigh
+from recalib.identification.scales import Scale, scales
 from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.fault_words import in_words
 from recalib.laboratory.knowledge import check_distances, frames_by_sights
 from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
 from recalib.laboratory.nominal_checks import check_nominal
@@ -48,7 +49,8 @@ class Calibrated:
         frames: from which the identification started.
         validation: errors on rows that were not learned from, and the choice by them.
         instruments: their names, in the order of their numbers.
-        board_scales: the size of each board, by links as they are described, over its description.
+        scales: of boards, of distances between sockets or of all positions, by links as long as the
+            URDF has them.
     """
 
     urdf: Path
@@ -62,7 +64,7 @@ class Calibrated:
     frames: Frames
     validation: Validation
     instruments: tuple[str, ...] = INSTRUMENT
-    board_scales: Mapping[str, float] = field(default_factory=dict)
+    scales: Mapping[str, Scale] = field(default_factory=dict)
 
     @property
     def arm(self) -> Arm:
@@ -101,8 +103,7 @@ class Calibrated:
     @property
     def ends(self) -> list[str]:
         """What the targets are, in words."""
-        plain = len(self.targets) == 1 or self.observations.optics is not None
-        return [name if plain else f"target {name}" for name in self.targets]
+        return _ends(self.targets, self.observations)
 
     @property
     def sights(self) -> list[str]:
@@ -209,26 +210,31 @@ def calibrate_arm(
             between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
     read = [observations_of(rows, given, path) for rows, path in zip(measured, tables, strict=True)]
     observations, targets, sockets = read[0]
-    instruments, sights, scales = INSTRUMENT, None, {}
+    scaled: tuple[str, ...] = ("what the instrument measured",)
+    instruments, sights = INSTRUMENT, None
     if folders:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels
 
         seen = with_pixels([rows for rows, *_ in read], folders)
-        observations, instruments, targets, sights, boards = seen
+        observations, instruments, targets, sights, scaled = seen
     on_progress("initial estimate of instrument and target")
     names = sight_names(instruments, targets, sights)
     known = given.instrument, given.target
     frames = frames_by_sights(arm, replace(observations, optics=None), sights, names, *known)
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
-        scales = dict(zip(boards, board_scales(arm, observations, frames), strict=True))
         observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)
+    if observations.sockets is not None:
+        pairs = [(sockets[one], sockets[other]) for one, other, *_ in observations.distances]
+        scaled = tuple(f"the distance between {one} and {other}" for one, other in pairs)
     check_distances(arm, observations, frames, sockets)
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
+        session = observations, frames, tables, instruments, _ends(targets, observations)
+        reasons = [in_words(fault, *session) for fault in error.faults]
         ranges = rows_of(observations, names) if len(tables) > 1 else []
-        raise Untrustworthy("; ".join([str(error), *ranges])) from None
+        raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     return Calibrated(
         path,
         source,
@@ -241,8 +247,13 @@ def calibrate_arm(
         frames,
         validation,
         instruments,
-        scales,
+        dict(zip(scaled, scales(arm, observations[validation.counted], frames), strict=True)),
     )
+
+
+def _ends(targets: Sequence[str], observations: Observations) -> list[str]:
+    plain = len(targets) == 1 or observations.optics is not None
+    return [name if plain else f"target {name}" for name in targets]
 
 
 def sight_names(

@@ -20,6 +20,14 @@ from recalib.nominal.kinematics import Arm
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
 EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
+UNITS = {  # of positions that are wrong, by what makes them right
+    1e-3: "in millimetres that say m",
+    1e-2: "100 times too large",
+    1e-1: "in millimetres that say cm",
+    1e1: "in centimetres that say mm",
+    1e2: "100 times too small",
+    1e3: "in metres that say mm",
+}
 ENOUGH = 40  # rows to try mistakes on
 QUARTERS = 90, -90, 180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
@@ -80,7 +88,11 @@ def check_nominal(
 
 
 def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: float) -> str | None:
-    """The mistake that explains the most of a difference [m], of one step and then of two."""
+    """The mistake that explains the most of a difference [m], of one step and then of two.
+
+    What it leaves is a part of how far the positions are spread without it: where arm and positions
+    shrink to a point, nothing is explained.
+    """
     steps = list(_steps(arm))
     for count in (1, 2):
         fits = []
@@ -89,9 +101,12 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: floa
             for _, change in chosen:
                 undone = change(*undone)
             _, gaps = _fit(arm.forward(undone[0]), undone[1])
-            fits.append((_rms(gaps), gaps.max(), " and ".join(name for name, _ in chosen)))
-        rms, largest, words = min(fits, key=lambda one: one[0])
-        if largest <= ALIKE and rms < EXPLAINED * plain:
+            spread = _rms(np.linalg.norm(undone[1] - undone[1].mean(axis=0), axis=1))
+            words = " and ".join(name for name, _ in chosen)
+            part = _rms(gaps) / spread if spread > 0 else np.inf
+            fits.append((part, _rms(gaps), gaps.max(), words))
+        part, rms, largest, words = min(fits)
+        if largest <= ALIKE and part < EXPLAINED and rms < EXPLAINED * plain:
             return words
     return None
 
@@ -101,8 +116,8 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
     count = len(arm.joints)
     yield "joint columns in degrees that say rad", lambda q, p: (np.radians(q), p)
     yield "joint columns in radians that say deg", lambda q, p: (np.degrees(q), p)
-    yield "positions in millimetres that say m", lambda q, p: (q, p * 1e-3)
-    yield "positions in metres that say mm", lambda q, p: (q, p * 1e3)
+    for factor, words in UNITS.items():
+        yield f"positions {words}", _of_positions(partial(np.multiply, factor))
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
         yield f"the sign of {name}", _of_joints(partial(np.multiply, signs))
@@ -118,6 +133,10 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", _of_joints(exchanged)
     yield "the joint columns in reverse order", lambda q, p: (q[:, ::-1], p)
+
+
+def _of_positions(change: Callable[[np.ndarray], np.ndarray]) -> Try:
+    return lambda q, p: (q, change(p))
 
 
 def _of_joints(change: Callable[[np.ndarray], np.ndarray]) -> Try:

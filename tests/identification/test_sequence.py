@@ -41,6 +41,12 @@ def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(ur10):
     assert Session(ur10, 4, rows=10).named() == []
 
 
+def test_what_a_lag_explains_is_no_further_fault(ur10):
+    """A part of this one looks like a slip of the target, if the arm that it bends is believed."""
+    found = Session(ur10, 4, LAG, 0.25, on_a_path=True).named()
+    assert [fault.kind for fault in found] == [LAG]
+
+
 def test_what_several_targets_of_a_posture_share_is_no_fault(ur10):
     """Gears that no model holds move all targets of a posture: rows of it are one."""
     seen = with_targets(Real(ur10, 2, targets=3, gears=np.radians(0.03)), 40)

@@ -176,8 +176,13 @@ def test_a_joint_may_stand_still_at_any_angle(ur10, angle):
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     real = Real(ur10, 5)
     observations = real.seen(30)
-    observations.measured[:, :3, 3] += 0.03 * real.random.standard_normal((30, 3))
-    with pytest.raises(Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows ([0-9]+, ){4}"):
+    towards = real.random.standard_normal((30, 3))
+    towards *= 0.05 / np.linalg.norm(towards, axis=1, keepdims=True)
+    towards[11] *= 2  # too little for a lower weight
+    observations.measured[:, :3, 3] += towards
+    with pytest.raises(
+        Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
+    ):
         validate(ur10, observations, initial_frames(ur10, observations))
 
 

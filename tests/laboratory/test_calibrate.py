@@ -4,12 +4,22 @@ import numpy as np
 import pytest
 
 from recalib.errors import InvalidFile, InvalidSetting
+from recalib.identification.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.knowledge import WrongKnowledge
 from recalib.laboratory.parameters import described
 from recalib.laboratory.propose import propose
 from recalib.laboratory.summary import summary
-from tests.laboratory.conftest import NOISE, OFFSETS, ROWS, in_degrees, postures, write
+from tests.laboratory.conftest import (
+    NOISE,
+    OFFSETS,
+    ROWS,
+    in_degrees,
+    in_millimetres,
+    postures,
+    true_positions,
+    write,
+)
 
 INSTRUMENT = """
 [instrument]
@@ -111,6 +121,33 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)
+
+
+def test_a_distance_of_another_scale_is_doubted(in_sockets):
+    told = summary(by_ball(DISTANCE.format("left", 270), in_sockets))
+    assert "the distance between left and right is 11.1 percent larger than its descr" in told
+
+
+def test_balls_in_sockets_of_the_wrong_names_are_refused(in_sockets):
+    heading, *rows = in_sockets.read_text().splitlines()
+    names = {"left": "right", "right": "left"}
+    for number in range(1, len(rows), 4):
+        (*joints, name) = rows[number].split(",")
+        rows[number] = ",".join([*joints, names[name]])
+    mixed = in_sockets.with_name("mixed.csv")
+    mixed.write_text("\n".join([heading, *rows]))
+    with pytest.raises(Untrustworthy, match="make the link .* mm long; .* other names of sockets"):
+        by_ball("", mixed)
+
+
+def test_centimetres_that_say_millimetres_are_refused(arm, folder):
+    joints = postures(12)
+    write(
+        folder / "small.csv",
+        in_degrees(arm, joints) | in_millimetres(0.1 * true_positions(arm, joints)),
+    )
+    with pytest.raises(Untrustworthy, match="behind lift 40 mm long; expected: about 400 mm"):
+        calibrate_arm(folder / "arm.urdf", folder / "small.csv")
 
 
 def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):

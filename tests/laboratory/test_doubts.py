@@ -1,15 +1,18 @@
 """What makes a calibration doubtful stands in its first line."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from recalib.identification.diagnostics import Untrustworthy
 from recalib.identification.frames import Frames
 from recalib.identification.observations import Observations
+from recalib.identification.scales import Scale
 from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
-from recalib.laboratory.calibrate import calibrate_arm
+from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.doubts import doubts
 from recalib.laboratory.summary import summary
 from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
@@ -32,7 +35,7 @@ def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) ->
     )
     rows = Observations(np.zeros((ROWS, 6)), times=times)
     return SimpleNamespace(
-        validation=validation, faults=found, observations=rows, board_scales={}, **NAMES
+        validation=validation, faults=found, observations=rows, scales={}, **NAMES
     )
 
 
@@ -67,12 +70,40 @@ def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
     assert told.startswith("Careful: ") and said in told
 
 
-def test_two_sessions_are_told_of_beside_the_error(arm, folder):
+@pytest.mark.parametrize(
+    ("scale", "said"),
+    [
+        (Scale(1.02, 0.1), "what was measured is 2.0 percent larger than the table says"),
+        (Scale(0.9, 0.1), "what was measured is 10.0 percent smaller than the table says"),
+        (Scale(1.02, 0.5), ""),
+        (Scale(1.01, 0.1), ""),
+    ],
+)
+def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
+    found = result({}, GEOMETRIC)
+    found.observations = replace(found.observations, measured=np.zeros((ROWS, 3)))
+    found.scales = {"what was measured": scale}
+    told = " ".join(doubts(found))
+    assert said in told and bool(told) == bool(said)
+
+
+def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:
+    """Where the instrument moved by so much [m] after so many rows."""
     joints = postures(3, ROWS)
     positions = true_positions(arm, joints)
     positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
-    positions[20:] += [6e-4, -6e-4, 5e-4]
+    positions[rows:] += moved
     write(folder / "sessions.csv", table(arm, joints, positions))
-    result = calibrate_arm(folder / "arm.urdf", folder / "sessions.csv")
-    _, first, *_ = summary(result).splitlines()
+    return calibrate_arm(folder / "arm.urdf", folder / "sessions.csv")
+
+
+def test_two_sessions_are_told_of_beside_the_error(arm, folder):
+    _, first, *_ = summary(two_sessions(arm, folder, 20, [6e-4, -6e-4, 5e-4])).splitlines()
     assert "Careful: between rows 20 and 21 instrument or base seem to have moved by" in first
+
+
+def test_two_sessions_that_no_arm_explains_are_refused_as_such(arm, folder):
+    with pytest.raises(
+        Untrustworthy, match="between rows 30 and 31 instrument or base seem to have moved by 50 mm"
+    ):
+        two_sessions(arm, folder, 30, [0.03, 0.0, -0.04])

@@ -15,13 +15,15 @@ from recalib.errors import RecalibError
 from recalib.identification.observations import Distance, Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import HYBRID, KINDS, RANDOM
-from recalib.laboratory import doubts, watching
+from recalib.laboratory import watching
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.columns import read_table
 from recalib.laboratory.command_line import main
 from recalib.laboratory.correct import correct, solve, unidentifiable_ends
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.description import Description, read_description
+from recalib.laboratory.doubts import doubts
+from recalib.laboratory.fault_words import in_words
 from recalib.laboratory.files import optional_outputs, write_files
 from recalib.laboratory.knowledge import check_distances, checked_frames
 from recalib.laboratory.links import read_rows, urdf_of
@@ -292,14 +294,18 @@ def test_doubts_are_as_kept(made, data_regression):
     its = made("poses")
     kinds = [Fault(LAG, 0.12), Fault(LAG, -0.034), Fault(DRIFT, 0.0012), Fault(JUMP, 0.0034, 17)]
     kinds.append(Fault(SLIP, 0.0012, 17, 0.0034))
-    found = [[doubts._sentence(one, of) for of in (its, made("targets"))] for one in kinds]
+    sessions = [
+        (of.observations, of.frames, of.tables, of.instruments, of.ends)
+        for of in (its, made("targets"))
+    ]
+    found = [[in_words(one, *session) for session in sessions] for one in kinds]
     validation, told = its.validation, {}
     whole = replace(validation.held_out[RANDOM][HYBRID], residuals=np.full((ROWS, 6), 1e-4))
     held_out = validation.held_out | {RANDOM: validation.held_out[RANDOM] | {HYBRID: whole}}
     for chosen in KINDS:
         patterned = replace(validation, held_out=held_out, chosen=chosen)
-        told[chosen] = [*doubts.doubts(replace(its, validation=patterned))]
-    data_regression.check(plain([found, [*doubts.doubts(its)], told]))
+        told[chosen] = [*doubts(replace(its, validation=patterned))]
+    data_regression.check(plain([found, [*doubts(its)], told]))
 
 
 @pytest.mark.parametrize("name", [("ur5_robot.urdf", "tool0"), ("panda.urdf", "panda_link8")])

@@ -68,6 +68,9 @@ MISTAKES = {
         "joint columns in radians that say deg",
     ),
     "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
+    "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
+    "a hundredth": (lambda q, p: (q, p * 0.01), "positions 100 times too small"),
+    "a hundredfold": (lambda q, p: (q, p * 100), "positions 100 times too large"),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
@@ -86,6 +89,11 @@ def test_the_likely_mistake_is_named(spoil, words, arm, joints, nominal):
 def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):
     with pytest.raises(WrongNominal, match="likely: a tool point at"):
         check_nominal(arm, joints, nominal, np.eye(4), np.eye(4))
+
+
+def test_where_all_positions_are_one_nothing_explains_them(arm, joints, nominal):
+    with pytest.raises(WrongNominal, match="is it another arm"):
+        check_nominal(arm, joints, np.ones_like(nominal))
 
 
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):

@@ -102,7 +102,7 @@ def test_pixels_are_read_and_weighed(observed):
     folder, draw = observed
     result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
     assert result.observations.optics is not None and result.instruments == ("the camera",)
-    assert abs(result.board_scales["the board"] - 1) < 0.01 and "Careful" not in verdict(result)
+    assert abs(result.scales["the board"].factor - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
     poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
     assert poses.observations.optics is None
@@ -134,7 +134,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
     text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
     (tmp_path / "setup.toml").write_text(text)
     result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
-    assert result.board_scales["the board"] == pytest.approx(36 / 33, abs=0.01)
+    assert result.scales["the board"].factor == pytest.approx(36 / 33, abs=0.01)
     assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
 
 

@@ -81,7 +81,7 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, tmp_path):
     result, draw = calibrated(*folders), Draw(SEED, False)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.15  # of 4 mm
     assert [place.name for place in result.places] == names
-    assert set(result.board_scales) == {name for name in names if "board" in name}
+    assert set(result.scales) == {name for name in names if "board" in name}
     assert "Careful" not in verdict(result) and not len(result.doubted)
     for sight in range(len(sessions)):
         assert pixel_error(result, "in blocks", result.validation.chosen, sight) < 0.2

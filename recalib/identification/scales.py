@@ -1,0 +1,80 @@
+"""How large what measures an arm is, by an arm whose links are as long as they are described.
+
+An arm whose links may have any length explains boards, distances and positions of any scale: all
+grow together. So the links are held here, and only joint offsets, frames, optics and scales are
+found.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.estimation import identify
+from recalib.identification.frames import HELD, Frames
+from recalib.identification.observations import Observations
+from recalib.identification.optics import BOARD, Optics
+from recalib.identification.repeatability import COVARIANCE
+from recalib.nominal.kinematics import Arm
+
+ANY = 0.5  # standard deviation of a scale that may be anything
+LINKS = 2e-3  # rad, times a lever m: so far links that are held make an arm miss
+
+
+class Scale(NamedTuple):
+    """The scale of something.
+
+    Attributes:
+        factor: its size over what it is said to be.
+        remaining: the part of the noise that these sizes leave of that with the sizes that are
+            said. Where other links than those described are the reason, much of it remains.
+    """
+
+    factor: float
+    remaining: float
+
+
+def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Scale]:
+    """Those of each board, of each distance between sockets, or of all measured positions.
+
+    Simulated arms tell that of a board to 0.3 percent.
+
+    Args:
+        frames: an initial estimate of them, with optics if cameras measured.
+
+    Raises BadMeasurement, as `identify`.
+    """
+    each = len(BOARD)
+    if observations.optics is not None:
+        optics = observations.optics.with_noise(LINKS**2 * COVARIANCE)
+        observations = replace(observations, optics=optics)
+    elif observations.measured is not None:
+        observations, each = replace(observations, optics=_rod(observations)), 1
+        frames = frames.with_optics(_rod(observations))
+    model, sizes = ErrorModel(arm, OFFSETS, frames), frames.optics_kinds < len(BOARD)
+    held = ~model.free
+    held[model.offset_columns] = held[model.socket_columns] = False
+    model.deviations[held] = HELD
+    model.deviations[model.optics_columns][sizes] = HELD
+    said = identify(model, observations)
+    model.deviations[model.optics_columns][sizes] = ANY
+    found = identify(model, replace(observations, distances=()))
+    centres = model.sockets(found.parameters)
+    factors = [
+        float(np.linalg.norm(centres[one] - centres[other])) / length
+        for one, other, length, _ in observations.distances
+    ]
+    beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
+    remaining = float(found.noise[0] / said.noise[0])
+    return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
+
+
+def _rod(observations: Observations) -> Optics:
+    """Positions that were measured by a rod, whose length is all that there is of optics."""
+    count, size = len(observations), 3 * observations.kinds
+    slopes = np.zeros((count, size, 1))
+    slopes[:, :3, 0] = observations.positions
+    nothing, same = np.zeros((count, 1, 1)), np.tile(np.eye(size), (count, 1, 1))
+    return Optics(same, slopes, nothing, nothing[..., 0], same, same, np.zeros(1, dtype=int))

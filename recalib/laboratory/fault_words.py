@@ -1,0 +1,49 @@
+"""Faults in the sequence of rows, in words."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from recalib.identification.frames import Frames
+from recalib.identification.observations import Observations
+from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+
+
+def in_words(
+    fault: Fault,
+    observations: Observations,
+    frames: Frames,
+    tables: Sequence[Path],
+    instruments: Sequence[str],
+    ends: Sequence[str],
+) -> str:
+    """What seems to have happened, where, and what to try: a sentence without its full stop.
+
+    Args:
+        tables: the files that the observations are from.
+        instruments, ends: what the frames are of, by their numbers.
+    """
+    sight = fault.sight
+    where = f"in {tables[sight].parent}, " if len(tables) > 1 else ""
+    instrument, target = frames.sights[sight]
+    stands, moves = instruments[instrument], ends[target]
+    series = observations.series
+    rows = np.count_nonzero(series == series[observations.targets == sight][0])
+    size, late = f"{1e3 * fault.size:.2g} mm", abs(fault.size)
+    moved = f"{size} and {np.degrees(fault.turn):.2g} deg"
+    between = f"between rows {fault.row} and {fault.row + 1}"
+    parts = f"try rows 1 to {fault.row} and {fault.row + 1} to {rows} each by themselves"
+    if not fault.row:
+        between, parts = "before row 1", "try each folder by itself"
+    lag = f"{100 * late:.2g} % of a step" if observations.times is None else f"{1e3 * late:.2g} ms"
+    sentences = {
+        LAG: f"poses seem to be {lag} {'behind' if fault.size > 0 else 'ahead of'} the joints; try"
+        " to measure at rest, or to synchronise both",
+        DRIFT: f"{stands} seems to drift by {size} from the first row to the last; try a"
+        " shorter session, or an instrument that is warm",
+        JUMP: f"{between} {stands.removeprefix('the ')} or base seem to have moved by {moved};"
+        f" {parts}",
+        SLIP: f"{between} {moves} seems to have slipped on the tool by {moved}; {parts}",
+    }
+    return where + sentences[fault.kind]

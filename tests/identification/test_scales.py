@@ -1,0 +1,39 @@
+"""A wrong scale of what measures an arm is told from other links."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
+from recalib.identification.scales import scales
+from tests.identification.real import Real
+
+TOGETHER = 0.3  # of the noise, as where links grew by one factor
+
+
+def scale_of(arm, observations: Observations):
+    (found,) = scales(arm, observations, initial_frames(arm, observations))
+    return found
+
+
+@pytest.mark.parametrize("kind", ["positions", "poses"])
+@pytest.mark.parametrize("factor", [1.03, 0.9])
+def test_positions_of_another_scale_are_known_by_the_links(factor, kind, ur10):
+    seen = Real(ur10, 1).seen(40, kind == "positions")
+    right = scale_of(ur10, seen)
+    assert right.factor == pytest.approx(1, abs=5e-3) and right.remaining > 0.9
+    measured = seen.measured.copy()
+    (measured if kind == "positions" else measured[:, :3, 3])[:] *= factor
+    found = scale_of(ur10, replace(seen, measured=measured))
+    assert found.factor == pytest.approx(1 / factor, abs=5e-3) and found.remaining < TOGETHER
+
+
+def test_one_link_that_is_shorter_is_no_scale(ur10):
+    other = ur10.copy()
+    placement = other.model.jointPlacements[3]
+    placement.translation = placement.translation * 0.93  # by 4 cm
+    joints = np.random.default_rng(1).uniform(-1, 1, (40, 6))
+    found = scale_of(ur10, Observations(joints, other.forward(joints)[:, :3, 3]))
+    assert found.remaining > TOGETHER
