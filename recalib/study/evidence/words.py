@@ -76,10 +76,15 @@ def measured(claim: Mapping) -> str:
     return "; ".join(f"{label}: {one(claim, label)}" for label in claim["measured"])
 
 
+def judged_by_setups(claim: Mapping) -> bool:
+    """Whether the mean over the setups is its number; the factor is the reference study's."""
+    return claim["universes"]["status"] == "measured" and claim["id"] != "speed-up"
+
+
 def headline(claim: Mapping, said=short) -> str:
     """The number that judges a claim, with its interval: over the setups where they judge it."""
     its = claim["universes"]
-    if its["status"] == "measured" and claim["id"] != "speed-up":
+    if judged_by_setups(claim):
         return ranged(its["mean"], its["mean_interval"], said)
     return one(claim, next(iter(claim["measured"])), said)
 

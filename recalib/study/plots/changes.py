@@ -65,9 +65,10 @@ def _draw(
 def _heading(rows: dict[str, list[Estimate]]) -> str:
     changes = [switch.label for switch in SWITCHES if switch.label in rows]
     if not changes:
-        return "Figure 4: learners beside the paper's two"
+        return f"Figure 4: {len(rows)} of other learners beside the paper's two"
     most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
-    return f"Figure 4: of the paper's changes, {most} help most"
+    weakest = max(ratio.mean for ratio in rows[most])
+    return f"Figure 4: of the paper's changes, {most} help most: error x {weakest:.2f} or less"
 
 
 def figure4(evidence: Evidence) -> Figure:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from recalib.spelling import listed
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.results import Evidence, Words
 from recalib.study.evidence.words import level_in_words, short
@@ -61,7 +62,9 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     text = f"Figure 15: {moved} of {moved + unmoved} claims depend on a choice beyond chance"
     most = max(dict.fromkeys(factors), key=factors.count, default="")
     if (often := factors.count(most)) > 1:
-        text += f";\n{often} of them on the same: {evidence.words()[most]['asks']} ..."
+        its = evidence.words()[most]
+        levels = (level_in_words(its, level) for level in evidence.levels()[most].unique())
+        text += f";\n{often} of them on the same: {its['asks']} {listed(sorted(levels), 'or')}"
     explained = (
         "Where the paper is silent, something has to be chosen. For each claim: the choice with"
         " which its number is largest, instead of the one with which it is\nsmallest, averaged over"
@@ -90,10 +93,10 @@ def _draw(
 ) -> None:
     """Claims from above."""
     _, top = axes.get_ylim()
-    axes.vlines(none, 0, top, **BORDER)
     for what, effects in its.items():
         top -= HEADING
         write(axes, -LEFT / PLOT, top + 0.08, what, weight="bold", **ON_LINES)
+        axes.vlines(none, top - ROW * len(effects), top, **BORDER)  # not through the heading
         for row in effects.itertuples():
             top -= ROW
             middle = top + ROW / 2

@@ -11,8 +11,8 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.evidence.words import ranged
 from recalib.study.inference.intervals import estimate
-from recalib.study.plots.palette import BOTH, Style, styles_of
-from recalib.study.plots.style import INTERVALS, finish, line_across, logarithmic
+from recalib.study.plots.palette import BORDER, BOTH, Style, styles_of
+from recalib.study.plots.style import INTERVALS, finish, logarithmic
 
 SMALL = 9.5  # points: a label no wider than its panel
 
@@ -94,16 +94,16 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
                 ours.mean,
                 s=120,
                 marker="*",
-                color=style.color,
-                edgecolors="black",
+                facecolors="none",  # over the signs of other levels
+                edgecolors=style.color,
                 zorder=4,
                 label=f"for its errors after {own}: {ours.mean:.0f}",
             )
-    line_across(axes, f"the paper: about {PUBLISHED}", y=PUBLISHED, until=0.55)
+    axes.axhline(PUBLISHED, label=f"the paper: about {PUBLISHED}", **BORDER)
     axes.set_xlabel("both errors within [% of the initial]", fontsize=SMALL)
     axes.set_ylabel("Ritter's iterations / improved", fontsize=SMALL)
     logarithmic(axes.xaxis, 3, 5, 10, 20, 30)
     logarithmic(axes.yaxis, 1, 3, 10, 30, 100, 300)
-    axes.set_ylim(1, TOP)
-    if axes.get_legend_handles_labels()[0]:  # none where a learner never gets there
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 1))
+    axes.set_ylim(0.8, 1.25 * TOP)
+    axes.margins(x=0.1)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1))

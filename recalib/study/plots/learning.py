@@ -15,7 +15,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import amounts
 from recalib.study.inference.intervals import first_within, typical
 from recalib.study.inference.measured import ERRORS, errors_of
-from recalib.study.plots.palette import BORDER, BOTH, ErrorStyle, Style, styles_of
+from recalib.study.plots.palette import BOTH, ErrorStyle, Style, styles_of
 from recalib.study.plots.style import (
     BAND,
     band,
@@ -29,7 +29,7 @@ from recalib.study.plots.style import (
 )
 
 NAMED = 3  # damages in a title; more of them go by the name of their scenario
-NEAR = 1.2  # times: two numbers beside a linear axis that would stand on each other
+NEAR = 1.4  # times: two numbers beside an axis that would stand on each other
 FLOOR = 1e-3  # cm and degrees: below it an error is rounding
 
 
@@ -61,7 +61,11 @@ def draw_learning(axes: Axes, history: pd.DataFrame) -> None:
         draw_band(axes, curves(history, error), error.color)
         line = curves(bold, error).mean(axis=1)
         axes.plot(line.index, line, linewidth=2.4, label=error.kind, **error.line())
-    axes.set(xlabel="iterations (two moves each)", xlim=(0, history["iteration"].max()))
+    axes.set(
+        xlabel="iterations (two moves each)",
+        ylabel="mean error [cm, degrees]",
+        xlim=(0, history["iteration"].max()),
+    )
 
 
 def figure1(evidence: Evidence) -> Figure:
@@ -70,21 +74,20 @@ def figure1(evidence: Evidence) -> Figure:
     history = evidence.history(evidence.fact("improved"))
     for axes in panels:
         draw_learning(axes, history)
-    panels[0].set(ylabel="mean error [cm, degrees]", ylim=(0, None))
+    panels[0].set_ylim(0, None)
     logarithmic(panels[1].yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
-    panels[1].set_ylim(bottom=0.75 * panels[1].get_ylim()[0])  # room for the number under a line
     ends = of_typical_search(history).groupby("iteration")[list(ERRORS)].mean()
     for error in BOTH:
-        for axes, row, where in zip(panels, (0, -1), ("left", "right"), strict=True):
+        for axes, row, aside in zip(panels, (0, -1), (18, 4), strict=True):
             upper = ends.iloc[row][list(ERRORS)].idxmax() == error.column
             close = ends.iloc[row].max() < NEAR * ends.iloc[row].min()
-            beside = (18, (8 if upper else -8) if close else 0)
+            beside = (aside, (8 if upper else -8) if close else 0)
             note(
                 axes,
                 f"{ends[error.column].iloc[row]:.{2 if row else 1}f} {error.unit}",
                 (ends.index[row], ends[error.column].iloc[row]),
-                beside if where == "left" else (0, 10 if upper else -14),
-                ha=where,
+                beside,
+                va="center",
                 color=error.color,
             )
     remaining = 100 * ends.iloc[-1] / ends.iloc[0]
@@ -129,26 +132,36 @@ def figure2(evidence: Evidence) -> Figure:
         for one, other in (compared, compared[::-1]) if compared else ():
             level = histories[other].groupby("iteration")[error.column].mean().iloc[-1]
             when = _reached(histories[one], [error.column], np.array([level]))
-            reached.append(
-                (level, f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}")
-            )
-        for (level, told), above in zip(sorted(reached), (False, True), strict=False):
-            axes.axhline(level, **BORDER)
+            told = f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}"
+            reached.append((level, told, shown[other].color))
+        for (level, told, color), above in zip(sorted(reached), (False, True), strict=False):
+            # two levels may be near to each other: dashes of one between those of the other
+            dashes = (0 if above else 6, (6, 6))
+            axes.axhline(level, color=color, linewidth=1, linestyle=dashes)
             note(
                 axes,
                 told,
-                (0.02, level),
-                (0, 3 if above else -3),  # two levels may be near to each other
+                (0.01, level),
+                (0, 3 if above else -3),
                 xycoords=("axes fraction", "data"),
                 va="bottom" if above else "top",
-                fontsize=9,
+                fontsize=8,
+                color=color,
             )
         axes.set(xlabel="iterations (two moves each)", ylabel=error.label)
         logarithmic(axes.xaxis, 1, 10, 100, 1000, 10_000)
         logarithmic(axes.yaxis, 0.1, 0.2, 0.5, 1, 2, 5, 10)
     text = f"Figure 2: {_in_one_sentence(histories, compared)}"
     runs = ", ".join(f"{history['seed'].nunique()}" for history in histories.values())
-    spread = f"lines: means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %"
+    spread = (
+        f"means of {runs} runs, over searches and seeds; bands: {BAND[0]}-{BAND[1]} %;"
+        " each learner is tuned for its last iteration"
+    )
+    if compared:
+        spread += (
+            "\nlevel lines: the final error of the learner of this colour,"
+            " and when the other has reached it"
+        )
     finish(figure, text, panels[0], min(len(histories), 2), spread)
     return figure
 
@@ -161,15 +174,16 @@ def _by_cells(learner: str, style: Style) -> Style:
 
 def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:
     if not compared:
-        return "errors over the iterations"
+        most = max(history["iteration"].max() for history in histories.values())
+        return f"errors over at most {most:,} iterations"
     ritter, improved = (histories[learner] for learner in compared)
     cells = CELLS[re.sub(r"_\d+$", "", compared[0])]
     final = improved.groupby("iteration")[list(ERRORS)].mean().iloc[-1].to_numpy()
     reached = _reached(ritter, list(ERRORS), final)
     most = improved["iteration"].max()
     return (
-        f"what the improved system reaches in {most:,} iterations takes Ritter's, with as many"
-        f"\ncells as {cells}, {reached}, on the way of one long training"
+        f"Ritter's map, with as many cells as {cells}, needs {reached}"
+        f"\niterations for the errors that the improved system reaches in {most:,}"
     )
 
 
@@ -190,7 +204,9 @@ def figure3(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
     offsets = 0.22 * (np.arange(len(learners))[::-1] - (len(learners) - 1) / 2)
+    least = []
     for axes, error in zip(panels, BOTH, strict=True):
+        remaining = {}
         initial = [
             curves(histories[scenario, learners[0]], error).iloc[0].mean() for scenario in scenarios
         ]
@@ -206,6 +222,7 @@ def figure3(evidence: Evidence) -> Figure:
         for offset, (learner, style) in zip(offsets, styles_of(learners).items(), strict=True):
             final = [curves(histories[scenario, learner], error).iloc[-1] for scenario in scenarios]
             means = np.maximum([values.mean() for values in final], FLOOR)
+            remaining[learner] = means
             ends = np.maximum(np.percentile(final, BAND, axis=1), FLOOR)
             name = label(style, histories[scenarios[0], learner])
             with_intervals(axes, rows + offset, means, ends, name, style)
@@ -213,7 +230,13 @@ def figure3(evidence: Evidence) -> Figure:
         logarithmic(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)
         name_rows(axes, rows, map(words, scenarios))
-    text = "Figure 3: errors before and after learning, in every scenario"
+        table = pd.DataFrame(remaining)
+        least.append(table.eq(table.min(axis=1), axis=0).sum())
+    best = sum(least).idxmax()
+    name = label(styles_of(learners)[best], histories[scenarios[0], best])
+    counts = (f"{count[best]} ({error.kind})" for count, error in zip(least, BOTH, strict=True))
+    text = f"Figure 3: {name}, ends with the smallest error\nin {' and '.join(counts)}"
+    text += f" of {len(scenarios)} scenarios"
     spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
     finish(figure, text, panels[0], 1 + len(learners), spread)
     return figure

@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
-from recalib.study.inference.measured import ERRORS, KINDS
+from recalib.study.evidence.words import percent
+from recalib.study.inference.measured import ERRORS, KINDS, UNITS
 from recalib.study.plots.palette import BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (
     finish,
@@ -36,7 +37,10 @@ def figure5(evidence: Evidence) -> Figure:
     axes.set_xlim(-0.03 * limit, 1.2 * max(limit, widest))
     name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
-    text = "Figure 5: how much positions influence orientation commands, and the reverse"
+    text = (
+        f"Figure 5: positions and orientations change each other's commands by less than"
+        f"\n{percent(widest)} of what they change their own"
+    )
     finish(figure, text, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
 
@@ -52,17 +56,19 @@ def figure7(evidence: Evidence) -> Figure:
             values,
             color=NEUTRAL if commands else "0.55",
             linestyle="-" if intact else DASHED,
-            linewidth=1.5 if commands == intact else 3,  # two of them lie upon another
+            linewidth=1.5 if commands == intact else 3,  # two of them lie upon others
             marker="o" if commands else "s",
-            markersize=5,
+            markersize=5 if commands == intact else 10,
+            fillstyle="full" if commands == intact else "none",
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
-    line_across(axes, "above: a constant would be the better guess", y=1)
+    line_across(axes, "", y=1)
+    axes.text(0.1, 2.5, "above the line a constant is the better guess", fontsize=9, color="0.4")
     axes.set_xlabel("encoder shifts, times the paper's (links at most once)")
     axes.set_ylabel("$E_{upd} / E_{clas}$")
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
-    axes.set_ylim(top=3)
+    axes.set_ylim(top=10)
     largest = ratio.dropna().index.get_level_values("scale").max()
     better = (ratio["theta"].dropna() < 1).all()
     finish(
@@ -71,9 +77,11 @@ def figure7(evidence: Evidence) -> Figure:
         + (f",\nup to {largest:g} times the paper's damage" if better else " in slight damage"),
         axes,
         2,
+        "$E_{clas}$: mean square distance of the new mapping from a constant;"
+        " $E_{upd}$: from the old mapping plus a constant\n"
         f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
-        " workspace coordinates; Jacobians from the intact robot: both\nintegrals are the same."
-        f" Damage beyond {largest:g} times the paper's takes poses out of reach",
+        " workspace coordinates; Jacobians from the intact robot:\nboth are the same;"
+        f" beyond {largest:g} times the paper's damage, poses are out of reach",
     )
     return figure
 
@@ -96,6 +104,9 @@ def figure8(evidence: Evidence) -> Figure:
     line_across(axes, "equation (10)", y=1, until=0.65)
     away = expected_learning.CLAIM.limits["away"]
     line_across(axes, f"criterion: from {away:g} on", x=away)
+    widths = table["distance"] / table["width"]
+    off = (table.loc[widths >= away, "ratio"] - 1).abs().max()
+    border = table.loc[table["distance"] == 0, "ratio"]
     axes.set(
         xlabel="distance of the cell to the border, in widths",
         ylabel="simulated expected learning / (10)",
@@ -104,7 +115,8 @@ def figure8(evidence: Evidence) -> Figure:
     )
     finish(
         figure,
-        "Figure 8: equation (10), from the border of the workspace inwards",
+        f"Figure 8: equation (10) holds within {percent(off)} from {away:word} widths on;\n"
+        f"at the border a cell learns {percent(border.min())} to {percent(border.max())} of it",
         axes,
         table["width"].nunique(),
         "bars: two standard errors of the simulation; the workspace is 2 wide, so that no cell is"
@@ -151,6 +163,8 @@ def figure10(evidence: Evidence) -> Figure:
         xlim=(0, None),
         ylim=(0, None),
     )
-    text = "Figure 10: the initial errors of every assignment of the paper's damage"
+    off = (np.ceil(100 * abs(nearest[error] - published[error])) / 100 for error in ERRORS)
+    within = " and ".join(f"{most:g} {unit}" for most, unit in zip(off, UNITS, strict=True))
+    text = f"Figure 10: one of {len(table):,} assignments has the published errors\nwithin {within}"
     finish(figure, text, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
     return figure

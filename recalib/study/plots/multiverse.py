@@ -10,11 +10,12 @@ from matplotlib.figure import Figure
 from recalib.study.evidence.claims import figure_1
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import level_in_words
-from recalib.study.plots.palette import FAILS, HOLDS, INK
+from recalib.study.plots.palette import FAILS, HOLDS
 from recalib.study.plots.style import title
 
 SHOWN = "robot", "home", "assignment", "cells", "effort", "tool"  # of all factors
-WIDE = 15  # characters of a column
+WIDE = 11  # characters of a column
+HALF = 0.3  # of a column: lines stop where its words stand
 
 
 def multiverse(evidence: Evidence) -> Figure:
@@ -28,21 +29,25 @@ def multiverse(evidence: Evidence) -> Figure:
     ends = _ends(holds)
     nudge = np.linspace(-0.02, 0.02, len(paths))[:, None]
     paths = np.concatenate([paths + nudge, ends[:, None]], axis=1)
-    steps = np.arange(paths.shape[1])
+    steps = np.arange(len(SHOWN) + 1.0)
     for path, its in zip(paths, holds, strict=True):
         # pale and dark, too: the colours alone are much the same grey to some
         style = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
-        axes.plot(steps, path, linewidth=0.6, **style)
+        for ways in zip(steps[:-1] + HALF, steps[1:] - HALF, path[:-1], path[1:], strict=True):
+            axes.plot(ways[:2], ways[2:], linewidth=0.6, **style)
     for step, factor in enumerate(SHOWN):
         _column(axes, step, evidence.words()[factor], levels[factor])
     for share, words in ((holds, "a tenth of both\nerrors remains,\nor less"), (~holds, "more")):
         if share.any():
-            axes.annotate(words, (steps[-1] + 0.06, ends[share].mean()), va="center", fontsize=10)
-    axes.set(xlim=(-0.45, steps[-1] + 1), ylim=(-0.02, 1.35))
+            axes.annotate(
+                words, (steps[-1] - HALF + 0.06, ends[share].mean()), va="center", fontsize=10
+            )
+    axes.set(xlim=(-0.45, steps[-1] + 0.75), ylim=(-0.02, 1.22))
     axes.axis("off")
     title(
         figure,
-        f"A multiverse: {len(design)} ways to replicate one paper",
+        f"A multiverse: of {len(design)} ways to replicate one paper, {holds.sum()} leave a tenth"
+        " of both errors, or less",
         "Where the paper is silent, something has to be chosen. Each line is a setup: the whole"
         f" replication with other choices; {len(SHOWN)} of its {design.shape[1]} choices are"
         " shown.\nRight: what remains of the initial errors after learning, the mean of a setup's"
@@ -64,17 +69,13 @@ def _ends(holds: np.ndarray) -> np.ndarray:
 
 def _column(axes: Axes, step: int, words: dict[str, str], levels: list[str]) -> None:
     asks = textwrap.fill(f"{words['asks']} ...", WIDE)
-    axes.annotate(asks, (step, 1.05), ha="center", va="bottom", fontsize=9, fontweight="bold")
+    axes.annotate(asks, (step, 1), ha="center", va="bottom", fontsize=9, fontweight="bold")
     heights = np.linspace(0, 1, len(levels) + 2)[1:-1]
-    axes.scatter(np.full(len(levels), step), heights, s=26, color=INK, zorder=3)
     for height, level in zip(heights, levels, strict=True):
         axes.annotate(
             textwrap.fill(level_in_words(words, level), WIDE),
             (step, height),
-            (0, 6),
-            textcoords="offset points",
             ha="center",
+            va="center",
             fontsize=9,
-            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1},
-            zorder=4,
         )

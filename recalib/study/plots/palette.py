@@ -18,7 +18,7 @@ class Style:
     """How a learner or an error is shown.
 
     Attributes:
-        color: a learner's is of Okabe and Ito's palette, which the colour-blind can tell apart.
+        color: unlike that of all else in a figure, to the colour-blind, too; a test measures it.
         marker: empty for none.
         linestyle: as Matplotlib has them.
         label: what it is called.
@@ -54,21 +54,22 @@ class ErrorStyle(Style):
 
 
 LABELS = "position error [cm]", "orientation error [degrees]"
-COLOURS, LINES = ("#5D3A9B", "#994F00"), (SOLID, DASHED)
+COLOURS, LINES = ("#2722A9", "#923701"), (SOLID, DASHED)
 BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS))
-HOLDS, FAILS = "#44AA99", "#882255"
+HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
 BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
-# Okabe and Ito's palette, in the order of the learners; later ones look as those nobody foresaw.
+# After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
+# order of the learners. Later ones look as those nobody foresaw.
 SIGNS = (
     ("#0072B2", "o"),
     ("#D55E00", "P"),
-    ("0.5", ""),
-    ("#CC79A7", "v"),
-    ("#E69F00", "^"),
-    ("#009E73", "D"),
-    ("#56B4E9", "s"),
+    ("#757575", ""),
+    ("#CD87AD", "v"),
+    ("#FFCF62", "^"),
+    ("#05AB6E", "D"),
+    ("#61D6FF", "s"),
     ("#000000", "*"),
 )
 STYLES = {
@@ -76,10 +77,10 @@ STYLES = {
     for name, signs in zip((IMPROVED, RITTER, *peers()), SIGNS, strict=False)
 }
 # For the learner trained for another number of iterations, and for those that nobody foresaw.
-# Paler for its kin; not of Okabe and Ito's palette for the others, as all of that is taken.
-OTHER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#EFA07A", "^")}
+# Paler for its kin.
+OTHER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#D3977E", "^")}
 # The first is Ritter's net with the cells of both maps; to the colour-blind, too, it is unlike his.
-UNKNOWN = ("#661100", "X"), ("#DDCC77", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
+UNKNOWN = ("#661100", "X"), ("#ECDB79", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
 
 
 def styles_of(learners: Iterable[str]) -> dict[str, Style]:

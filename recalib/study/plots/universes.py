@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from scipy.special import ndtri
 
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.claims.across import Setups
+from recalib.study.evidence.claims.across import Setups, rounded
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
-from recalib.study.evidence.words import ranged, short
+from recalib.study.evidence.words import headline, judged_by_setups, ranged, short
 from recalib.study.inference.intervals import LEVEL, Estimate
 from recalib.study.plots.palette import BORDER, HOLDS, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
@@ -30,7 +30,6 @@ SCALES: Mapping[str, tuple[str, tuple[float, ...]]] = {  # names and ticks of ax
     "correlation": ("rank correlation", (-1, -0.5, 0, 0.5, 1)),
     "limit": ("what was measured over its limit", (0.01, 0.1, 1, 10)),
 }
-LITTLE = 1e-6  # what the arithmetic leaves
 REACH = ndtri((1 + LEVEL) / 2)  # standard deviations
 
 
@@ -42,6 +41,7 @@ class Row(NamedTuple):
     verdict: Verdict
     setups: Setups
     leads: bool
+    reference: str  # its number and interval, where not the setups, but this study judges the claim
 
     @property
     def kind(self) -> str:
@@ -72,11 +72,12 @@ def rows(evidence: Evidence) -> list[Row]:
     """All claims that choices reach, on each of their systems."""
     judged, found = {claim["id"]: claim for claim in evidence.claims()}, []
     for claim in CLAIMS:
-        systems = judged[claim.id]["systems"] if claim.across else {}
-        statement = judged[claim.id]["statement"]
+        its = judged[claim.id]
+        systems = its["systems"] if claim.across else {}
+        reference = "" if judged_by_setups(its) else headline(its)
         for place, (system, setups) in enumerate(claim.setups(evidence).items()):
             verdict = Verdict(systems[system]["verdict"])
-            found.append(Row(statement, system, verdict, setups, leads=place == 0))
+            found.append(Row(its["statement"], system, verdict, setups, place == 0, reference))
     return found
 
 
@@ -146,7 +147,7 @@ def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) 
     upper, lower = middle + 0.11, middle - 0.13
     mean, luck = model.mean.mean, np.sqrt(np.square(model.luck_of_numbers).mean())
     band = np.clip(row.placed([mean - REACH * luck, mean + REACH * luck]), *ends)
-    alone = f"luck alone: {LEVEL:.0%} of the dots, if all setups were alike".replace("%", " %")
+    alone = f"{LEVEL:.0%} of the dots, if all setups were alike: luck alone".replace("%", " %")
     axes.hlines(upper, *band, color="0.85", linewidth=15, label=alone, zorder=1)
     _dots(axes, row.placed(np.sort(model.numbers)), upper, limits, style["dots"])
     another = np.clip(row.placed(model.another[1:]), *ends)
@@ -188,18 +189,22 @@ def _write(axes: Axes, row: Row, middle: float) -> None:
     write(axes, -LEFT / PLOT, middle, what, color=color)
     weight = "bold" if row.leads else "normal"
     write(axes, 1.03, middle, row.verdict, color=color, weight=weight)
-    write(axes, 1.32, middle, "\n".join(_numbers(row.setups)), color=color)
+    write(axes, 1.32, middle, "\n".join(_numbers(row)), color=color)
 
 
-def _numbers(setups: Setups) -> list[str]:
-    mean, across, measured = setups.mean, setups.across, len(setups.model.numbers)
-    number = ranged(mean.mean, mean[1:]) if mean.high > LITTLE else short(LITTLE)
-    known = f"; known in {measured} of {measured + setups.left_out}" if setups.left_out else ""
+def _numbers(row: Row) -> list[str]:
+    setups = row.setups
+    across, measured = setups.across, len(setups.model.numbers)
+    mean, *ends = map(rounded, setups.mean)  # as pages have them
+    number = ranged(mean, ends)
+    of = f"over {measured} of {measured + setups.left_out} setups"
     parts = {"setups": setups.model.heterogeneity.mean, "luck": setups.model.luck.mean}
     spread = [f"{_spread(its, across.logarithmic)} by {name}" for name, its in parts.items()]
-    lines = [f"{number}{known}", f"spread {', '.join(spread)}"]
+    lines = [number, f"spread {', '.join(spread)}"]
+    if row.reference:
+        lines = [f"{number} {of},", f"reference study: {row.reference}", *lines[1:]]
     if (counted := setups.holds) is not None:
-        lines.append(f"in {counted[0]} of {measured} setups (luck alone: {counted[1]:.1f})")
+        lines.append(f"holds in {counted[0]} of {measured}; {counted[1]:.0f} if all were alike")
     return lines
 
 

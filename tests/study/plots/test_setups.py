@@ -1,26 +1,33 @@
 """Figures of the alternative setups, of planted tables; and how legible figures on pages are."""
 
-from itertools import combinations
+import re
+from io import StringIO
+from itertools import combinations, pairwise
 from unittest import mock
 
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import to_hex, to_rgb, to_rgba
 from matplotlib.text import Text
 
 from recalib.study.configuration.shipped import DESIGN, FACTORS, REFERENCE
 from recalib.study.configuration.universes import Factors
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.words import level_in_words
+from recalib.study.evidence.words import headline, level_in_words
+from recalib.study.plots.palette import BORDER, BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN
 from recalib.study.plots.registry import FIGURES, draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt
 from tests.conftest import ROOT
 from tests.made_up import MadeUp, evidence_of, few_resamples
+from tests.study.recording.test_colours import FEWEST, SEEN, ciede2000, lab, linear
 
 PAGE = 830  # pixels: as wide as pages show figures
 LEAST = 9  # pixels
-LEGIBLE = [name for name, its in FIGURES.items() if its.part != "ideas"]
+NUMBERED = re.compile(r"^Figure \d+: ")
+WHITE = to_rgba("white")
 COLUMNS = "maps_improved", "maps_ritter"
 MOVED = 1.6  # times, by the effort of the search
 
@@ -42,10 +49,10 @@ def planted(few, tmp_path_factory) -> MadeUp:
 
 @pytest.fixture(scope="module")
 def figures(planted):
-    """All that have to be legible, drawn."""
+    """All, drawn."""
     found = {}
     with plt.rc_context(STYLE), few_resamples():
-        for name in LEGIBLE:
+        for name in FIGURES:
             found[name] = draw(name, evidence_of(name, planted))
     yield found
     plt.close("all")
@@ -64,7 +71,7 @@ def texts(figure) -> list[Text]:
     return [text for text in found.values() if text.get_visible() and text.get_text().strip()]
 
 
-@pytest.mark.parametrize("name", LEGIBLE)
+@pytest.mark.parametrize("name", FIGURES)
 def test_a_figure_can_be_read_on_a_page(figures, name):
     figure = figures[name]
     pixels = PAGE / (72 * figure.get_figwidth())
@@ -72,7 +79,7 @@ def test_a_figure_can_be_read_on_a_page(figures, name):
     assert min(small.values()) >= LEAST, min(small.items(), key=lambda item: item[1])
 
 
-@pytest.mark.parametrize("name", LEGIBLE)
+@pytest.mark.parametrize("name", FIGURES)
 def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
     figure = figures[name]
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
@@ -81,6 +88,66 @@ def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
     for text, box in boxes:
         inside = box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y0 >= 0
         assert inside and box.y1 <= figure.bbox.y1, text
+
+
+def traced(corners: np.ndarray) -> np.ndarray:
+    """Points (n, 2) on the way from corner to corner, a pixel or less apart."""
+    pieces = [np.linspace(*way, 2 + int(np.ptp(way, axis=0).max())) for way in pairwise(corners)]
+    return np.concatenate([corners, *pieces])
+
+
+def inked(axes) -> np.ndarray:
+    """Pixels (n, 2) of lines, bars and signs of the data."""
+    found = [np.empty((0, 2))]
+    for line in axes.lines:
+        corners = line.get_transform().transform(line.get_xydata())
+        corners = corners[np.isfinite(corners).all(axis=1)]
+        found.append(corners if line.get_linestyle() == "None" else traced(corners))
+    for its in axes.collections:
+        if isinstance(its, LineCollection):
+            found += [traced(its.get_transform().transform(part)) for part in its.get_segments()]
+        elif isinstance(its, PathCollection):
+            found.append(its.get_offset_transform().transform(its.get_offsets()))
+    points = np.concatenate(found)
+    box = axes.get_window_extent()
+    inside = (points >= box.min) & (points <= box.max)
+    return points[inside.all(axis=1)]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_no_words_stand_on_data(figures, name):
+    for axes in figures[name].axes:
+        points = inked(axes)
+        for text in set(texts(figures[name])) & set(axes.texts):
+            frame = text.get_bbox_patch()
+            if frame is not None and frame.get_facecolor() == WHITE:
+                continue  # on a line that it interrupts
+            box = text.get_window_extent().padded(-1)
+            on = (points > box.min) & (points < box.max)
+            assert not on.all(axis=1).any(), text.get_text()
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_title_says_what_was_found(figures, name):
+    """In numbers."""
+    title = NUMBERED.sub("", figures[name].get_suptitle())
+    assert re.search(r"\d", title) and "..." not in title, title
+
+
+@pytest.mark.parametrize("seen", SEEN)
+@pytest.mark.parametrize("name", [name for name in FIGURES if name != "figure8"])
+def test_colours_of_a_figure_differ_to_everyone(figures, name, seen):
+    """As much as those of recordings; Figure 8 has a scale of its own, and signs."""
+    drawing = StringIO()
+    figures[name].savefig(drawing, format="svg")
+    colours = {style.color for style in STYLES.values()} | {style.color for style in BOTH}
+    colours |= {color for color, _ in (*OTHER.values(), *UNKNOWN)} - {BORDER["color"]}
+    used = {to_hex(color) for color in colours | {HOLDS, FAILS}}
+    used &= {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
+    shades = {color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used}
+    shades["paper"] = lab(np.ones(3))
+    for one, other in combinations(shades, 2):
+        assert ciede2000(shades[one], shades[other]) >= FEWEST, (one, other)
 
 
 def said(figure) -> str:
@@ -109,13 +176,16 @@ def test_figure_14_counts_setups_only_where_luck_is_small(figures, planted):
     models = [its for claim in CLAIMS for its in claim.setups(evidence).values()]
     counted = sum(its.holds is not None for its in models)
     assert 0 < counted < len(models)
-    assert said(figures["figure14"]).count("(luck alone:") == counted
+    assert said(figures["figure14"]).count(" if all were alike") == counted
 
 
 def test_figure_14_says_of_how_many_setups_a_number_is_known(figures, planted):
     horizons = planted.study.universes.horizons
     known = sum(number >= 5 for number in horizons)
-    assert f"known in {known} of {len(horizons)}\n" in said(figures["figure14"])
+    judged = {claim["id"]: claim for claim in evidence_of("figure14", planted).claims()}
+    text = said(figures["figure14"])
+    assert f" over {known} of {len(horizons)} setups,\n" in text
+    assert f"\nreference study: {headline(judged['speed-up'])}\n" in text
 
 
 def test_figure_15_names_the_planted_choice_in_words(figures, planted):

@@ -150,5 +150,5 @@ NOT_MEASURED = {"status": "not measured"}  # a choice might, and nobody looked
 
 
 def rounded(value: float) -> float:
-    """With as many digits as are worth showing."""
-    return float(f"{value:.4g}")
+    """With so many more digits than pages show that rounding twice is rounding once."""
+    return float(f"{value:.6g}")
