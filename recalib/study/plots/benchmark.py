@@ -1,6 +1,7 @@
 """Figures that answer what one should use today."""
 
 from textwrap import fill
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -38,7 +39,7 @@ def figure12(evidence: Evidence) -> Figure:
     """Errors against moves for every learner on some of the benchmark's scenarios."""
     table = evidence.table("benchmark.csv")
     shown, learners = _shown(table), styles_of(table["learner"].unique())
-    size = {"figsize": (1.6 + 2.25 * len(shown), 7), "squeeze": False}
+    size: Any = {"figsize": (1.6 + 2.25 * len(shown), 7), "squeeze": False}
     figure, panels = plt.subplots(2, len(shown), sharex=True, sharey="row", **size)
     for column, (scenario, name) in zip(panels.T, shown.items(), strict=True):
         column[0].set_title(name)
@@ -93,13 +94,13 @@ def _best(table: pd.DataFrame) -> tuple[str, int]:
 
 def figure13(evidence: Evidence) -> Figure:
     """The real arm: errors on the test poses against the number of recorded poses."""
-    table, published = evidence.table("real.csv"), evidence.fact("published_mm")["after_mm"]
+    table, published = evidence.table("real.csv"), evidence.facts["published_mm"]["after_mm"]
     figure, axes = plt.subplots(figsize=(9, 4.6))
     shown = styles_of(learner.split()[0] for learner in table["learner"].unique())
     for learner, own in table.groupby("learner", sort=False):
         name, _, twin = learner.partition(" ")
         style = shown[name]
-        label = f"{style.label} {twin}".strip()
+        label: str | None = f"{style.label} {twin}".strip()
         # no line where nothing was measured in between
         for _, piece in own.groupby((own["poses"].pct_change() > FAR).cumsum()):
             band(axes, piece["poses"], (piece[f"{ERROR}_low"], piece[f"{ERROR}_high"]), style.color)
@@ -123,9 +124,10 @@ def figure13(evidence: Evidence) -> Figure:
     own = table[~table["learner"].str.contains(" ")]
     enough = own.loc[own[ERROR] < published, "poses"].min()
     beaten = f", which {enough:.0f} poses suffice to beat" if np.isfinite(enough) else ""
+    robot = evidence.facts["real_robot"].upper()
     title(
         figure,
-        f"Figure 13: a real {evidence.fact('real_robot').upper()}, and the published error{beaten}",
+        f"Figure 13: a real {robot}, and the published error{beaten}",
         f"means over random subsets of the {own['poses'].max():,} recorded poses, on others; bands:"
         " 95 % bootstrap intervals",
     )

@@ -29,7 +29,7 @@ ANOTHER = ",\nanother learner"
 
 def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     """For each row its label, and what it does to the improved system and to Ritter's."""
-    rows, own = {}, evidence.fact("switched")
+    rows, own = {}, evidence.facts["switched"]
     if own and REFERENCE in evidence.files:
         measured = {across.column: across for across in SEPARATE.across.values()}
         reference = evidence.table(REFERENCE)
@@ -37,8 +37,8 @@ def _rows(evidence: Evidence) -> dict[str, list[Estimate]]:
     for switch in OTHERS if own else ():
         pairs = with_and_without(evidence, switch).values()
         rows[switch.label] = [compare(evidence, *pair) for pair in pairs]
-    for learner, style in styles_of(evidence.fact("beside")).items():
-        others = evidence.fact("improved"), evidence.fact("short")
+    for learner, style in styles_of(evidence.facts["beside"]).items():
+        others = evidence.facts["improved"], evidence.facts["short"]
         rows[f"{style.label}{ANOTHER}"] = [compare(evidence, learner, other) for other in others]
     return rows
 
@@ -89,7 +89,7 @@ def figure4(evidence: Evidence) -> Figure:
         _draw(axes, heights + offset, ratios, shown[learner], label, above=offset > 0)
     line_across(axes, "left of it: the change helps", x=1)
     axes.set_xlabel("error with the change over error without it")
-    if evidence.fact("beside"):
+    if evidence.facts["beside"]:
         axes.set_xlabel(
             "error with the change over error without it;\n"
             "rows of other learners: their error over that of the improved system, and of Ritter's"
@@ -97,7 +97,7 @@ def figure4(evidence: Evidence) -> Figure:
     logarithmic(axes.xaxis, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)
     name_rows(axes, heights, rows)
     axes.set_ylim(-0.5, len(rows) - 0.3)
-    searches, seeds, _ = evidence.errors(evidence.fact("improved")).shape
+    searches, seeds, _ = evidence.errors(evidence.facts["improved"]).shape
     how = ""
     if MAPS.label in rows:
         how = (
@@ -109,7 +109,7 @@ def figure4(evidence: Evidence) -> Figure:
         _heading(rows),
         axes,
         len(cases),
-        f"geometric mean of both errors after {evidence.fact('iterations')} iterations;"
+        f"geometric mean of both errors after {evidence.facts['iterations']} iterations;"
         f" {searches} searches each, {seeds} seeds for each winner\n{INTERVALS}{how}",
     )
     return figure

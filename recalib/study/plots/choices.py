@@ -2,7 +2,7 @@
 
 import textwrap
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -22,7 +22,7 @@ LEFT, PLOT, RIGHT = 5.0, 3.7, 1.8  # inches: the choice, its effect, its number
 HEADING, ROW, GAP = 0.22, 0.36, 0.1  # inches
 STRONGEST = 3  # choices of a claim
 LINE = 145  # characters as wide as the sheet
-ON_LINES = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1}}
+ON_LINES: dict[str, Any] = {"bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1}}
 TICKS = 1, 1.5, 2, 3, 5, 10, 20, 50
 
 

@@ -25,7 +25,7 @@ def figure11(evidence: Evidence) -> Figure:
     left = _draw_robots(panels[2], evidence)
     for axes in panels:
         legend_under(axes)
-    robots = [*evidence.fact("elsewhere")]
+    robots = [*evidence.facts["elsewhere"]]
     title(
         figure,
         "Figure 11: on all robots, the improved map leaves less than"
@@ -72,14 +72,14 @@ def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
 
 def _iterations(evidence: Evidence, learner: str) -> int:
     """After which its errors are final."""
-    scenario = next(iter(evidence.fact("elsewhere").values()))
+    scenario = next(iter(evidence.facts["elsewhere"].values()))
     return evidence.history(learner, scenario)["iteration"].max()
 
 
 def _draw_robots(axes: Axes, evidence: Evidence) -> np.ndarray:
     """What is left of the larger error, in percent: of the improved map, (robots,)."""
     shown = {}
-    robots, learners = evidence.fact("elsewhere"), styles_of(evidence.fact("learners"))
+    robots, learners = evidence.facts["elsewhere"], styles_of(evidence.facts["learners"])
     places = np.arange(len(robots))
     offsets = 0.2 * (np.arange(len(learners)) - (len(learners) - 1) / 2)
     for offset, (learner, style) in zip(offsets, learners.items(), strict=True):

@@ -51,7 +51,7 @@ def figure9(evidence: Evidence) -> Figure:
 
 def _needs(evidence: Evidence, ladders: dict) -> str:
     """What Ritter's needs in the leading reading; the end of its ladder where that is a bound."""
-    factor, own = leading(evidence, DOUBLE), evidence.fact("iterations")
+    factor, own = leading(evidence, DOUBLE), evidence.facts["iterations"]
     first, last = min(ladders[DOUBLE]) / own, max(ladders[DOUBLE]) / own
     if np.isnan(factor.mean):
         return f"Ritter's needs at most {first:g} times as many iterations"
@@ -70,8 +70,8 @@ def _named(name: str, style: Style) -> str:
 
 
 def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
-    fast, own = ladders[IMPROVED], evidence.fact("iterations")
-    initial = evidence.errors(evidence.fact("improved"), moment="first").mean(axis=(0, 1))
+    fast, own = ladders[IMPROVED], evidence.facts["iterations"]
+    initial = evidence.errors(evidence.facts["improved"], moment="first").mean(axis=(0, 1))
     for place, (name, style) in enumerate(styles_of(CELLS).items()):
         aside = 1.02 ** (1 if place else -1)  # so that the lines of both can be seen
         goals, rng = [level * initial for level in LEVELS], evidence.rng("levels", name)
@@ -83,8 +83,10 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
                 axes.vlines(100 * level * aside, low, high, color=style.color)
                 for end, marker in ((1, "v"), (TOP, "^")):
                     if end in (low, high):
-                        arrow = {"marker": marker, "color": style.color, "clip_on": False}
-                        axes.scatter(100 * level * aside, end, s=20, **arrow)
+                        there = 100 * level * aside
+                        axes.scatter(
+                            there, end, s=20, marker=marker, color=style.color, clip_on=False
+                        )
                 axes.scatter(100 * level * aside, factor.mean, zorder=3, **style.signs())
         ours = leading(evidence, name)
         if np.isfinite(ours.mean):

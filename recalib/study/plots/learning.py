@@ -71,7 +71,7 @@ def draw_learning(axes: Axes, history: pd.DataFrame) -> None:
 def figure1(evidence: Evidence) -> Figure:
     """Figure 1 of the paper: the improved system on the paper's damage; right: on decades."""
     figure, panels = plt.subplots(1, 2, figsize=(10, 4.6))
-    history = evidence.history(evidence.fact("improved"))
+    history = evidence.history(evidence.facts["improved"])
     for axes in panels:
         draw_learning(axes, history)
     panels[0].set_ylim(0, None)
@@ -99,10 +99,10 @@ def figure1(evidence: Evidence) -> Figure:
         resolved = evidence.scenario()
         entries = [amounts(entry) for entry in resolved["damages"]]
         short = 0 < len(entries) <= NAMED
-        damage = "; ".join(entries) if short else words(evidence.fact("scenario"))
+        damage = "; ".join(entries) if short else words(evidence.facts["scenario"])
         text += f"\n({evidence.study}: {resolved['robot'].upper()}, {damage})"
     seeds = history.groupby("search")["seed"].nunique().iloc[0]
-    spread = f"means over {evidence.fact('tests')} test poses;"
+    spread = f"means over {evidence.facts['tests']} test poses;"
     spread += f" bold: the median of {history['search'].nunique()} searches for widths and rates"
     spread += f", mean of its {seeds} seeds;"
     spread += f" band: {BAND[0]}-{BAND[1]} % of all {history['seed'].nunique()} runs"
@@ -113,9 +113,9 @@ def figure1(evidence: Evidence) -> Figure:
 def figure2(evidence: Evidence) -> Figure:
     """The learners on logarithmic axes, and the iterations that each needs for another's errors."""
     figure, panels = plt.subplots(1, 2, sharex=True, figsize=(10, 4.8))
-    both = evidence.fact("compared")
+    both = evidence.facts["compared"]
     compared = both if len(both) == 2 else []
-    drawn = dict.fromkeys((*evidence.fact("learners"), *both))
+    drawn = dict.fromkeys((*evidence.facts["learners"], *both))
     histories = {learner: evidence.history(learner) for learner in drawn}
     styles = styles_of(histories)
     shown = {learner: _by_cells(learner, style) for learner, style in styles.items()}
@@ -195,7 +195,7 @@ def _reached(history: pd.DataFrame, errors: list[str], level: np.ndarray) -> str
 
 def figure3(evidence: Evidence) -> Figure:
     """What remains of the initial errors in every scenario."""
-    scenarios, learners = evidence.fact("scenarios"), evidence.fact("learners")
+    scenarios, learners = evidence.facts["scenarios"], evidence.facts["learners"]
     histories = {
         (scenario, learner): evidence.history(learner, scenario)
         for scenario in scenarios

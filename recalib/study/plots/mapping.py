@@ -23,7 +23,7 @@ from recalib.study.plots.style import (
 def figure5(evidence: Evidence) -> Figure:
     """The off-diagonal blocks of the true mapping's Jacobian."""
     figure, axes = plt.subplots(figsize=(8, 4))
-    table, scenarios = evidence.table("mapping/coupling.parquet"), evidence.fact("scenarios")
+    table, scenarios = evidence.table("mapping/coupling.parquet"), evidence.facts["scenarios"]
     limit = coupling.CLAIM.limits["ratio"]
     rows = np.arange(len(scenarios))[::-1]
     for offset, error in zip((0.15, -0.15), BOTH, strict=True):
@@ -79,7 +79,7 @@ def figure7(evidence: Evidence) -> Figure:
         2,
         "$E_{clas}$: mean square distance of the new mapping from a constant;"
         " $E_{upd}$: from the old mapping plus a constant\n"
-        f"medians over {evidence.fact('balls')} balls of radius {evidence.fact('radius'):g} in"
+        f"medians over {evidence.facts['balls']} balls of radius {evidence.facts['radius']:g} in"
         " workspace coordinates; Jacobians from the intact robot:\nboth are the same;"
         f" beyond {largest:g} times the paper's damage, poses are out of reach",
     )
@@ -128,9 +128,11 @@ def figure8(evidence: Evidence) -> Figure:
 def figure10(evidence: Evidence) -> Figure:
     """The initial errors of every assignment of the paper's damage."""
     figure, axes = plt.subplots(figsize=(8, 5))
-    table, published = evidence.assignments(), evidence.fact("published")
+    table, published = evidence.assignments(), evidence.facts["published"]
+    position, orientation = ERRORS
     axes.scatter(
-        *(table[error] for error in ERRORS),
+        table[position],
+        table[orientation],
         s=5,
         alpha=0.35,
         color="0.5",
@@ -140,7 +142,8 @@ def figure10(evidence: Evidence) -> Figure:
     axes.scatter([], [], s=25, color="0.5", label=f"{len(table):,} assignments")
     nearest = evidence.nearest_assignment()
     axes.scatter(
-        *(nearest[error] for error in ERRORS),
+        nearest[position],
+        nearest[orientation],
         s=90,
         facecolors="none",
         edgecolors=NEUTRAL,
@@ -149,7 +152,8 @@ def figure10(evidence: Evidence) -> Figure:
         zorder=3,
     )
     axes.scatter(
-        *(published[error] for error in ERRORS),
+        published[position],
+        published[orientation],
         s=120,
         marker="+",
         linewidths=2,
@@ -166,5 +170,5 @@ def figure10(evidence: Evidence) -> Figure:
     off = (np.ceil(100 * abs(nearest[error] - published[error])) / 100 for error in ERRORS)
     within = " and ".join(f"{most:g} {unit}" for most, unit in zip(off, UNITS, strict=True))
     text = f"Figure 10: one of {len(table):,} assignments has the published errors\nwithin {within}"
-    finish(figure, text, axes, 3, f"means over {evidence.fact('assignment_poses')} random poses")
+    finish(figure, text, axes, 3, f"means over {evidence.facts['assignment_poses']} random poses")
     return figure

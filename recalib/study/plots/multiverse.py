@@ -1,6 +1,7 @@
 """What a multiverse is: every setup a path through all that the paper leaves open."""
 
 import textwrap
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -32,7 +33,7 @@ def multiverse(evidence: Evidence) -> Figure:
     steps = np.arange(len(SHOWN) + 1.0)
     for path, its in zip(paths, holds, strict=True):
         # pale and dark, too: the colours alone are much the same grey to some
-        style = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
+        style: Any = {"color": HOLDS, "alpha": 0.4} if its else {"color": FAILS, "zorder": 2.5}
         for ways in zip(steps[:-1] + HALF, steps[1:] - HALF, path[:-1], path[1:], strict=True):
             axes.plot(ways[:2], ways[2:], linewidth=0.6, **style)
     for step, factor in enumerate(SHOWN):

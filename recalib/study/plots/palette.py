@@ -59,7 +59,10 @@ BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS)
 HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
-BORDER = {"color": "0.4", "linewidth": 0.8}  # a line that parts one side from the other
+BORDER: dict[str, Any] = {
+    "color": "0.4",
+    "linewidth": 0.8,
+}  # a line that parts one side from the other
 # After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
 # order of the learners. Later ones look as those nobody foresaw.
 SIGNS = (

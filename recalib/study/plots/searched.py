@@ -36,21 +36,22 @@ def _best(trials: pd.DataFrame) -> np.ndarray:
 
 def _draw_shares(axes: Axes, evidence: Evidence) -> float:
     """How little the best of few trials leaves; returns the improved system's median."""
-    rough, median = evidence.fact("rough_trials"), {}
-    for role, style in styles_of([IMPROVED, RITTER]).items():
-        best = _best(_first_rounds(evidence, evidence.fact(role)))
+    rough, median = evidence.facts["rough_trials"], {}
+    trained = {IMPROVED: evidence.facts["improved"], RITTER: evidence.facts["ritter"]}
+    for role, style in styles_of(trained).items():
+        best = _best(_first_rounds(evidence, trained[role]))
         trials = np.arange(1, best.shape[1] + 1)
         low, median[role], high = np.percentile(best, (BAND[0], 50, BAND[1]), axis=0)
         band(axes, trials, (low, high), style.color)
-        length = evidence.sought(evidence.fact(role)).learner.iterations
+        length = evidence.sought(trained[role]).learner.iterations
         name = f"{style.label}, {length:,} iterations"
         axes.plot(trials, median[role], label=name, **style.line())
     limit = rough_search.CLAIM.limits["left"]
     line_across(axes, f"a {limit:word}", y=limit)
     line_across(axes, f"{rough} trials", x=rough)
     axes.set_xlabel("random trials, of which the best counts", fontsize=SIZE)
-    axes.set_ylabel(REMAINS[evidence.sought(evidence.fact(IMPROVED)).budget.score])
-    axes.yaxis.label.set_size(SIZE)
+    axes.set_ylabel(REMAINS[evidence.sought(trained[IMPROVED]).budget.score])
+    axes.yaxis.label.set_fontsize(SIZE)
     logarithmic(axes.xaxis, 1, 2, 4, 8, 16, 32, 64)
     logarithmic(axes.yaxis, 0.05, 0.1, 0.2, 0.5, 1)
     axes.set_title("How rough may the search be?", pad=ABOVE)
@@ -89,15 +90,15 @@ def figure6(evidence: Evidence) -> Figure:
     """What the searches found: how good after how many trials, and which order of widths."""
     figure, panels = plt.subplots(1, 3, figsize=(10, 4.8))
     remaining = _draw_shares(panels[0], evidence)
-    improved = evidence.fact("improved")
+    improved = evidence.facts["improved"]
     trials, budget = _first_rounds(evidence, improved), evidence.sought(improved)
     for axes, error in zip(panels[1:], BOTH, strict=True):
         _draw_order(axes, trials, error)
     title(
         figure,
-        f"Figure 6: the best of {evidence.fact('rough_trials')} random trials leaves"
+        f"Figure 6: the best of {evidence.facts['rough_trials']} random trials leaves"
         f" {100 * remaining:.0f} % of the error",
-        f"all trials of the first round at {evidence.fact('iterations')} iterations, of"
+        f"all trials of the first round at {evidence.facts['iterations']} iterations, of"
         f" {budget.searches} searches, {budget.budget.seeds} seeds a trial. Left: medians and"
         f" {BAND[0]}-{BAND[1]} % of the searches.\nMiddle and right: the improved system; above 0"
         " the order of widths is the paper's: the error rises to the right",

@@ -1,6 +1,7 @@
 """A sheet of panels with columns of words beside them: figures that are tables, too."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
@@ -45,7 +46,7 @@ class Sheet:
             axes = self.figure.add_axes(box)
             axes.set(ylim=(0, height), yticks=[])
             axes.tick_params(labelsize=SMALL)
-            axes.xaxis.label.set_size(SMALL + 0.5)
+            axes.xaxis.label.set_fontsize(SMALL + 0.5)
             axes.spines["left"].set_visible(False)
             self.panels.append(axes)
             top -= BETWEEN
@@ -75,7 +76,7 @@ class Sheet:
         )
 
 
-def write(axes: Axes, place: float, height: float, text: str, **font) -> None:
+def write(axes: Axes, place: float, height: float, text: str, **font: Any) -> None:
     """Words beside a panel: from this part of its width, about this height [inch]."""
-    font = {"fontsize": SMALL, "va": "center", "linespacing": 1.15} | font
-    axes.text(place, height, text, transform=axes.get_yaxis_transform(), **font)
+    said: Any = {"fontsize": SMALL, "va": "center", "linespacing": 1.15, **font}
+    axes.text(place, height, text, transform=axes.get_yaxis_transform(), **said)

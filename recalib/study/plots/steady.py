@@ -23,7 +23,7 @@ class _RoundedLogTransform(LogTransform):
     """Logarithms to nine decimals: their last digits depend on the processor."""
 
     def transform_non_affine(self, values):
-        return np.round(super().transform_non_affine(values), 9)
+        return np.round(np.asarray(super().transform_non_affine(values)), 9)
 
 
 class RoundedLogScale(LogScale):
@@ -77,12 +77,11 @@ def steady(figure: Figure) -> None:
             line.set_data(both(np.array(line.get_data(orig=False)).T).T)
         for collection in axes.collections:
             _round_collection(collection, axes.transData, both)
-        for text in filter(lambda text: isinstance(text, Annotation), axes.texts):
-            text.xy = tuple(both(np.array([text.xy], dtype=float))[0])
-        for axis, limit, limit_to in zip(
-            scales, limits, (axes.set_xlim, axes.set_ylim), strict=True
-        ):
-            limit_to(*_round_on(axis, limit))
+        for text in axes.texts:
+            if isinstance(text, Annotation):
+                text.xy = tuple(both(np.array([text.xy], dtype=float))[0])
+        axes.set_xlim(*_round_on(axes.xaxis, limits[0]))
+        axes.set_ylim(*_round_on(axes.yaxis, limits[1]))
 
 
 def _round_collection(collection: Collection, data, both) -> None:

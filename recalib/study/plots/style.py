@@ -1,8 +1,8 @@
 """What all figures share: one style, and the words, lines and axes that they have in common."""
 
 from collections.abc import Iterable, Sequence
-from functools import partial
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -19,7 +19,7 @@ from recalib.files.storage import whole
 from recalib.study.plots.palette import BORDER, Style
 from recalib.study.plots.steady import LOG, steady
 
-STYLE = {
+STYLE: Any = {
     "figure.figsize": (8, 4.5),
     "figure.dpi": 110,
     "figure.constrained_layout.use": True,
@@ -64,31 +64,33 @@ def plain(axis: Axis, *ticks: float) -> None:
 
 def logarithmic(axis: Axis, *ticks: float) -> None:
     """Make an axis logarithmic, and label it at these values."""
-    axis.axes.set(**{f"{axis.axis_name}scale": LOG})
+    (axis.axes.set_xscale if axis is axis.axes.xaxis else axis.axes.set_yscale)(LOG)
     plain(axis, *ticks)
 
 
-def name_rows(axes: Axes, heights: Sequence[float], names: Iterable[str]) -> None:
+def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:
     """Name what stands in rows at these heights."""
-    axes.set_yticks(heights, names)
+    axes.set_yticks(heights, list(names))
     axes.grid(axis="y", visible=False)
 
 
-def band(axes: Axes, places: ArrayLike, ends: Iterable[ArrayLike], color: str) -> None:
+def band(axes: Axes, places: ArrayLike, ends: Sequence[ArrayLike], color: str) -> None:
     """What lies between the lower and the upper end, paler than its line."""
-    axes.fill_between(places, *ends, color=color, alpha=0.2, linewidth=0)
+    low, high = ends
+    axes.fill_between(places, low, high, color=color, alpha=0.2, linewidth=0)
 
 
 def with_intervals(
     axes: Axes,
     rows: ArrayLike,
     values: ArrayLike,
-    ends: Iterable[ArrayLike],
+    ends: Sequence[ArrayLike],
     label: str,
     style: Style,
 ) -> None:
     """Signs in rows, each on the line from the lower to the upper end of its interval."""
-    axes.hlines(rows, *ends, color=style.color)
+    low, high = ends
+    axes.hlines(rows, low, high, color=style.color)
     axes.scatter(values, rows, label=label, zorder=3, **style.signs())
 
 
@@ -137,8 +139,10 @@ def line_across(
         until: the part of the axes' width at which the words on a level line end.
     """
     upright = x is not None
-    draw = partial(axes.axvline, x) if upright else partial(axes.axhline, y)
-    draw(**BORDER)
+    if x is not None:
+        axes.axvline(x, **BORDER)
+    elif y is not None:
+        axes.axhline(y, **BORDER)
     note(
         axes,
         text,

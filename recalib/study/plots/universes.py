@@ -2,7 +2,7 @@
 
 import textwrap
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -108,11 +108,12 @@ def _heading(shown: Sequence[Row]) -> str:
 
 
 def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
-    choices, replicates = evidence.levels().shape[1], evidence.setups("outcomes")["replicate"]
+    choices, outcomes = evidence.levels().shape[1], evidence.setups("outcomes")
+    replicates = 0 if outcomes is None else outcomes["replicate"].nunique()
     return (
         f"The paper leaves at least {choices} choices open, such as the robot or the search. Each"
         " dot is the whole replication made again with other choices: a setup,\nthe mean of its"
-        f" {replicates.nunique()} replicates. Bold line in the shaded part: supported, unless the"
+        f" {replicates} replicates. Bold line in the shaded part: supported, unless the"
         " study with the choices of this project says the opposite. Paler: other systems."
     )
 
@@ -131,7 +132,7 @@ def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) 
     (limit,) = row.placed([row.setups.across.limit()])
     side = (limits[0], limit) if comparison.below else (limit, limits[1])
     half = 0.47 * row.height
-    label = {"label": "here the paper is right"} if row.leads else {}
+    label: dict[str, Any] = {"label": "here the paper is right"} if row.leads else {}
     axes.fill_between(side, middle - half, middle + half, color=HOLDS, alpha=0.18, lw=0, **label)
     axes.vlines(limit, middle - half, middle + half, **BORDER)
     if comparison.bounds:
