@@ -9,7 +9,7 @@ from recalib.study.evidence.claims.reasons import integral_ratios
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.words import percent
 from recalib.study.inference.measured import ERRORS, KINDS, UNITS
-from recalib.study.plots.palette import BOTH, DASHED, NEUTRAL
+from recalib.study.plots.palette import BORDER, BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (
     finish,
     line_across,
@@ -62,7 +62,7 @@ def figure7(evidence: Evidence) -> Figure:
             fillstyle="full" if commands == intact else "none",
             label=f"{'commands' if kind == 'theta' else 'Jacobians'}, from the {start} robot",
         )
-    line_across(axes, "", y=1)
+    axes.axhline(1, **BORDER)
     axes.text(0.1, 2.5, "above the line a constant is the better guess", fontsize=9, color="0.4")
     axes.set_xlabel("encoder shifts, times the paper's (links at most once)")
     axes.set_ylabel("$E_{upd} / E_{clas}$")
@@ -101,7 +101,7 @@ def figure8(evidence: Evidence) -> Figure:
             markersize=5,
             label=f"width {width:g}",
         )
-    line_across(axes, "equation (10)", y=1, until=0.65)
+    axes.axhline(1, **BORDER)
     away = expected_learning.CLAIM.limits["away"]
     line_across(axes, f"criterion: from {away:g} on", x=away)
     widths = table["distance"] / table["width"]

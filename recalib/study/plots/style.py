@@ -128,15 +128,10 @@ def legend_under(axes: Axes) -> None:
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 
-def line_across(
-    axes: Axes, text: str, x: float | None = None, y: float | None = None, until: float = 1
-) -> None:
+def line_across(axes: Axes, text: str, x: float | None = None, y: float | None = None) -> None:
     """A line that parts one side of the axes from the other, and what it is.
 
     An upright one at x, or a level one at y.
-
-    Args:
-        until: the part of the axes' width at which the words on a level line end.
     """
     upright = x is not None
     if x is not None:
@@ -146,7 +141,7 @@ def line_across(
     note(
         axes,
         text,
-        (x, 1) if upright else (until, y),
+        (x, 1) if upright else (1, y),
         (0, 2) if upright else (-2, 2),
         xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
         ha="center" if upright else "right",

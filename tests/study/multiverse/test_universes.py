@@ -117,7 +117,7 @@ def test_a_random_home_is_near_and_one_that_the_controller_accepts(plan, monkeyp
 
 def test_random_directions_keep_lengths_and_angles():
     shifts = [BaseShift(translation=(0.05, -0.05, 0.04)), BaseShift(rotation=(0.03, -0.05, 0.05))]
-    assert moved(shifts[:1], 1.0, None) == shifts[:1]
+    assert moved(shifts[:1], 1.0, None) == (shifts[0],)
     translation, rotation = moved(shifts, 0.5, np.random.default_rng(0))
     assert translation.rotation == rotation.translation == (0, 0, 0)
     length = 0.5 * np.linalg.norm(shifts[0].translation)
