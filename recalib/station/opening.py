@@ -52,6 +52,8 @@ def _module(home: str) -> ModuleType:
     path = Path(home)
     if path.suffix != ".py":
         return importlib.import_module(home)
+    if not path.is_file():
+        raise StationFailed(f"there is no file {home}; expected: FILE.py:NAME")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)

@@ -95,7 +95,7 @@ class ProgramStation:
         except (OSError, ValueError):
             line = ""
         if not line.endswith("\n"):
-            raise StationFailed(f"{self._name} has ended instead of an answer to {do!r}")
+            raise StationFailed(f"{self._name} ended before it answered {do!r}")
         try:
             answer = json.loads(line)
         except (ValueError, RecursionError):

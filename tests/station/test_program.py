@@ -87,7 +87,7 @@ def test_a_program_that_ends_is_told(tmp_path, monkeypatch):
     text = PROGRAM.format(answers=json.dumps({"describe": json.dumps(DESCRIBED)}))
     station = ProgramStation([sys.executable, "-c", text])
     for _ in range(2):
-        with pytest.raises(StationFailed, match="has ended instead of an answer to 'angles'"):
+        with pytest.raises(StationFailed, match="ended before it answered 'angles'"):
             station.angles()
     station.stop()
     station.close()
@@ -107,10 +107,10 @@ def test_a_program_that_does_not_end_is_ended(monkeypatch):
         ("nowhere --at all", "nowhere does not start: No such file or directory"),
         ("'unclosed", "is no command line: No closing quotation"),
         ("", "STATION is empty"),
-        ("nowhere.py:Mine", "nowhere.py:Mine cannot be made: FileNotFoundError"),
+        ("nowhere.py:Mine", "there is no file nowhere.py; expected: FILE.py:NAME"),
         ("no_such_module:Mine", "cannot be made: ModuleNotFoundError: No module named"),
         ("recalib.errors:Mine", "has no attribute 'Mine'"),
-        ("sh -c 'exit 3'", "sh has ended instead of an answer to 'describe'"),
+        ("sh -c 'exit 3'", "sh ended before it answered 'describe'"),
     ],
 )
 def test_what_is_no_station_is_told(text, says):
