@@ -298,16 +298,25 @@ def test_the_command_calibrates(tmp_path, monkeypatch, capsys):
 
 
 def test_it_can_be_watched(tmp_path):
-    station, urdf = Simulated(), find_urdf("ur10_robot.urdf")
+    station, urdf, seen = Simulated(), find_urdf("ur10_robot.urdf"), []
     with rr.RecordingStream("live") as rec:
         rec.save(tmp_path / "live.rrd")
         view = LiveView(station.arm, urdf.read_bytes(), urdf, rec)
-        run(station, tmp_path, most=14, on_row=view.show)
+
+        def show(rows, running):
+            seen[:] = [rows]
+            view.show(rows, running)
+
+        run(station, tmp_path, most=14, on_row=show)
     its = logged(tmp_path / "live.rrd")
     entities = {name.split()[0] for name in its}
     assert entities >= {"/line", "/measured", "/workspace", "/error/by_the_last_rows"}
     (errors,) = (its[name] for name in its if "/by_the_model Scalars" in name)
     assert len(np.concatenate(errors)) == 14 - 5
+    # in the base, where the target is as far from the tool in all postures, but for what is off
+    measured = np.concatenate(its["/measured Points3D:positions"]).reshape(-1, 3)[-14:]
+    away = np.linalg.norm(measured - station.arm.forward(seen[0].joints)[:, :3, 3], axis=1)
+    assert np.ptp(away) < 0.05
 
 
 def test_without_a_display_nothing_moves(tmp_path, monkeypatch, capfd):
