@@ -19,6 +19,7 @@ COMMANDS = [
     line
     for block in re.findall(r"```sh\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     for line in block.splitlines()
+    if not line.startswith("pip ")  # the installation
 ]
 SPAN, FRESH = np.radians(20), 100
 HOME = [0, 0.1, 0, -1.9, 0, 3.0, 0.8]  # rad
