@@ -54,6 +54,7 @@ def figures(planted):
     with plt.rc_context(STYLE), few_resamples():
         for name in FIGURES:
             found[name] = draw(name, evidence_of(name, planted))
+            found[name].draw_without_rendering()  # it lays out: before, nothing is where it will be
     yield found
     plt.close("all")
 
