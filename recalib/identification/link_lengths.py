@@ -9,6 +9,9 @@ import numpy as np
 
 from recalib.nominal.kinematics import Arm
 
+# Axes as near to parallel count as parallel: far away along them, any length would be explained.
+PARALLEL = 0.02
+
 
 def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]:
     """Lengths (joints - 1,) [m] of the links behind all joints but the last, of both arms."""
@@ -23,5 +26,5 @@ def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]
         columns[link, :, link] = -free[link]
         columns[link, :, link + 1] = placement.rotation @ free[link + 1]
     slopes = columns.reshape(found.size, -1)
-    moves = slopes @ np.linalg.lstsq(slopes, (right - found).ravel(), rcond=None)[0]
+    moves = slopes @ np.linalg.lstsq(slopes, (right - found).ravel(), rcond=PARALLEL)[0]
     return np.linalg.norm(right, axis=1), np.linalg.norm(found + moves.reshape(-1, 3), axis=1)

@@ -68,7 +68,8 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
     again = identify(geometry.model, punctual, geometry.estimate, counted.astype(float))
     others = _faults(replace(geometry, estimate=again), punctual, counted)
     its = LAG, found[0].sight
-    return found[:1] + [fault for fault in others if (fault.kind, fault.sight) != its]
+    others = [fault for fault in others if (fault.kind, fault.sight) != its]
+    return [found[0], *others][:MOST]
 
 
 def _faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:

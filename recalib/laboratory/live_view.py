@@ -68,12 +68,15 @@ class LiveView:
 def _window() -> rr.RecordingStream:
     """What goes to a window of its own, which stays open when this process ends."""
     port = free_port()
-    process, url = start("--port", port), f"rerun+http://{HERE}:{port}/proxy"
+    process, url = start("--port", port, outlives=True), f"rerun+http://{HERE}:{port}/proxy"
     try:
         # it listens before it finds that there is no display; only a window tells its state
         answer(process, lambda: ViewerClient(url).get_state())
-    except ConnectionError:
+    except BaseException as error:
         process.terminate()
+        process.wait()
+        if not isinstance(error, ConnectionError):
+            raise
         raise InvalidSetting("--view", "without a window", "a display, for rerun") from None
     rec = rr.RecordingStream("recalib live")
     rec.connect_grpc(url)

@@ -26,10 +26,18 @@ def quiet() -> dict[str, str]:
     return os.environ | {"CI": "true"}
 
 
-def start(*options: str, log: int | IO[str] = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
-    """The program with these options; a Ctrl-C in the terminal is not for it."""
+def start(
+    *options: str, log: int | IO[str] = subprocess.DEVNULL, outlives: bool = False
+) -> subprocess.Popen[bytes]:
+    """The program with these options.
+
+    Args:
+        outlives: whether what ends this process, such as a Ctrl-C in the terminal, is not for it.
+    """
     command = [str(PROGRAM), "--bind", HERE, *options]
-    return subprocess.Popen(command, env=quiet(), stdout=log, stderr=log, start_new_session=True)
+    return subprocess.Popen(
+        command, env=quiet(), stdout=log, stderr=log, start_new_session=outlives
+    )
 
 
 @contextmanager

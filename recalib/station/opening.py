@@ -2,9 +2,9 @@
 
 import importlib
 import importlib.util
-import os
 import re
 import shlex
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -45,7 +45,7 @@ def open_station(text: str) -> Station:
 
 def _lacks_a_name(text: str) -> bool:
     """Whether it is a file of Python, or a module with a colon, and no program."""
-    return text.endswith(":") or (text.endswith(".py") and not os.access(text, os.X_OK))
+    return text.endswith(":") or (text.endswith(".py") and shutil.which(text) is None)
 
 
 def _module(home: str) -> ModuleType:

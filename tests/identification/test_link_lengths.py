@@ -31,6 +31,15 @@ def test_where_origins_lie_is_no_length(ur10, panda, load):
         assert np.allclose(found, nominal, atol=1e-9)
 
 
+def test_axes_that_are_nearly_parallel_explain_no_length(load):
+    arm = load(SCARA)
+    tilted = arm.copy()
+    half = tilted.model.jointPlacements[2].translation / 2
+    tilted.model.jointPlacements[2] = pin.SE3(pin.exp3(np.array([1e-3, 0, 0])), half)
+    nominal, found = link_lengths(arm, tilted)
+    assert found[0] == pytest.approx(nominal[0] / 2, abs=1e-3)
+
+
 def changed(arm, link: int, parts) -> Calibration:
     """The arm whose link behind a joint has grown by so many m along x, y and z."""
     parameters = np.zeros_like((model := ErrorModel(arm, OFFSETS)).deviations)

@@ -111,11 +111,11 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
         amount = next(key for key in said if _grows(entry, key))
         if error:
             yield unlike((*path, amount), said[amount], error.valid)
-            return
+            break
         if not _reaches_middle(robot, done):
             where = f"the middle of the workspace within reach of the {robot.name}"
             yield unlike((*path, amount), said[amount], f"less, so that it leaves {where}")
-            return
+            break
     if len(lacking) > 1:  # it is meant for another robot
         names = listed(dict.fromkeys(its.name for its in lacking.values()), "and")
         has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"

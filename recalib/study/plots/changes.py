@@ -65,9 +65,11 @@ def _draw(
 def _heading(rows: dict[str, list[Estimate]]) -> str:
     changes = [switch.label for switch in SWITCHES if switch.label in rows]
     if not changes:
-        return f"Figure 4: {len(rows)} of other learners beside the paper's two"
+        return f"Figure 4: other learners ({len(rows)}) compared with the paper's two"
     most = min(changes, key=lambda label: max(ratio.mean for ratio in rows[label]))
     weakest = max(ratio.mean for ratio in rows[most])
+    if weakest >= 1:
+        return f"Figure 4: none of the paper's changes ({len(changes)}) helps both systems"
     return f"Figure 4: of the paper's changes, {most} help most: error x {weakest:.2f} or less"
 
 

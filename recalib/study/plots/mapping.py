@@ -38,8 +38,8 @@ def figure5(evidence: Evidence) -> Figure:
     name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
     text = (
-        f"Figure 5: positions and orientations change each other's commands by less than"
-        f"\n{percent(widest)} of what they change their own"
+        "Figure 5: in 95 % of poses, positions and orientations change each other's commands"
+        f"\nby at most {percent(widest)} of what they change their own"
     )
     finish(figure, text, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
