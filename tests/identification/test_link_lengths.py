@@ -35,7 +35,7 @@ def test_axes_that_are_nearly_parallel_explain_no_length(load):
     arm = load(SCARA)
     tilted = arm.copy()
     half = tilted.model.jointPlacements[2].translation / 2
-    tilted.model.jointPlacements[2] = pin.SE3(pin.exp3(np.array([1e-3, 0, 0])), half)
+    tilted.model.jointPlacements[2] = pin.SE3(pin.exp3(np.array([0, 1e-3, 0])), half)
     nominal, found = link_lengths(arm, tilted)
     assert found[0] == pytest.approx(nominal[0] / 2, abs=1e-3)
 
