@@ -5,6 +5,7 @@ All of it stays on this machine: the browser itself is told to ask for nothing e
 
 import argparse
 import getpass
+import json
 import socket
 import sys
 from collections.abc import Iterator
@@ -21,7 +22,7 @@ from recalib.errors import RecalibError
 from recalib.laboratory.viewer import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.evidence.report import layout
-from recalib.study.plan.recordings import TODAYS, Recording
+from recalib.study.plan.recordings import TODAYS
 from recalib.study.recording.naming import in_words
 from recalib.study.recording.web_viewer import copy_viewer
 from recalib.study.scenarios.plants import Resolved
@@ -72,13 +73,16 @@ def _shown(recording: Path, root: Path, shipped: bool) -> dict[str, Any]:
         shipped: whether the pictures that are committed are of its study.
     """
     name, folder = recording.stem, recording.parents[1]
-    damages = Resolved.read(folder / "scenarios" / f"{name}.json").damages
+    scenario = folder / "scenarios" / f"{name}.json"
+    words = ""
+    if scenario.exists():
+        damages = Resolved.read(scenario).damages
+        words = "; ".join(map(in_words, damages)) or "nothing is wrong with this arm"
     places = [f"results/figures/{name}_before.png"]
     arms = ["results/figures/arm_before.png", *["figures/arm_before.png"] * shipped]
     if any((root / arm).exists() for arm in arms) and _is_own(recording):
         places += arms
     picture = next((place for place in places if (root / place).exists()), None)
-    words = "; ".join(map(in_words, damages)) or "nothing is wrong with this arm"
     return {"name": name, "damages": words, "picture": picture}
 
 
@@ -86,8 +90,10 @@ def _is_own(recording: Path) -> bool:
     """Whether it is that of its study's own scenario: one of today's learners is in it alone."""
     for chunk in RrdReader(recording).store().stream().to_chunks():
         if chunk.entity_path == "/__properties/run":
-            ((job,),) = chunk.to_record_batch()["job"].to_pylist()
-            return TODAYS in Recording.model_validate_json(job).learners
+            batch = chunk.to_record_batch()
+            if "job" in batch.schema.names:
+                ((job,),) = batch["job"].to_pylist()
+                return TODAYS in json.loads(job)["learners"]
     return False
 
 

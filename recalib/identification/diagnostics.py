@@ -78,10 +78,9 @@ def check_links(geometry: Calibration) -> None:
     beyond = np.abs(found - right) - limits
     if (beyond > 0).any():
         worst = int(beyond.argmax())
+        names = ", or other names of sockets" if geometry.model.frames.sockets.size else ""
         raise Untrustworthy(
             f"the measurements make the link behind {nominal.joints[worst]}"
             f" {1e3 * found[worst]:.0f} mm long; expected: about {1e3 * right[worst]:.0f} mm, as"
-            " the arm's description has it; try: other units"
-            + ", or other names of sockets"
-            * bool(geometry.model.frames.sockets.size)
+            f" the arm's description has it; try: other units{names}"
         )

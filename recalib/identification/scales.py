@@ -29,7 +29,8 @@ class Scale(NamedTuple):
     Attributes:
         factor: its size over what it is said to be.
         remaining: the part of the noise that these sizes leave of that with the sizes that are
-            said. Where other links than those described are the reason, much of it remains.
+            said; 0 of a board, of which nobody asks. Where other links than those described are the
+            reason, much of it remains.
     """
 
     factor: float
@@ -46,7 +47,7 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
 
     Raises BadMeasurement, as `identify`.
     """
-    each = len(BOARD)
+    each, by_cameras = len(BOARD), observations.optics is not None
     if observations.optics is not None:
         optics = observations.optics.with_noise(LINKS**2 * COVARIANCE)
         observations = replace(observations, optics=optics)
@@ -58,7 +59,7 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
     held[model.offset_columns] = held[model.socket_columns] = False
     model.deviations[held] = HELD
     model.deviations[model.optics_columns][sizes] = HELD
-    said = identify(model, observations)
+    said = np.inf if by_cameras else identify(model, observations).noise[0]
     model.deviations[model.optics_columns][sizes] = ANY
     found = identify(model, replace(observations, distances=()))
     centres = model.sockets(found.parameters)
@@ -67,7 +68,7 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         for one, other, length, _ in observations.distances
     ]
     beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
-    remaining = float(found.noise[0] / said.noise[0])
+    remaining = float(found.noise[0] / said)
     return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
 
 

@@ -210,7 +210,7 @@ def calibrate_arm(
             between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
     read = [observations_of(rows, given, path) for rows, path in zip(measured, tables, strict=True)]
     observations, targets, sockets = read[0]
-    scaled: tuple[str, ...] = ("what the instrument measured",)
+    scaled: tuple[str, ...] = ("positions",)
     instruments, sights = INSTRUMENT, None
     if folders:  # OpenCV is imported only for these
         from recalib.laboratory.observed import with_pixels

@@ -20,18 +20,7 @@ def doubts(result: Calibrated) -> Iterator[str]:
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
-    said, advice, most = "its description", "measure it again", TOGETHER
-    if result.observations.optics is not None:  # printers scale often, instruments seldom
-        advice, most = "measure its squares", np.inf
-    elif result.observations.measured is not None:
-        said, advice = "the table says", "check its unit, and the instrument's scale"
-    for what, (factor, remaining) in result.scales.items():
-        if abs(beside := factor - 1) > RESIZED and remaining < most:
-            yield (
-                f"Careful: if links are as long as the URDF has them, {what} is"
-                f" {100 * abs(beside):.1f} percent {'larger' if beside > 0 else 'smaller'} than"
-                f" {said}; {advice}."
-            )
+    yield from _resized(result)
     validation = result.validation
     if validation.chosen != HYBRID:
         return
@@ -42,6 +31,23 @@ def doubts(result: Calibrated) -> Iterator[str]:
             f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
             f" leaves {geometry:.3g} mm, so most of the gain is a pattern of these rows only."
         )
+
+
+def _resized(result: Calibrated) -> Iterator[str]:
+    """What is of another size than it is said to be, if links are as long as the URDF has them."""
+    optics, measured = result.observations.optics, result.observations.measured
+    most = TOGETHER if optics is None else np.inf  # printers scale often, instruments seldom
+    for what, (factor, remaining) in result.scales.items():
+        if abs(factor - 1) <= RESIZED or remaining >= most:
+            continue
+        percent, large = f"{100 * abs(factor - 1):.1f} percent", factor > 1
+        if optics is None and measured is not None:
+            off = f"{what} in the table are {percent} too {'small' if large else 'large'}"
+            advice = "check their unit, and the instrument's scale"
+        else:
+            off = f"{what} is {percent} {'larger' if large else 'smaller'} than its description"
+            advice = "measure it again" if optics is None else "measure its squares"
+        yield f"Careful: if links are as long as the URDF has them, {off}; {advice}."
 
 
 def _outvoted(result: Calibrated) -> Iterator[str]:

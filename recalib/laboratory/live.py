@@ -48,17 +48,17 @@ class LiveSettings:
 
     def __post_init__(self) -> None:
         if self.error is not None and not 0 < self.error < np.inf:
-            raise InvalidSetting("--error", f"{1e3 * self.error:g} mm", "more than zero")
+            raise InvalidSetting("error", f"{1e3 * self.error:g} mm", "more than zero")
         if self.most < FEWEST:
             valid = f"at least {FEWEST} rows, which a calibration needs"
-            raise InvalidSetting("--most", self.most, valid)
+            raise InvalidSetting("most", self.most, valid)
         if not NARROWEST < self.span < np.inf:
             valid = f"more than {np.degrees(NARROWEST):.2g} deg: nearer postures count as one"
-            raise InvalidSetting("--span", f"{np.degrees(self.span):g} deg", valid)
+            raise InvalidSetting("span", f"{np.degrees(self.span):g} deg", valid)
         if not 0 < self.speed <= 1:
-            raise InvalidSetting("--speed", self.speed, "above 0 and up to 1")
+            raise InvalidSetting("speed", self.speed, "above 0 and up to 1")
         if not 0 < self.patience <= LONGEST:
-            raise InvalidSetting("--patience", f"{self.patience:g} s", "above 0 s, up to a day")
+            raise InvalidSetting("patience", f"{self.patience:g} s", "above 0 s, up to a day")
 
 
 class Interrupted(RecalibError):

@@ -29,15 +29,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
 
     Raises RecalibError, as `calibrate_live` and as what reads the options.
     """
-    arm = load_arm(given.urdf, given.tool, given.base)
-    settings = LiveSettings(
-        None if given.error is None else LENGTH.value_of("--error", given.error),
-        given.most,
-        ANGLE.value_of("--span", given.span),
-        None if given.box is None else Box.read(given.box),
-        given.speed,
-        TIME.value_of("--patience", given.patience),
-    )
+    arm, settings = load_arm(given.urdf, given.tool, given.base), _settings(given)
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board, which --lens and --camera are for")
     for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
@@ -57,6 +49,17 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
         on_progress,
         _view(given.urdf, arm).show if given.view else lambda rows, running: None,
     )
+
+
+def _settings(given: argparse.Namespace) -> LiveSettings:
+    error = None if given.error is None else LENGTH.value_of("--error", given.error)
+    box = None if given.box is None else Box.read(given.box)
+    span = ANGLE.value_of("--span", given.span)
+    patience = TIME.value_of("--patience", given.patience)
+    try:
+        return LiveSettings(error, given.most, span, box, given.speed, patience)
+    except InvalidSetting as wrong:
+        raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
 
 
 def _with_board(opening: Callable[[], Station], given: argparse.Namespace) -> Callable[[], Station]:

@@ -192,7 +192,9 @@ def _labels(table: Table, column: str) -> np.ndarray | None:
     for label in labels:
         if label != (other := first.setdefault(label.casefold(), label)):
             raise InvalidFile(
-                table.path, f"column {column!r} has {other!r} and {label!r}; expected: one of them"
+                table.path,
+                f"{other!r} and {label!r} of column {column!r} differ in capitals alone; expected:"
+                " one spelling",
             )
     return np.array(labels)
 

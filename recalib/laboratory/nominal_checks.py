@@ -22,10 +22,10 @@ ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
 EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
 UNITS = {  # of positions that are wrong, by what makes them right
     1e-3: "in millimetres that say m",
-    1e-2: "100 times too large",
+    1e-2: "in centimetres that say m",
     1e-1: "in millimetres that say cm",
     1e1: "in centimetres that say mm",
-    1e2: "100 times too small",
+    1e2: "in metres that say cm",
     1e3: "in metres that say mm",
 }
 ENOUGH = 40  # rows to try mistakes on

@@ -98,12 +98,18 @@ def _remove(path: Path) -> None:
 @contextmanager
 def _held(folder: Path) -> Iterator[None]:
     """Keep other processes out of a folder; the system lets go of it however this one ends."""
-    descriptor = os.open(folder, os.O_RDONLY)
+    other = InvalidFile(folder, "another process fills it; try: another --out")
+    try:
+        descriptor = os.open(folder, os.O_RDONLY)
+    except FileNotFoundError:
+        raise other from None
     try:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise InvalidFile(folder, "another process fills it; try: another --out") from None
+            raise other from None
+        if not os.fstat(descriptor).st_nlink:  # whoever filled it has removed it
+            raise other
         yield
     finally:
         os.close(descriptor)

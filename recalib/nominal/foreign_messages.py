@@ -2,10 +2,12 @@
 
 import os
 import tempfile
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 STDERR = 2  # its descriptor, which a whole process shares
+_ONE = threading.Lock()  # for one block at a time
 
 
 @contextmanager
@@ -15,12 +17,12 @@ def caught_messages() -> Iterator[list[str]]:
     Commands tell a mistake in one sentence: lines for a library's developers hide it.
     """
     lines: list[str] = []
-    try:
-        before = os.dup(STDERR)
-    except OSError:  # it is closed, so nothing is written there
-        yield lines
-        return
-    with tempfile.TemporaryFile() as file:
+    with _ONE, tempfile.TemporaryFile() as file:
+        try:
+            before = os.dup(STDERR)
+        except OSError:  # it is closed, so nothing is written there
+            yield lines
+            return
         os.dup2(file.fileno(), STDERR)
         try:
             yield lines

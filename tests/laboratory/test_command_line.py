@@ -194,7 +194,7 @@ def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calib
 
 def test_a_folder_that_is_set_for_the_list_of_fonts_is_used(monkeypatch):
     used = []
-    monkeypatch.setattr(command_line, "_next", lambda _: used.append(os.environ[CACHE]))
+    monkeypatch.setitem(command_line.COMMANDS, "next", lambda _: used.append(os.environ[CACHE]))
     monkeypatch.setenv(CACHE, "mine")
     main(["next", "calibration"])
     monkeypatch.delenv(CACHE)

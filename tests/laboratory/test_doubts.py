@@ -73,8 +73,8 @@ def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
 @pytest.mark.parametrize(
     ("scale", "said"),
     [
-        (Scale(1.02, 0.1), "what was measured is 2.0 percent larger than the table says"),
-        (Scale(0.9, 0.1), "what was measured is 10.0 percent smaller than the table says"),
+        (Scale(1.02, 0.1), "positions in the table are 2.0 percent too small"),
+        (Scale(0.9, 0.1), "positions in the table are 10.0 percent too large"),
         (Scale(1.02, 0.5), ""),
         (Scale(1.01, 0.1), ""),
     ],
@@ -82,7 +82,7 @@ def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
 def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
     found = result({}, GEOMETRIC)
     found.observations = replace(found.observations, measured=np.zeros((ROWS, 3)))
-    found.scales = {"what was measured": scale}
+    found.scales = {"positions": scale}
     told = " ".join(doubts(found))
     assert said in told and bool(told) == bool(said)
 

@@ -69,8 +69,8 @@ MISTAKES = {
     ),
     "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
     "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
-    "a hundredth": (lambda q, p: (q, p * 0.01), "positions 100 times too small"),
-    "a hundredfold": (lambda q, p: (q, p * 100), "positions 100 times too large"),
+    "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres that say cm"),
+    "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres that say m"),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",

@@ -84,7 +84,7 @@ def test_no_calibration_goes_by_impossible_settings(error):
         {"most": 9},
     ):
         (name,) = wrong
-        with pytest.raises(InvalidSetting, match=f"^--{name} is "):
+        with pytest.raises(InvalidSetting, match=f"^{name} is "):
             LiveSettings(**wrong)
 
 

@@ -72,7 +72,13 @@ def one_recorded(tmp_path, monkeypatch):
     """A folder of results with an empty recording; there is no viewer."""
     monkeypatch.setattr(watch, "copy_viewer", lambda folder: folder.mkdir())
     results = tmp_path / "fallen"
-    for name in ("recordings/on_stone-z1.rrd", "figures/on_stone-z1_before.png", "report.html"):
+    for name in (
+        "recordings/on_stone-z1.rrd",
+        "figures/on_stone-z1_before.png",
+        "report.html",
+        "scenarios/on_stone-z1.json",
+        "recordings/alone.rrd",
+    ):
         (results / name).parent.mkdir(parents=True, exist_ok=True)
         (results / name).touch()
     damages = [LinkShortening("wrist_1_link", 0.01), EncoderShift("wrist_3_joint", np.radians(3))]
@@ -91,6 +97,7 @@ def test_the_page_says_in_words_what_was_recorded_and_shows_a_picture(one_record
         "<small>wrist 1: 1 cm short; wrist 3: encoder 3 deg</small>",
         '<img src="results/figures/on_stone-z1_before.png"',
         '<a href="results/report.html">The report of this study</a>',
+        ">alone</a>",  # whose scenario is not there any more
     ):
         assert part in page
 

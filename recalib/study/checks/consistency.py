@@ -136,7 +136,7 @@ def _rungs(study: Study) -> Iterator[Mistake]:
     from recalib.study.evidence.claims.speed_up import LONG  # it knows what a study is
 
     path, rungs = ("universes", "rungs"), study.universes.rungs
-    if study.universes.count & (study.universes.count - 1):
+    if study.experiments.evidence and study.universes.count & (study.universes.count - 1):
         yield unlike(("universes", "count"), study.universes.count, "a power of two, for balance")
     if len(rungs) < 2:
         yield unlike(path, rungs, "two or more, between which the factor is sought")
@@ -168,7 +168,8 @@ def _amounts(study: Study) -> Iterator[Mistake]:
         subjects = list(map(_subject, entries))
         for index, (entry, subject) in enumerate(zip(entries, subjects, strict=True)):
             if subject in subjects[:index]:
-                what = next(iter(describe(entry)))
+                (key, value), *_ = describe(entry).items()
+                what = f"{key} {value}" if isinstance(value, str) else key
                 yield Mistake(("scenarios", name, index), f": {what} again; expected: once")
 
 

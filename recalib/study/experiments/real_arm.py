@@ -22,7 +22,6 @@ from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import (
     Measurements,
-    known_frame,
     read_of,
     read_whole_description,
 )
@@ -129,7 +128,8 @@ def learn_from_tables(
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(nominal), known_frame(said.target)[:3, 3])
+    assert said.target is not None  # as of a whole description
+    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
     for count in poses:
@@ -170,7 +170,8 @@ def learn_on_twin(
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
     said = read_whole_description(description)
-    robot = with_tool_point(nominal_robot(nominal), known_frame(said.target)[:3, 3])
+    assert said.target is not None  # as of a whole description
+    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
     twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}

@@ -8,7 +8,6 @@ import urllib.request
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 
@@ -74,17 +73,13 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
         raise InvalidFile(
             path, f"it lacks {', '.join(NOMINAL)} or what was measured; expected: both"
         )
-    instrument = known_frame(description.instrument)
+    instrument = description.instrument
+    assert instrument is not None  # `read_whole_description` has both frames
     check_nominal(arm, rows.coordinates, rows.nominal, np.linalg.inv(instrument), np.eye(4))
     turn, place = instrument[:3, :3], instrument[:3, 3]
     return Measurements(
         rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
     )
-
-
-def known_frame(frame: np.ndarray | None) -> np.ndarray:
-    """A frame of a whole description."""
-    return cast(np.ndarray, frame)
 
 
 def fetch(source: Source, table: Path) -> None:

@@ -174,8 +174,10 @@ def _by_cells(learner: str, style: Style) -> Style:
 
 def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]) -> str:
     if not compared:
-        most = max(history["iteration"].max() for history in histories.values())
-        return f"errors over at most {most:,} iterations"
+        ends = {name: errors_of(its)[..., 0].mean() for name, its in histories.items()}
+        best = min(ends, key=lambda name: ends[name])
+        most, shown = histories[best]["iteration"].max(), styles_of(histories)[best].label
+        return f"{shown} leaves the least, {ends[best]:.2g} cm after {most:,} iterations"
     ritter, improved = (histories[learner] for learner in compared)
     cells = CELLS[re.sub(r"_\d+$", "", compared[0])]
     final = improved.groupby("iteration")[list(ERRORS)].mean().iloc[-1].to_numpy()
@@ -204,7 +206,7 @@ def figure3(evidence: Evidence) -> Figure:
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10, 4.8))
     rows = np.arange(len(scenarios))[::-1]
     offsets = 0.22 * (np.arange(len(learners))[::-1] - (len(learners) - 1) / 2)
-    least = []
+    ends_of = []
     for axes, error in zip(panels, BOTH, strict=True):
         remaining = {}
         initial = [
@@ -230,13 +232,29 @@ def figure3(evidence: Evidence) -> Figure:
         logarithmic(axes.xaxis, 0.001, 0.01, 0.1, 1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)
         name_rows(axes, rows, map(words, scenarios))
-        table = pd.DataFrame(remaining)
-        least.append(table.eq(table.min(axis=1), axis=0).sum())
-    best = sum(least).idxmax()
-    name = label(styles_of(learners)[best], histories[scenarios[0], best])
-    counts = (f"{count[best]} ({error.kind})" for count, error in zip(least, BOTH, strict=True))
-    text = f"Figure 3: {name}, ends with the smallest error\nin {' and '.join(counts)}"
-    text += f" of {len(scenarios)} scenarios"
+        ends_of.append(pd.DataFrame(remaining))
+    lengths = {name: histories[scenarios[0], name]["iteration"].max() for name in learners}
+    text = f"Figure 3: {_compared(ends_of, lengths)} of {len(scenarios)} scenarios"
     spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
     finish(figure, text, panels[0], 1 + len(learners), spread)
     return figure
+
+
+def _compared(ends: Sequence[pd.DataFrame], lengths: dict[str, int]) -> str:
+    """Who has the smallest errors (scenario, learner) of those who learn least, and who less."""
+    shown, shortest = styles_of(lengths), min(lengths.values())
+    equal = [name for name, length in lengths.items() if length == shortest]
+    wins = {name: [(its[name] <= its[equal].min(axis=1)).sum() for its in ends] for name in equal}
+    best = max(equal, key=lambda name: sum(wins[name]))
+    text = f"after {shortest:,} iterations, {shown[best].label} has the smallest errors in"
+    text += f" {_counts(wins[best])}"
+    for name in (name for name in lengths if name not in equal):
+        fewer = [(its[name] < its[best]).sum() for its in ends]
+        text += f";\nafter {lengths[name]:,}, {shown[name].label} has smaller ones in"
+        text += f" {_counts(fewer)}"
+    return text
+
+
+def _counts(numbers: Sequence[int]) -> str:
+    named = zip(numbers, BOTH, strict=True)
+    return " and ".join(f"{number} ({error.kind})" for number, error in named)

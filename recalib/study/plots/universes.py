@@ -201,9 +201,9 @@ def _numbers(row: Row) -> list[str]:
     of = f"over {measured} of {measured + setups.left_out} setups"
     parts = {"setups": setups.model.heterogeneity.mean, "luck": setups.model.luck.mean}
     spread = [f"{_spread(its, across.logarithmic)} by {name}" for name, its in parts.items()]
-    lines = [number, f"spread {', '.join(spread)}"]
+    lines = [f"{number} {of}" if setups.left_out else number, f"spread {', '.join(spread)}"]
     if row.reference:
-        lines = [f"{number} {of},", f"reference study: {row.reference}", *lines[1:]]
+        lines.insert(1, f"reference study: {row.reference}")
     if (counted := setups.holds) is not None:
         lines.append(f"holds in {counted[0]} of {measured}; {counted[1]:.0f} if all were alike")
     return lines

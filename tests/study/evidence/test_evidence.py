@@ -6,6 +6,7 @@ from recalib.files.storage import whole
 from recalib.numerics.randomness import generator
 from recalib.study.evidence.checks import CheckFailed, check, expect
 from recalib.study.evidence.summary import error_at_these_settings
+from recalib.study.studies import BANDS
 
 
 def test_generators_differ_by_key_and_repeat():
@@ -43,6 +44,7 @@ def test_a_band_knows_the_luck_of_seeds_and_not_that_of_searches():
 
 def test_results_pass_their_own_bands_and_a_change_does_not():
     bands = expect(SUMMARY)
+    assert ",".join(bands.columns) == BANDS, "as they are read"
     assert check(SUMMARY, bands)["ok"].all()
     for column, value in (("final_position_error_cm", 0.30), ("final_orientation_error_deg", 0.15)):
         table = check(SUMMARY.assign(**{column: value}), bands)

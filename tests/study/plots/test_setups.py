@@ -185,7 +185,7 @@ def test_figure_14_says_of_how_many_setups_a_number_is_known(figures, planted):
     known = sum(number >= 5 for number in horizons)
     judged = {claim["id"]: claim for claim in evidence_of("figure14", planted).claims()}
     text = said(figures["figure14"])
-    assert f" over {known} of {len(horizons)} setups,\n" in text
+    assert f" over {known} of {len(horizons)} setups\n" in text
     assert f"\nreference study: {headline(judged['speed-up'])}\n" in text
 
 
