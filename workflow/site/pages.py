@@ -1,5 +1,7 @@
 """The site's pages: those of the repository from where they lie, and one from the docstrings."""
 
+import ast
+from functools import cache
 from pathlib import Path
 
 from mkdocs.structure.files import File, Files
@@ -27,9 +29,10 @@ EMBEDDED = f"""<button type="button" class="md-button embed" data-address="../{V
 Watch the recording here (35 MB)</button>
 
 """
+EXAMPLES = sorted((Path(recalib.__file__).parents[1] / "examples").glob("*.py"))
 REFERENCE = """# Reference
 
-What `import recalib` has. [How it fits together](library.md).
+What `import recalib` has, and which examples use it; tests run them all. [How it fits together](library.md).
 
 """
 
@@ -69,5 +72,23 @@ def _recording(config) -> Path:
 
 
 def reference() -> str:
-    """The page of the public names."""
-    return REFERENCE + "\n".join(f"::: recalib.{name}\n" for name in recalib.__all__)
+    """The page of the public names, each with the examples that use it."""
+    page = [REFERENCE]
+    for name in recalib.__all__:
+        page += [f"::: recalib.{name}\n"]
+        if used := [path.name for path in EXAMPLES if name in _public_names(path)]:
+            page += ["In " + ", ".join(f"[{its}](../examples/{its})" for its in used) + ".\n"]
+    return "\n".join(page)
+
+
+@cache
+def _public_names(example: Path) -> set[str]:
+    """Those of recalib in an example, as `recalib.NAME` or imported from it."""
+    used = set()
+    for node in ast.walk(ast.parse(example.read_text(encoding="utf-8"))):
+        match node:
+            case ast.Attribute(value=ast.Name(id="recalib"), attr=name):
+                used.add(name)
+            case ast.ImportFrom(module="recalib", names=aliases):
+                used.update(alias.name for alias in aliases)
+    return used
