@@ -38,7 +38,6 @@ class Stream(Enum):
     ENSEMBLE = "ensemble"
     TWIN = "twin"
     REPLAY = "replay"
-    SPEED = "bench"
 
     def draw(
         self,

@@ -40,9 +40,6 @@ class Scene:
 
     Attributes:
         rec: the recording.
-        learner: its name.
-        workspace: of the robot.
-        watched: the training.
         motion: of the arm that shows it.
         sight: in which words stand.
     """

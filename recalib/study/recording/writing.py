@@ -55,9 +55,7 @@ def record(
     It is that of the first of the paper's learners. See `write_recording`.
 
     Args:
-        rrd: its file.
         recording: what is recorded.
-        scenario: file of the scenario as resolved.
         samples: for each of its learners of the paper, the file of the search for it.
         histories: for each of them, the file of its training.
     """

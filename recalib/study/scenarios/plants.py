@@ -78,7 +78,6 @@ class Resolved(Kept):
 
         Args:
             controller: the scenario's.
-            seed: of the study.
             stream: name of that of their disturbances; the scenario's unless given.
         """
         rngs = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
@@ -107,11 +106,8 @@ def resolve(
     """A scenario with its part of the assignment put in, and the initial errors that it causes.
 
     Args:
-        name: of the scenario.
-        nominal: its robot.
         damages: as the configuration has them.
         poses: random ones, over which the errors are averaged.
-        seed: of the study.
         assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
     assigned = damages_among(Assignment.read(assignment).damages) if assignment else []
