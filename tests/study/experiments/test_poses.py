@@ -16,7 +16,6 @@ from recalib.study.experiments.poses import (
     ResultPoses,
     SearchPoses,
     Stream,
-    Use,
     train_for_results,
 )
 from recalib.study.experiments.trials import Search, search_for
@@ -59,12 +58,6 @@ def test_nobody_is_measured_where_it_learned(kind):
     drawn.tests[1, 2] = drawn.desired[1, 3]  # a single one of them
     with pytest.raises(ValueError, match="links: test poses are among those to learn from"):
         kind("links", drawn.desired, drawn.tests)
-
-
-@pytest.mark.parametrize("names", [Use, Stream])
-def test_no_two_purposes_share_a_name(names):
-    """Python makes the second of two equal names another word for the first."""
-    assert len(names.__members__) == len([*names])
 
 
 @pytest.mark.parametrize("stream", Stream)

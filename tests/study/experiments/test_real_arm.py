@@ -183,15 +183,6 @@ def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
         remaining_errors("oracle", ur5, recording, recording)
 
 
-@pytest.mark.parametrize(
-    "spoil", [lambda t: t.drop(columns="y_dif"), lambda t: t.assign(y_dif="far")]
-)
-def test_a_table_that_lacks_numbers_is_refused_by_column(spoil, table, ur5, description, tmp_path):
-    spoil(table).to_csv(tmp_path / "spoilt.csv", index=False)
-    with pytest.raises(InvalidFile, match="y_dif"):
-        read_of(ur5.arm, tmp_path / "spoilt.csv", description)
-
-
 def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
     path = tmp_path / "half.toml"
     path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
@@ -204,27 +195,10 @@ def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
         read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
 
 
-@pytest.mark.parametrize(
-    ("spoil", "likely"),
-    [
-        (
-            lambda t: t.assign(**{f"joint_{n}": np.radians(t[f"joint_{n}"]) for n in range(1, 7)}),
-            "joint columns in radians that say deg",
-        ),
-        (
-            lambda t: t.assign(**{f"{axis}_t": t[f"{axis}_t"] / 1e3 for axis in "xyz"}),
-            "positions in metres that say mm",
-        ),
-        (lambda t: t.assign(x_t=-t["x_t"], y_t=-t["y_t"]), "the base turned by 180.0 deg"),
-    ],
-    ids=["radians", "metres", "another frame"],
-)
-def test_a_table_in_other_units_or_frames_is_refused(
-    spoil, likely, table, ur5, description, tmp_path
-):
+def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
     path = tmp_path / "table.csv"
-    spoil(table).to_csv(path, index=False)
-    with pytest.raises(WrongNominal, match=f"likely: {likely}"):
+    table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
+    with pytest.raises(WrongNominal, match=r"likely: the base turned by 180\.0 deg"):
         read_of(ur5.arm, path, description)
 
 

@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from recalib.damaged.damage import EncoderShift
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
-from recalib.nominal.poses import orientation_error, position_error
 from recalib.numerics.randomness import generator
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
@@ -75,19 +73,6 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(
     found = campaign.train_seeds(*files, rules, 2, 0, 2, measuring, False, 1)
     assert "improved on links: the controller refused 3 moves" in capsys.readouterr().err
     assert found["seed"].tolist() == [0, 1] and found["search"].tolist() == [1, 1]
-
-
-def test_initial_errors_are_means_over_random_poses(plan):
-    damages = (EncoderShift("elbow_joint", 0.05), EncoderShift("wrist_3_joint", 0.05))
-    resolved = resolve("bent", plan.nominal("ur10"), damages, poses=20, seed=1)
-    controller = resolved.controller()
-    workspace = controller.robot.workspace
-    commands = workspace.sample(generator(1, "bent", "initial errors"), 1, 20)
-    desired = workspace.to_poses(commands)
-    achieved = resolved.plant(controller, 1, [0]).achieve(commands)[0]
-    off = position_error(achieved, desired), orientation_error(achieved, desired)
-    assert resolved.initial_position_error_cm == pytest.approx(100 * np.mean(off[0]))
-    assert resolved.initial_orientation_error_deg == pytest.approx(np.degrees(np.mean(off[1])))
 
 
 def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):
