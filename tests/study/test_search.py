@@ -59,16 +59,6 @@ def test_the_second_round_surrounds_the_best_and_stays_inside_the_ranges(index):
     assert near["initial_rate"].between(0.1999, 1.0001).all()
 
 
-def test_a_frame_of_trials_is_a_schedule_of_runs():
-    trials = search.draw(RULES, RANGES, 4, rng(1))
-    schedule = search.schedule(trials, RULES, repeat=3)
-    assert np.array_equal(schedule.initial_width, np.repeat(trials["initial_width"], 3))
-    assert np.array_equal(
-        schedule.final_widths["orientation"][1], np.repeat(trials["orientation/g_kl"], 3)
-    )
-    assert isinstance(search.schedule(trials.iloc[0], RULES).final_rate, float)
-
-
 @pytest.mark.parametrize(
     ("score", "expected"), [("worse", [2.0, 0.75]), ("geometric_mean", [1.0, 0.75])]
 )
@@ -101,13 +91,6 @@ def test_every_search_has_a_sequence_of_its_own(searched):
     assert trials["initial_width"].nunique() == len(trials)
     others = searched(training="improved_single_map_200")
     assert not set(others["initial_width"]) & set(trials["initial_width"])
-
-
-def test_every_search_has_poses_of_its_own(searched, monkeypatch):
-    same = search.draw(RULES, RANGES, 4, rng(1))
-    monkeypatch.setattr(search, "draw", lambda *args: same.copy())
-    same_trials = searched().groupby(["round", "initial_width"])["position_error_cm"]
-    assert same_trials.nunique().tolist() == [3] * 8
 
 
 def test_a_search_does_not_depend_on_those_beside_it(searched):

@@ -12,11 +12,22 @@ from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguratio
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
 from recalib.study.plan.trainings import Trainings
+from recalib.study.studies import read_studies
 from tests.conftest import ROOT, loaded_with
 
 SHIPPED = ROOT / "config.yaml"
 TEXT = SHIPPED.read_text(encoding="utf-8")
-MISTAKES = yaml.safe_load((ROOT / "tests" / "mistakes.yaml").read_text(encoding="utf-8"))
+MISTAKES, OF_STUDIES = (
+    yaml.safe_load((ROOT / "tests" / f"{name}.yaml").read_text(encoding="utf-8"))
+    for name in ("mistakes", "mistakes_of_studies")
+)
+HOME = ["0 deg", "-45 deg", "0 deg", "-120 deg", "0 deg", "75 deg", "45 deg"]
+PANDA = (
+    "&panda {urdf: panda.urdf, tool: panda_link8, home: {"
+    + ", ".join(f"panda_joint{number}: {angle}" for number, angle in enumerate(HOME, 1))
+    + "}, workspace: {position: [20 cm, 24 cm, 20 cm], orientation: [40 deg, 40 deg, 40 deg]},"
+    " links: [panda_link2, panda_link3, panda_link4, panda_link6]}"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -63,6 +74,19 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
     expected = f"config.yaml:{where}: {first}"
     assert mistake.startswith(expected[:-3]) if first.endswith("...") else mistake == expected
     assert [line.split(": ", 1)[1] for line in rest] == others
+
+
+@pytest.mark.parametrize("row", OF_STUDIES, ids=[row["why"] for row in OF_STUDIES])
+def test_a_mistake_in_a_study_of_ones_own_is_told_of_the_file_that_one_wrote(here, row):
+    """By the function that the workflow calls before anything else."""
+    name = row.get("file", "mine.yaml")
+    (here / name).write_text(row["study"].replace("{panda}", PANDA), encoding="utf-8")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_studies(ROOT, [here / name], {})
+    lines = [line.partition(":") for line in caught.value.mistakes]
+    assert {source for source, _, _ in lines} == {name}
+    assert [sentence.strip() for _, _, sentence in lines] == says(row)
+    assert not any("config.yaml" in line for line in caught.value.mistakes)
 
 
 NOTHING = "mine.yaml:1:1: no configuration; expected: keys with their values"

@@ -14,6 +14,7 @@ from recalib.errors import InvalidFile, UnknownName
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from recalib.study.configuration.study import Source
 from recalib.study.experiments.real_arm import (
     learn_from_tables,
@@ -30,22 +31,14 @@ from tests.conftest import ROOT
 DH_A = 0, -0.425, -0.39225, 0, 0, 0
 DH_D = 0.089159, 0, 0, 0.10915, 0.09465, 0.0823
 DH_TWIST = np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0
+MANUFACTURERS = arm_of_table(
+    [
+        Row(f"joint {number}", a=a, d=d, alpha=alpha)
+        for number, (a, d, alpha) in enumerate(zip(DH_A, DH_D, DH_TWIST, strict=True))
+    ]
+)
 # With it the manufacturer's arm gets to the nominal positions of the public tables, to 0.01 mm.
 TOOL_POINT = 0.0, 0.07e-3, 31e-3  # m
-
-
-def manufacturers_position(angles: np.ndarray) -> np.ndarray:
-    """Tool point (3,) [m] in the manufacturer's base at joint angles (6,) [rad]."""
-    pose = np.eye(4)
-    for q, a, d, twist in zip(angles, DH_A, DH_D, DH_TWIST, strict=True):
-        c, s, ct, st = np.cos(q), np.sin(q), np.cos(twist), np.sin(twist)
-        pose = pose @ [
-            [c, -s * ct, s * st, a * c],
-            [s, c * ct, -c * st, a * s],
-            [0, st, ct, d],
-            [0, 0, 0, 1],
-        ]
-    return (pose @ [*TOOL_POINT, 1])[:3]
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +63,7 @@ def table(ur5) -> pd.DataFrame:
         EccentricGear("elbow_joint", 0.003, 0.4),
     ]
     measured = apply(ur5, defects).forward(angles)[:, :3, 3] * [-1, -1, 1]
-    nominal = np.array([manufacturers_position(q) for q in angles])
+    nominal = (MANUFACTURERS.forward(angles) @ [*TOOL_POINT, 1])[:, :3]
     missed = measured - nominal + 2e-5 * generator.standard_normal((150, 3))
     columns = {"step_order": range(150)}
     columns |= {f"joint_{number + 1}": np.degrees(angles[:, number]) for number in range(6)}
