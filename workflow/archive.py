@@ -116,19 +116,14 @@ def crate(citation: Mapping) -> ROCrate:
     )
     workflow["programmingLanguage"] = its.add(ContextEntity(its, SNAKEMAKE, language))
     its.mainEntity = workflow
-    for path in committed():
-        if path != Path("Snakefile"):
-            its.add_file(path, path.as_posix(), properties=_about(path))
+    code = {path: path for path in committed() if path != Path("Snakefile")}
     results = {path: PUBLISHED / path.relative_to(RESULTS) for path in chosen()}
-    for path, place in results.items():
-        its.add_file(path, place.as_posix(), properties=_about(path))
+    for path, place in (code | results).items():
+        kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+        about = {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
+        its.add_file(path, place.as_posix(), properties=about)
     _add_run(its, workflow, results, authors)
     return its
-
-
-def _about(path: Path) -> dict[str, str]:
-    kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
-    return {"encodingFormat": kind, "contentSize": str(path.stat().st_size)}
 
 
 def _add_run(its: ROCrate, workflow, results: Mapping[Path, Path], authors: list) -> None:

@@ -19,14 +19,6 @@ SEARCHED = "search "  # what the streams of searches begin with, and no others
 
 
 @unique
-class Use(Enum):
-    """What a run does at its poses."""
-
-    LEARNING = "desired"
-    MEASURING = "tests"
-
-
-@unique
 class Stream(Enum):
     """What poses are drawn for."""
 
@@ -62,13 +54,10 @@ class Stream(Enum):
             raise ValueError(f"stream {self.name}: {name!r} is the name of a search")
         kind = SearchPoses if searched else ResultPoses
 
-        def drawn(use: Use, count: int, how: str) -> np.ndarray:
-            return np.stack(
-                [ORDERS[how](generator(seed, name, run, use.value), count) for run in runs]
-            )
+        def drawn(use: str, count: int, how: str) -> np.ndarray:
+            return np.stack([ORDERS[how](generator(seed, name, run, use), count) for run in runs])
 
-        desired = drawn(Use.LEARNING, iterations, order)
-        return kind(name, desired, drawn(Use.MEASURING, tests, "random"))
+        return kind(name, drawn("desired", iterations, order), drawn("tests", tests, "random"))
 
 
 def _independent(random: np.random.Generator, count: int) -> np.ndarray:
