@@ -76,7 +76,6 @@ def read_studies(
     Robots are asked of the scenarios that this call's study trains on; of others, `ask_robots` may.
 
     Args:
-        project: folder of the project.
         files: configuration files of this call, laid over config.yaml one after the other.
         changes: settings of its command line, laid over them.
         asking: whether to ask the robots: they need not be asked for every job of a cluster.

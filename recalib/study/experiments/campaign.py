@@ -39,7 +39,6 @@ def train_seeds(
         learned: file for what they learn.
         seeds: of each search.
         first, last: the first of the training's seeds that are trained, and one past the last.
-        measuring: how they are measured.
         throughout: whether on their way, too.
 
     Returns the history by its columns, a row for each run and measurement.

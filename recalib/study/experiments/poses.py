@@ -43,7 +43,6 @@ class Stream(Enum):
         """The poses of some runs: the same for every learner, and the first of them for fewer.
 
         Args:
-            seed: of the study.
             iterations, tests: how many poses a run learns from, and is measured on.
             order: of those to learn from. "random": each by itself; "even": a scrambled Sobol
                 sequence.

@@ -36,7 +36,6 @@ def search_for(
     """All trials of some searches, a row each.
 
     Args:
-        budget: what each search may spend.
         first, last: the first of its searches that are done, and one past the last.
     """
     resolved = Resolved.read(scenario)
@@ -71,12 +70,10 @@ class Search:
 
     Attributes:
         robots: makes as many, for the runs of all seeds of the first trial, then of the next.
-        budget: what it may spend.
         poses: from which a trial learns, and on which it is measured, with each of its seeds.
             Raises TypeError: they are for results. The randomness of trials goes by their name.
         fixed: numbers of a trial that are not sought.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
-        learner: its kind.
     """
 
     robots: Callable[[int], Commandable]

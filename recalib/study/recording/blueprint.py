@@ -28,7 +28,6 @@ def arrange(
     """Tabs: the arm with the first learner, and all learners side by side where there are several.
 
     Args:
-        watched: by learner.
         published: initial errors, where there are any.
     """
     learners = list(watched)

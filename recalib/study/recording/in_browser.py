@@ -28,7 +28,6 @@ def script(
 
     Args:
         history: file of its training.
-        measuring: how it is measured.
     """
     resolved, errors = Resolved.read(scenario), errors_of(pd.read_parquet(history))
     search = typical(errors)

@@ -55,7 +55,6 @@ def record(
     It is that of the first of the paper's learners. See `write_recording`.
 
     Args:
-        recording: what is recorded.
         samples: for each of its learners of the paper, the file of the search for it.
         histories: for each of them, the file of its training.
     """
@@ -88,7 +87,6 @@ def write_recording(
     The file appears whole or not at all, and not before it was compared with the experiment.
 
     Args:
-        job: what is recorded.
         learners: its learners, fresh ones of one run.
         measured: for each of the paper's learners, the columns of its history with this seed in the
             experiment.

@@ -77,7 +77,6 @@ class Resolved(Kept):
         """Robots for these runs, with the disturbances of their own.
 
         Args:
-            controller: the scenario's.
             stream: name of that of their disturbances; the scenario's unless given.
         """
         rngs = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
@@ -106,7 +105,6 @@ def resolve(
     """A scenario with its part of the assignment put in, and the initial errors that it causes.
 
     Args:
-        damages: as the configuration has them.
         poses: random ones, over which the errors are averaged.
         assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
