@@ -146,10 +146,8 @@ def _fill(
     sight: Sight,
 ) -> None:
     robot, damages = resolved.controller().robot, damages_among(resolved.damages)
-    main, most = (
-        next(iter(watched.values())),
-        max(its.history.iterations[-1] for its in watched.values()),
-    )
+    main = next(iter(watched.values()))
+    most = max(its.history.iterations[-1] for its in watched.values())
     texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
     rec.send_recording_name(title)
     rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))

@@ -1,6 +1,6 @@
 """What a recording shows is what was measured, where it was."""
 
-from itertools import combinations, permutations, product
+from itertools import permutations
 from types import SimpleNamespace
 
 import numpy as np
@@ -115,34 +115,6 @@ def test_what_is_wrong_is_marked_and_labelled_at_its_link_and_joint(robot, recor
         [["shoulder lift: sag 0.0002 rad/Nm"]],
         [["base: 2.2 cm off"]],
     ]
-
-
-def test_leaders_follow_the_arm_to_labels_off_it_off_the_workspace_and_off_one_another(
-    robot, recording, columns
-):
-    training, workspace = recording[1]["improved"], robot.workspace
-    sight = sight_of(workspace, (training.achieved[0] - training.desired)[:, :3, 3])
-    corners = np.array(list(product((-1, 1), repeat=3))) * workspace.half_ranges[:3]
-    where = [workspace.centre[:3, 3] + corners]
-    for link in robot.links:
-        _, positions = columns(f"/improved/links/{link}", "Transform3D:translation")
-        where.append(np.reshape(positions, (-1, 3)))
-    aside, above = in_picture(sight, np.concatenate(where)).T
-    labels = [
-        columns(f"/improved/wrong/{label}/label", "Points3D:positions")[1][0][0]
-        for label in range(4)
-    ]
-    places = in_picture(sight, np.array(labels))
-    for one, other in combinations(places, 2):
-        assert np.abs(one - other).max() > 0.1, "a line of words"
-    for place, label in zip(places, range(4), strict=True):
-        side = np.sign(place[0])
-        assert (np.abs(place) < 0.95).all()
-        near = np.abs(aside - place[0]) < 0.35  # half as wide as words are
-        assert not near.any() or (side * (above[near] - place[1])).min() > 0.05, label
-        _, leaders = columns(f"/improved/wrong/{label}/leader", "LineStrips3D:strips")
-        ends = np.reshape(leaders, (-1, 2, 3))[:, 1]
-        assert (ends == ends[0]).all() and np.linalg.norm(in_picture(sight, ends[0]) - place) < 0.45
 
 
 @pytest.mark.parametrize("side", [-1, 1])
