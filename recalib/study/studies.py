@@ -14,12 +14,7 @@ from typing import Any
 from recalib.errors import RecalibError
 from recalib.spelling import listed
 from recalib.study.checks.consistency import check
-from recalib.study.configuration.messages import (
-    InvalidConfiguration,
-    Mistake,
-    unknown,
-    unlike,
-)
+from recalib.study.configuration.messages import InvalidConfiguration, Mistake, unknown, unlike
 from recalib.study.configuration.reading import Check, Source, placed, read_study
 from recalib.study.configuration.shipped import SHIPPED, root_of
 from recalib.study.configuration.study import Study

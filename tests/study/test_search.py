@@ -12,12 +12,7 @@ from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
 from recalib.study.experiments.settings import best, build_tuned, rules_of
 from recalib.study.experiments.trials import search_for
-from recalib.study.plan.trainings import (
-    Trainings,
-    rules,
-    searches,
-    training,
-)
+from recalib.study.plan.trainings import Trainings, rules, searches, training
 from recalib.study.plan.trainings import budget as budget_of
 from tests.conftest import ROOT
 from workflow.scripts.call import write

@@ -21,11 +21,7 @@ from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import (
-    Measurements,
-    read_of,
-    read_whole_description,
-)
+from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot

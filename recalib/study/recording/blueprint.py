@@ -21,9 +21,7 @@ LEAST = 0.1  # cm and degrees, to which a plot reaches at least
 
 
 def arrange(
-    watched: Mapping[str, Watched],
-    sight: Sight,
-    published: Mapping[str, float],
+    watched: Mapping[str, Watched], sight: Sight, published: Mapping[str, float]
 ) -> rrb.Blueprint:
     """Tabs: the arm with the first learner, and all learners side by side where there are several.
 

@@ -12,12 +12,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.nominal.robots import Robot, load_robot
 from recalib.numerics.randomness import generator
-from recalib.study.configuration.damages import (
-    Assigned,
-    Entry,
-    damages_among,
-    disturbances_among,
-)
+from recalib.study.configuration.damages import Assigned, Entry, damages_among, disturbances_among
 from recalib.study.configuration.part import Frozen
 from recalib.study.scenarios.nominal import Nominal
 

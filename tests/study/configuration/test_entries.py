@@ -12,11 +12,7 @@ from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
-from recalib.study.configuration.damages import (
-    Assigned,
-    Entry,
-    describe,
-)
+from recalib.study.configuration.damages import Assigned, Entry, describe
 
 ENTRY = TypeAdapter(Entry)
 WORDS = [

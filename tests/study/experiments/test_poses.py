@@ -14,12 +14,7 @@ from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.shipped import DESIGN, SEARCHED
 from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, replay, trials
 from recalib.study.experiments import poses as its
-from recalib.study.experiments.poses import (
-    ResultPoses,
-    SearchPoses,
-    Stream,
-    train_for_results,
-)
+from recalib.study.experiments.poses import ResultPoses, SearchPoses, Stream, train_for_results
 from recalib.study.experiments.trials import Search, search_for
 from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design

@@ -89,8 +89,7 @@ def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
 def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
     flange = nominal_robot(plan.nominal("ur5"))
     assert np.allclose(
-        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1],
-        [*TOOL_POINT, 1],
+        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1], [*TOOL_POINT, 1]
     )
     by_vectors = replace(flange.workspace, coordinates="rotation_vector")
     moved = with_tool_point(replace(flange, workspace=by_vectors), TOOL_POINT)

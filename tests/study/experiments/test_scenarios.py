@@ -9,7 +9,7 @@ from recalib.errors import UnknownName
 from recalib.numerics.randomness import generator
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
-from recalib.study.plan.trainings import Measuring, scenario_of, seeds
+from recalib.study.plan.trainings import Measuring, scenario_of
 from recalib.study.scenarios.plants import resolve
 from workflow.scripts.call import write
 
@@ -50,12 +50,6 @@ def test_poses_are_independent_by_default_or_spread_evenly():
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
 
 
-def test_a_learner_is_trained_with_the_seeds_of_all_its_searches(study):
-    short, long = study.search.searches, study.search.searches_long
-    assert seeds(study, "improved") == short * study.training.seeds
-    assert seeds(study, "ritter") == long * study.training.seeds
-
-
 def test_moves_that_the_controller_refused_by_the_end_are_told(
     study, plan, tmp_path, monkeypatch, capsys
 ):
@@ -65,10 +59,8 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(
     for name in ("build_tuned", "save"):
         monkeypatch.setattr(campaign, name, lambda *_: None)
     write(scenario := tmp_path / "links.json", plan.resolved("links"))
-    rules, measuring = (
-        study.every_learner["improved"],
-        Measuring(tests=2, every=4, evenly=4, measurements=2),
-    )
+    rules = study.every_learner["improved"]
+    measuring = Measuring(tests=2, every=4, evenly=4, measurements=2)
     files = scenario, tmp_path / "improved.csv", tmp_path / "improved.npz"
     found = campaign.train_seeds(*files, rules, 2, 0, 2, measuring, False, 1)
     assert "improved on links: the controller refused 3 moves" in capsys.readouterr().err

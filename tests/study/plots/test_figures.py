@@ -13,14 +13,7 @@ from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
 from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
-from tests.made_up import (
-    NOISE,
-    OF_SEARCHES,
-    MadeUp,
-    evidence_of,
-    few_resamples,
-    without_one,
-)
+from tests.made_up import NOISE, OF_SEARCHES, MadeUp, evidence_of, few_resamples, without_one
 
 
 def bytes_of(figure: str, evidence, folder) -> list[bytes]:
