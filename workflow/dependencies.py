@@ -22,12 +22,9 @@ IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", 
 NAME = re.compile(r"(\w+)(?: as \w+)?")
 
 
-def nothing(wildcards: object) -> tuple[()]:
-    """What a rule has of most things."""
-    return ()
-
-
-def calls(function: str, also: Callable = nothing, reads: Callable = nothing) -> dict:
+def calls(
+    function: str, also: Callable = lambda wildcards: (), reads: Callable = lambda wildcards: ()
+) -> dict:
     """The parameters of a rule that say which function it calls, and what that is made from.
 
     This is a digest of code, and of what is read and no rule makes. It follows from wildcards

@@ -69,7 +69,6 @@ def _shown(recording: Path, root: Path, shipped: bool) -> dict[str, Any]:
     """What the page shows of a recording: its name, its damages in words, a picture if any.
 
     Args:
-        root: the folder that is served.
         shipped: whether the pictures that are committed are of its study.
     """
     name, folder = recording.stem, recording.parents[1]

@@ -14,12 +14,7 @@ from typing import Any
 from recalib.errors import RecalibError
 from recalib.spelling import listed
 from recalib.study.checks.consistency import check
-from recalib.study.configuration.messages import (
-    InvalidConfiguration,
-    Mistake,
-    unknown,
-    unlike,
-)
+from recalib.study.configuration.messages import InvalidConfiguration, Mistake, unknown, unlike
 from recalib.study.configuration.reading import Check, Source, placed, read_study
 from recalib.study.configuration.shipped import SHIPPED, root_of
 from recalib.study.configuration.study import Study
@@ -76,7 +71,6 @@ def read_studies(
     Robots are asked of the scenarios that this call's study trains on; of others, `ask_robots` may.
 
     Args:
-        project: folder of the project.
         files: configuration files of this call, laid over config.yaml one after the other.
         changes: settings of its command line, laid over them.
         asking: whether to ask the robots: they need not be asked for every job of a cluster.

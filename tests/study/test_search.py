@@ -5,26 +5,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, apply
-from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
-from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
-from recalib.loop.training import train
 from recalib.study.configuration.shipped import SEARCHED
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.experiments import samples, search
-from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import best, build_tuned, rules_of
-from recalib.study.experiments.trials import Search, search_for
-from recalib.study.plan.trainings import (
-    Trainings,
-    ritter_short,
-    rules,
-    searches,
-    switched,
-    training,
-)
+from recalib.study.experiments.trials import search_for
+from recalib.study.plan.trainings import Trainings, rules, searches, training
 from recalib.study.plan.trainings import budget as budget_of
 from tests.conftest import ROOT
 from workflow.scripts.call import write
@@ -53,11 +41,6 @@ def test_trials_fill_the_ranges_and_widths_and_rates_fall():
     ].max() <= 1
 
 
-def test_trials_follow_from_their_randomness():
-    assert search.draw(RULES, RANGES, 8, rng(1)).equals(search.draw(RULES, RANGES, 8, rng(1)))
-    assert not search.draw(RULES, RANGES, 8, rng(1)).equals(search.draw(RULES, RANGES, 8, rng(2)))
-
-
 @pytest.mark.parametrize("index", range(5))
 def test_the_second_round_surrounds_the_best_and_stays_inside_the_ranges(index):
     best = search.draw(RULES, RANGES, 8, rng(1)).iloc[index]
@@ -71,16 +54,6 @@ def test_the_second_round_surrounds_the_best_and_stays_inside_the_ranges(index):
     assert near["initial_rate"].between(0.1999, 1.0001).all()
 
 
-def test_a_frame_of_trials_is_a_schedule_of_runs():
-    trials = search.draw(RULES, RANGES, 4, rng(1))
-    schedule = search.schedule(trials, RULES, repeat=3)
-    assert np.array_equal(schedule.initial_width, np.repeat(trials["initial_width"], 3))
-    assert np.array_equal(
-        schedule.final_widths["orientation"][1], np.repeat(trials["orientation/g_kl"], 3)
-    )
-    assert isinstance(search.schedule(trials.iloc[0], RULES).final_rate, float)
-
-
 @pytest.mark.parametrize(
     ("score", "expected"), [("worse", [2.0, 0.75]), ("geometric_mean", [1.0, 0.75])]
 )
@@ -90,27 +63,6 @@ def test_the_score_is_the_part_left_of_the_initial_errors(study, score, expected
     published = study.search.initial.model_copy(update=initial)
     budget = study.search.model_copy(update={"score": score, "initial": published})
     assert search.scores(errors, budget).tolist() == expected
-
-
-def poses_of_a_search(budget, tests, order="random"):
-    words = {"number": 1, "training": "improved_8", "scenario": "luck"}
-    return Stream.SEARCH.draw(budget.seed, range(budget.seeds), 8, tests, order, **words)
-
-
-def test_a_search_takes_the_error_and_the_order_of_poses_that_it_is_told(study, controller, robot):
-    budget = budget_of(study).model_copy(update={"rounds": 1, "trials": 2, "seeds": 1})
-    plant = Plant(controller, apply(robot, [EncoderShift("elbow_joint", 0.05)]))
-
-    def found(order="random", **told):
-        its, poses = rules_of(rules(study, "improved_200")), poses_of_a_search(budget, 20, order)
-        trials = Search(lambda runs: plant, its, budget, poses, **told).all_rounds()
-        return trials["position_error_cm"], trials["orientation_error_deg"], trials["score"]
-
-    usual, coordinates, even = found(), found(error="coordinates"), found(order="even")
-    assert all((one == other).all() for one, other in zip(usual, found(error="norm"), strict=True))
-    for one, other in zip(usual, coordinates, strict=True):
-        assert (other < 0.7 * one).all(), "a mean of three is less than the root of their squares"
-    assert all((one != other).all() for one, other in zip(usual, even, strict=True))
 
 
 @pytest.fixture
@@ -136,40 +88,10 @@ def test_every_search_has_a_sequence_of_its_own(searched):
     assert not set(others["initial_width"]) & set(trials["initial_width"])
 
 
-def test_every_search_has_poses_of_its_own(searched, monkeypatch):
-    same = search.draw(RULES, RANGES, 4, rng(1))
-    monkeypatch.setattr(search, "draw", lambda *args: same.copy())
-    same_trials = searched().groupby(["round", "initial_width"])["position_error_cm"]
-    assert same_trials.nunique().tolist() == [3] * 8
-
-
 def test_a_search_does_not_depend_on_those_beside_it(searched):
     alone = searched(first=1, last=2)
     beside = searched().query("search == 2").reset_index(drop=True)
     pd.testing.assert_frame_equal(alone, beside)
-
-
-def test_another_learner_is_searched_for_alike(study, controller, damaged):
-    """The same trials, in the same columns, on the same poses; errors are those of the learner."""
-    given = {"rounds": 1, "trials": 4, "seeds": 2}
-    budget = budget_of(study).model_copy(update=given)
-    rules = Rules(False, True, False, True)
-    poses = poses_of_a_search(budget, 5)
-    args = (lambda runs: Plant(controller, damaged), rules, budget, poses)
-    first, other = Search(*args).all_rounds(), Search(*args, learner=RadialLearner).all_rounds()
-    numbers = search.columns(rules)
-    assert other[numbers].equals(first[numbers]) and list(other) == list(first)
-    assert (other["score"] != first["score"]).all()
-    trial = other.iloc[1]
-    history = train(
-        Plant(controller, damaged),
-        RadialLearner(rules, search.schedule(trial, rules), runs=2),
-        poses.desired,
-        poses.tests,
-        [8],
-    )
-    error = np.exp(np.log(100 * history.position[:, 0, 0]).mean())
-    assert trial["position_error_cm"] == pytest.approx(error, rel=1e-3)
 
 
 def test_a_training_is_a_learner_and_its_iterations(study):
@@ -262,29 +184,15 @@ def test_a_shipped_sample_was_searched_for_what_the_study_trains(study, path):
     assert samples.winners(path) == best(trials).to_dict("records")
 
 
-@pytest.mark.skipif(not SHIPPED, reason="needs the sample of the search, which `make tune` leaves")
-def test_all_that_is_compared_has_the_same_budget(study):
-    """Searches, trials, seeds and ranges: for all alike, as the files say and as they hold."""
-    heads = {path.stem: samples.searched_for(path) for path in SHIPPED}
-    assert len({head.budget.model_dump_json() for head in heads.values()}) == 1
-    assert len({(head.robot, head.scenario) for head in heads.values()}) == 1
-    compared = [*(training(study, name) for name in switched(study))]
-    compared += [training(study, "improved"), training(study, ritter_short(study))]
-    rungs = [
-        training(study, f"{learner}_{rung}")
-        for learner, ladder in study.experiments.ladder.items()
-        for rung in ladder
-    ]
-    assert len({str(each) for each in compared}) == 10
-    spent = {}
-    for each in (*compared, *rungs):
-        trials = samples.read_sample(ROOT / SEARCHED / f"{each}.csv")
-        holds = heads[str(each)].searches, tuple(trials.groupby("search").size())
-        spent.setdefault(each.iterations, set()).add(holds)
-    assert all(len(budgets) == 1 for budgets in spent.values()), "equal at equal iterations"
-    fewest = {iterations: min(budgets)[0] for iterations, budgets in spent.items()}
-    assert all(fewest[each] >= (12 if each <= 500 else 4) for each in fewest)
-
-
 def test_there_is_a_shipped_sample_for_every_training(study):
     assert {path.stem for path in SHIPPED} == set(Trainings(study).tuned())
+
+
+def test_all_that_is_compared_has_the_same_budget(study):
+    """As many searches at equal iterations; with the same trials and seeds, as files say above."""
+    spent = {}
+    for name in Trainings(study).tuned():
+        spent.setdefault(training(study, name).iterations, set()).add(searches(study, name))
+    assert len(spent) > 3
+    for iterations, (each,) in spent.items():
+        assert each >= (12 if iterations <= 500 else 4)

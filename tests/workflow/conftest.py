@@ -3,15 +3,19 @@
 That a killed run goes on is tested, too, and takes no run of its own.
 """
 
+import shutil
 from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
+from recalib.study.studies import LOCK
+from tests.conftest import ROOT
 from tests.project import Project, kill, wait_until
 
 CORES = "--cores", "2"
+READ = "Makefile", "config.yaml", LOCK, "workflow/expected.csv", "workflow/real/ur5.toml"
 SMALL = *CORES, "--configfile", "tests/tiny.yaml"
 
 
@@ -25,6 +29,16 @@ class Killed(NamedTuple):
 
     project: Project
     done: dict[Path, int]
+
+
+@pytest.fixture
+def with_studies(tmp_path) -> Path:
+    """What make and the reading of studies see of the project."""
+    for part in READ:
+        (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / part, tmp_path / part)
+    shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
+    return tmp_path
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,6 @@
 """A study of one's own: as docs/bend.md has it, by the commands that the page names."""
 
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -16,8 +15,6 @@ from workflow import readable
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
 
-NAMED = "workflow/expected.csv", "workflow/shipped.json", "workflow/real/ur5.toml"
-
 
 def make(folder, *arguments) -> subprocess.CompletedProcess:
     """What make would do."""
@@ -27,14 +24,9 @@ def make(folder, *arguments) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture
-def project(tmp_path):
-    """What the commands of the page see of the project."""
-    for part in ("Makefile", "config.yaml", *NAMED):
-        (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / part, tmp_path / part)
-    shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
-    (tmp_path / "my_arm.yaml").write_text(STUDY, encoding="utf-8")
-    return tmp_path
+def project(with_studies):
+    (with_studies / "my_arm.yaml").write_text(STUDY, encoding="utf-8")
+    return with_studies
 
 
 def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):

@@ -18,6 +18,11 @@ LONG = {"quick", "faults", "reproduce", "mutants"}
 LONG |= {"tune", "power", "reference", "universes", "horizons"}
 TIME = re.compile(r"minutes|hour|time left")
 SETTING = ". .venv/bin/activate", "cd examples"  # for the commands after it
+LABORATORY = "tests/laboratory/test_command_line.py"  # with a table and a URDF of its own
+PICTURES = "tests/vision/test_from_pictures.py"  # that are rendered
+CAMERAS = "tests/vision/test_several_cameras.py"
+EXAMPLE = "tests/test_library.py::test_an_example_ends_with_small_errors"
+STATION = "tests/station/test_program.py::test_the_example_in"
 EXECUTED = {  # by a test, or by the check of a change
     "make": ".ci/run",
     "make quick": ".ci/run",
@@ -26,63 +31,37 @@ EXECUTED = {  # by a test, or by the check of a change
     "cp workflow/studies/bent.yaml my_arm.yaml": ".ci/run",
     "make study STUDY=my_arm": ".ci/run",
     "pip install .": "tests/test_library.py::test_the_wheel_works_where_nothing_of_the_studies_is",
-    "../.venv/bin/python damage_and_train.py": (
-        "tests/test_library.py::test_an_example_ends_with_small_errors"
+    "../.venv/bin/python damage_and_train.py": EXAMPLE,
+    ".venv/bin/python examples/own_learner.py": EXAMPLE,
+    "recalib calibrate ARM.urdf measurements.csv --tool tool0": (
+        f"{LABORATORY}::test_a_calibration_is_a_folder_of_files"
     ),
-    ".venv/bin/python examples/own_learner.py": (
-        "tests/test_library.py::test_an_example_ends_with_small_errors"
+    "recalib correct calibration/ desired.csv": (
+        f"{LABORATORY}::test_commands_take_the_identified_arm_to_what_is_desired"
     ),
-}
-EXECUTED |= {  # with a table and a URDF of the test's own
-    f"recalib {command}": f"tests/laboratory/test_command_line.py::{test}"
-    for command, test in (
-        (
-            "calibrate ARM.urdf measurements.csv --tool tool0",
-            "test_a_calibration_is_a_folder_of_files",
-        ),
-        (
-            "correct calibration/ desired.csv",
-            "test_commands_take_the_identified_arm_to_what_is_desired",
-        ),
-        ("next calibration/", "test_the_next_postures_are_within_limits_and_teach"),
-    )
-}
-EXECUTED |= {  # with pictures that are rendered
-    f"recalib {command}": f"tests/vision/test_from_pictures.py::{test}"
-    for command, test in (
-        ("board", "session"),
-        ("observe pictures/ joints.csv", "session"),
-        (
-            "calibrate ARM.urdf observed/ --tool tool0",
-            "test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre",
-        ),
-    )
-}
-EXECUTED |= {  # with folders of the test's own
-    f"recalib {command}": f"tests/vision/{test}"
-    for command, test in (
-        (
-            "observe left/ left.csv --name left --out observed_left",
-            "test_from_pictures.py::test_a_camera_has_its_name_and_a_board_that_of_its_file",
-        ),
-        (
-            "observe right/ right.csv --name right --out observed_right",
-            "test_from_pictures.py::test_a_camera_has_its_name_and_a_board_that_of_its_file",
-        ),
-        (
-            "calibrate ARM.urdf observed_left/ observed_right/ --tool tool0",
-            "test_several_cameras.py::test_each_camera_is_written_by_its_name",
-        ),
-    )
-}
-EXECUTED |= {  # with another folder
-    f"recalib live {station} ur10_robot.urdf --tool tool0 --yes": (
-        f"tests/station/test_program.py::{test}"
-    )
-    for station, test in (
-        ("examples/station.py:BentUR10", "test_the_example_in_python_is_a_station"),
-        ('"node examples/station.js"', "test_the_example_in_another_language_is_a_station"),
-    )
+    "recalib next calibration/": (
+        f"{LABORATORY}::test_the_next_postures_are_within_limits_and_teach"
+    ),
+    "recalib board": f"{PICTURES}::session",
+    "recalib observe pictures/ joints.csv": f"{PICTURES}::session",
+    "recalib calibrate ARM.urdf observed/ --tool tool0": (
+        f"{PICTURES}::test_pictures_lead_to_an_arm_that_is_right_to_half_a_millimetre"
+    ),
+    "recalib observe left/ left.csv --name left --out observed_left": (
+        f"{PICTURES}::test_a_camera_has_its_name_and_a_board_that_of_its_file"
+    ),
+    "recalib observe right/ right.csv --name right --out observed_right": (
+        f"{PICTURES}::test_a_camera_has_its_name_and_a_board_that_of_its_file"
+    ),
+    "recalib calibrate ARM.urdf observed_left/ observed_right/ --tool tool0": (
+        f"{CAMERAS}::test_each_camera_is_written_by_its_name"
+    ),
+    "recalib live examples/station.py:BentUR10 ur10_robot.urdf --tool tool0 --yes": (
+        f"{STATION}_python_is_a_station"
+    ),
+    'recalib live "node examples/station.js" ur10_robot.urdf --tool tool0 --yes': (
+        f"{STATION}_another_language_is_a_station"
+    ),
 }
 PANDA = (  # one after the other, on an arm in MuJoCo
     "python examples/rehearsal/panda.py",

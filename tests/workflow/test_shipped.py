@@ -1,7 +1,6 @@
 """Which studies a call has, and which of them may write what is committed."""
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
@@ -9,18 +8,13 @@ import pytest
 from recalib.study import studies
 from recalib.study.configuration.messages import InvalidConfiguration
 from recalib.study.studies import LOCK, NameTaken, NotShipped, read_studies, ship
-from tests.conftest import ROOT
 
 
 @pytest.fixture
-def project(tmp_path, monkeypatch):
-    """The configuration of the project; its robots are not asked."""
-    for part in ("config.yaml", LOCK, "workflow/expected.csv", "workflow/real/ur5.toml"):
-        (tmp_path / part).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / part, tmp_path / part)
-    shutil.copytree(ROOT / "workflow" / "studies", tmp_path / "workflow" / "studies")
+def project(with_studies, monkeypatch):
+    """Its robots are not asked."""
     monkeypatch.setattr(studies, "ask_robots", lambda study, scenarios: [])
-    return tmp_path
+    return with_studies
 
 
 def test_the_shipped_study_is_that_of_the_lock_and_others_stand_beside_it(project):

@@ -1,19 +1,15 @@
 """The whole workflow on a small study, in a copy of the project."""
 
 import subprocess
-from itertools import product
 
-import numpy as np
 import pandas as pd
 import pytest
 
 from recalib.learners.learned import load
-from recalib.study.experiments.poses import Stream, train_for_results
-from recalib.study.plan.competitors import make_peer
 from recalib.study.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.project import Project
-from tests.workflow.conftest import CORES, SMALL
+from tests.workflow.conftest import CORES
 
 pytestmark = pytest.mark.slow
 shared = pytest.mark.xdist_group(name="workflow")  # one after the other: they share the copy
@@ -94,24 +90,6 @@ def test_the_same_configuration_gives_the_same_bytes_and_all_searches_the_same_t
     for training, searches in (("improved_60", 3), ("ritter_120", 2)):
         trials = pd.read_csv(continued.results / "search" / f"{training}.csv", skiprows=1)
         assert trials.groupby(["search", "round"]).size().tolist() == [4] * 2 * searches
-
-
-def test_a_scenario_of_the_benchmark_is_the_same_alone_and_beside_others(tmp_path):
-    project = Project(tmp_path, *SMALL, name="tiny")
-    chosen, path = "benchmark={scenarios: [translation, noise]}", project.results / "benchmark.csv"
-    project.run("--config", chosen, "--", str(path.relative_to(tmp_path))).well()
-    table = pd.read_csv(path).set_index(["scenario", "moves"])
-    assert table.index.tolist() == [*product(("translation", "noise"), (1, 2))]
-    resolved, seed = Resolved.read(project.results / "scenarios" / "noise.json"), 1996
-    controller, runs = resolved.controller(), range(2)
-    alone = train_for_results(
-        resolved.plant(controller, seed, runs),
-        make_peer("affine", 2, controller.robot),
-        Stream.SCENARIO.draw(seed, runs, 2, 20, scenario="noise"),
-        [1, 2],
-    )
-    means = 100 * alone.position[..., 0].mean(axis=0)
-    assert np.allclose(table.loc["noise", "position_error_cm"], means, rtol=1e-5), "six digits"
 
 
 @shared

@@ -160,17 +160,9 @@ rule ensemble:
         "../scripts/call.py"
 
 
-MEASURED = ["improved", "ritter"]
-
-
-def samples_of_measured(wildcards):
-    return [sample(wildcards, name) for name in MEASURED]
-
-
 rule bench:
     input:
         scenario=own_scenario,
-        samples=samples_of_measured,
     output:
         "{root}/bench.txt",
     log:
@@ -179,11 +171,8 @@ rule bench:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.experiments.speed.measure_speed", reads=samples_of_measured),
-        arguments=lambda w: as_text(
-            learners={name: rules_of(study(w), name) for name in MEASURED},
-        ),
+        **calls("recalib.study.experiments.speed.measure_speed"),
     message:
-        "Measure the speed of moves and trainings"
+        "Measure the speed of moves"
     script:
         "../scripts/call.py"

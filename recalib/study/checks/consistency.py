@@ -15,14 +15,7 @@ from recalib.damaged.kinds import DISTURBANCES
 from recalib.damaged.words import words
 from recalib.spelling import instead
 from recalib.study.configuration.damages import Assigned, Entry, describe
-from recalib.study.configuration.messages import (
-    KeyPath,
-    Mistake,
-    dotted,
-    shown,
-    unknown,
-    unlike,
-)
+from recalib.study.configuration.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.claims import missing

@@ -3,7 +3,7 @@
 Separate from the other checks, since it loads the robots. Only scenarios that run are checked.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cache
 
 import numpy as np
@@ -41,8 +41,7 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
         except RecalibError as error:
             found.append(_of_robot(name, error))
         else:
-            slides = list(_of_slides(robots[name]))
-            found += slides or _of_links(robots[name], entry.links)
+            found += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
     if found:
         return found
     assigned = []
@@ -58,7 +57,8 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
         if any(isinstance(entry, Assigned) for own in its for entry in study.scenarios[own]):
             assigned.append(robots[name])
     if assigned and not found:
-        found += _of_assignment(study, assigned)
+        each = (list(_of_assignment(robot, study)) for robot in assigned)
+        found += next(filter(None, each), [])  # the others' would say the same again
     if study.experiments.evidence and not found:
         found += _of_mapping(robots[study.robot])
         found += _of_series(study, robots[study.robot])
@@ -108,7 +108,8 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
             lacking[(*path, next(iter(said)))] = error
             continue
         done.append(entry)
-        amount = next(key for key in said if _grows(entry, key))
+        amounts = {word.key for word in words(type(entry)).values() if word.grows}
+        amount = next(key for key in said if key in amounts)
         if error:
             yield unlike((*path, amount), said[amount], error.valid)
             break
@@ -124,11 +125,6 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
         yield Mistake(("scenarios", scenario), fault, asked)
     else:
         yield from (unknown(where, its.name, its.valid) for where, its in lacking.items())
-
-
-def _grows(damage: Damage, key: str) -> bool:
-    """Whether a word of a damage says how large it is."""
-    return any(word.key == key and word.grows for word in words(type(damage)).values())
 
 
 def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
@@ -156,15 +152,8 @@ def _of_slides(robot: Robot) -> Iterator[Mistake]:
             )
 
 
-def _of_assignment(study: Study, robots: Sequence[Robot]) -> Iterator[Mistake]:
+def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
     """Too few links or joints of a robot, or links that are too short, for the paper's damage."""
-    for robot in robots:
-        if mistakes := [*_of_assignment_to(robot, study)]:
-            yield from mistakes
-            return  # the others' would say the same again
-
-
-def _of_assignment_to(robot: Robot, study: Study) -> Iterator[Mistake]:
     damage, links = study.paper_damage, study.robots[robot.name].links
     own, home = ("robots", robot.name, "links"), ("robots", robot.name, "home")
     for key, amounts, other, there in (

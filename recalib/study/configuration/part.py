@@ -14,3 +14,5 @@ class Frozen(BaseModel):
 
 class Part(Frozen):
     """A part of the configuration: below each key stands its meaning, for the schema."""
+
+    model_config = ConfigDict(use_attribute_docstrings=True)

@@ -3,55 +3,31 @@
 `python -m recalib.study.configuration.schema` writes workflow/schemas/config.schema.json.
 """
 
-import ast
-import inspect
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 from pydantic.json_schema import GenerateJsonSchema
 
 from recalib.files.storage import whole
 from recalib.study.configuration.messages import KeyPath
-from recalib.study.configuration.part import Part
 from recalib.study.configuration.study import Study
 
 FILE = Path("workflow/schemas/config.schema.json")
 
 
-class _WithMeanings(GenerateJsonSchema):
-    """With what stands below each key, and without titles, which would repeat the keys."""
+class _WithoutTitles(GenerateJsonSchema):
+    """Titles would repeat the keys."""
 
     def field_title_should_be_set(self, schema) -> bool:
         return False
-
-    def model_schema(self, schema) -> dict:
-        made = super().model_schema(schema)
-        for key, meaning in _meanings(schema["cls"]).items():
-            made["properties"][key]["description"] = meaning
-        return made
-
-
-def _meanings(part: type) -> dict[str, str]:
-    """The text below each key of a part; pydantic itself would read them at each start."""
-    found = {}
-    for kind in reversed(part.__mro__):
-        if issubclass(kind, Part):
-            written: Any = ast.parse(inspect.getsource(kind)).body[0]
-            for key, below in pairwise(written.body):
-                match key, below:
-                    case ast.AnnAssign(ast.Name(name)), ast.Expr(ast.Constant(str(text))):
-                        found[name] = inspect.cleandoc(text)
-    return found
 
 
 @cache  # making it takes longer than reading a study
 def json_schema() -> dict:
     """The schema of a configuration."""
-    return Study.model_json_schema(schema_generator=_WithMeanings)
+    return Study.model_json_schema(schema_generator=_WithoutTitles)
 
 
 def text() -> str:

@@ -63,13 +63,10 @@ def compete(
 
     Args:
         scenarios: files of the scenarios as resolved.
-        name: of the learner.
         rules: its settings, if it is one of the paper.
         seeds: of each scenario.
         moves: budgets at which it is measured.
         longer: more of them, for a learner of the paper.
-        tests: poses to measure on.
-        seed: of the study.
         sample: for a learner of the paper, file of the searches for it, whose winners the seeds
             get in turn.
 

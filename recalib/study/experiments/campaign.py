@@ -36,15 +36,10 @@ def train_seeds(
     The poses of a seed are the same for every learner.
 
     Args:
-        scenario: file of the scenario as resolved.
-        sample: file of the searches for this training.
         learned: file for what they learn.
-        rules: of the learner.
         seeds: of each search.
         first, last: the first of the training's seeds that are trained, and one past the last.
-        measuring: how they are measured.
         throughout: whether on their way, too.
-        seed: of the study.
 
     Returns the history by its columns, a row for each run and measurement.
     """

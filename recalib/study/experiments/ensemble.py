@@ -52,14 +52,9 @@ def train_draws(
 
     Args:
         sample: file of the searches for this training, whose winners the robots get in turn.
-        nominal: the robot that is damaged.
         shorten, shift: the paper's damage [m, rad]; see `Ways`.
-        series: its name.
         scales: factors of all amounts.
         first, last: the first robot of the series that is one of them, and one past the last.
-        rules: of the learner.
-        tests: poses to measure on.
-        seed: of the study.
 
     Returns a row for each robot and scale.
     """

@@ -14,12 +14,6 @@ def put_together(chunks: list[Path]) -> pa.Table:
 
 
 def training(histories: list[Path], parts: list[Path], learned: Path) -> pa.Table:
-    """The history of a training.
-
-    Args:
-        histories: files of those of its chunks.
-        parts: files of what these learned.
-        learned: file for what all of it learned.
-    """
+    """The history of a training, from those of its chunks; what these learned is joined, too."""
     join(learned, parts)
     return put_together(histories)

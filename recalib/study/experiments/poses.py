@@ -19,14 +19,6 @@ SEARCHED = "search "  # what the streams of searches begin with, and no others
 
 
 @unique
-class Use(Enum):
-    """What a run does at its poses."""
-
-    LEARNING = "desired"
-    MEASURING = "tests"
-
-
-@unique
 class Stream(Enum):
     """What poses are drawn for."""
 
@@ -38,7 +30,6 @@ class Stream(Enum):
     ENSEMBLE = "ensemble"
     TWIN = "twin"
     REPLAY = "replay"
-    SPEED = "bench"
 
     def draw(
         self,
@@ -52,7 +43,6 @@ class Stream(Enum):
         """The poses of some runs: the same for every learner, and the first of them for fewer.
 
         Args:
-            seed: of the study.
             iterations, tests: how many poses a run learns from, and is measured on.
             order: of those to learn from. "random": each by itself; "even": a scrambled Sobol
                 sequence.
@@ -63,13 +53,10 @@ class Stream(Enum):
             raise ValueError(f"stream {self.name}: {name!r} is the name of a search")
         kind = SearchPoses if searched else ResultPoses
 
-        def drawn(use: Use, count: int, how: str) -> np.ndarray:
-            return np.stack(
-                [ORDERS[how](generator(seed, name, run, use.value), count) for run in runs]
-            )
+        def drawn(use: str, count: int, how: str) -> np.ndarray:
+            return np.stack([ORDERS[how](generator(seed, name, run, use), count) for run in runs])
 
-        desired = drawn(Use.LEARNING, iterations, order)
-        return kind(name, desired, drawn(Use.MEASURING, tests, "random"))
+        return kind(name, drawn("desired", iterations, order), drawn("tests", tests, "random"))
 
 
 def _independent(random: np.random.Generator, count: int) -> np.ndarray:

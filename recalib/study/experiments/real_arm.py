@@ -11,6 +11,7 @@ import pinocchio as pin
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import Calibration
 from recalib.identification.observations import Observations
+from recalib.laboratory.description import Description
 from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm, tool_frame
@@ -20,11 +21,7 @@ from recalib.numerics.randomness import generator
 from recalib.study.configuration.study import Learner
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import (
-    Measurements,
-    read_of,
-    read_whole_description,
-)
+from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
 from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
@@ -46,6 +43,13 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
     workspace = replace(robot.workspace, centre=arm.forward(robot.home[None])[0])
     return replace(robot, arm=arm, workspace=workspace)
+
+
+def _described(description: Path, nominal: Nominal) -> tuple[Description, Robot]:
+    """What tables do not say themselves, and the robot with its tool where they measured it."""
+    said = read_whole_description(description)
+    assert said.target is not None  # as of a whole description
+    return said, with_tool_point(nominal_robot(nominal), said.target[:3, 3])
 
 
 def identified(kind: str, arm: Arm, measurements: Measurements) -> Calibration:
@@ -88,7 +92,6 @@ def remaining_errors(
     """Distances (m,) [m] that a peer leaves at poses it has not learned from.
 
     Args:
-        learner: name of the peer.
         robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
         known, unknown: what it learns from, and what it is tested on.
 
@@ -119,17 +122,12 @@ def learn_from_tables(
 
     Args:
         description: what these tables do not say themselves.
-        nominal: the robot.
-        learner: name of the peer.
         poses: how many to learn from.
         subsets: for each number of poses.
-        seed: of the study.
 
     Returns a row for each number of poses and subset, with the mean error in mm.
     """
-    said = read_whole_description(description)
-    assert said.target is not None  # as of a whole description
-    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
+    said, robot = _described(description, nominal)
     known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
     rows = []
     for count in poses:
@@ -160,18 +158,12 @@ def learn_on_twin(
     Args:
         description: what that table does not say itself.
         sample: file of the searches for this training, whose winners the subsets get in turn.
-        nominal: the robot.
-        name, rules: of the learner.
         poses: numbers of moves after which it is measured.
         subsets: trainings.
-        tests: poses to measure on.
-        seed: of the study.
 
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
-    said = read_whole_description(description)
-    assert said.target is not None  # as of a whole description
-    robot = with_tool_point(nominal_robot(nominal), said.target[:3, 3])
+    said, robot = _described(description, nominal)
     twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}

@@ -13,14 +13,7 @@ from recalib.study.scenarios.plants import Resolved
 
 
 def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> pd.DataFrame:
-    """For each array that the learner holds, the largest difference between both teachers.
-
-    Args:
-        scenario: file of the scenario as resolved.
-        sample: file of the searches for this training.
-        rules: of the learner.
-        seed: of the study.
-    """
+    """For each array that the learner holds, the largest difference between both teachers."""
     resolved, iterations = Resolved.read(scenario), rules.iterations
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired

@@ -4,6 +4,7 @@ Reading the head of a file needs no table: the workflow does it whenever it star
 """
 
 import csv
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,22 +74,18 @@ def winners(path: str | Path) -> list[dict[str, float]]:
 
     As `best(read_sample(path))`, without a table: every training starts with this.
     """
-    found: dict[float, dict[str, float]] = {
-        number: {} for number in range(1, searched_for(path).searches + 1)
+    trials: dict[float, list[dict[str, float]]] = {
+        number: [] for number in range(1, searched_for(path).searches + 1)
     }
     try:
         with Path(path).open(encoding="utf-8", newline="") as lines:
             next(lines)
             for row in csv.DictReader(lines):
                 trial = {name: float(text) for name, text in row.items()}
-                best = found[trial["search"]]
-                if not best or trial["score"] < best["score"]:
-                    found[trial["search"]] = trial
-    except (KeyError, TypeError, ValueError):
+                trials[trial["search"]].append(trial)
+        return [min(its, key=itemgetter("score")) for its in trials.values()]
+    except (KeyError, TypeError, ValueError):  # also where a search has no trial
         raise BrokenSample(path) from None
-    if not all(found.values()):  # a search without any trial
-        raise BrokenSample(path)
-    return list(found.values())
 
 
 def read_sample(path: str | Path) -> "pd.DataFrame":

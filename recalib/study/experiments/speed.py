@@ -1,4 +1,4 @@
-"""How fast are moves and trainings, in one process and beside a bare loop over Pinocchio?"""
+"""How fast are moves, in one process and beside a bare loop over Pinocchio?"""
 
 import time
 from pathlib import Path
@@ -10,12 +10,9 @@ from recalib.damaged.damage import DamagedArm
 from recalib.damaged.plant import Plant
 from recalib.nominal.kinematics import tool_frame
 from recalib.nominal.robots import Robot
-from recalib.study.configuration.study import Learner
-from recalib.study.experiments.poses import Stream, train_for_results
-from recalib.study.experiments.settings import build_tuned
 from recalib.study.scenarios.plants import Resolved
 
-RUNS, MOVES, REPEATS, ITERATIONS = 20, 500, 5, 500
+RUNS, MOVES, REPEATS = 20, 500, 5
 
 
 def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
@@ -36,14 +33,8 @@ def seconds(function, *arguments) -> float:
     return time.perf_counter() - start
 
 
-def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learner]) -> str:
-    """A line for moves, one for the bare loop, one for their ratio, and one for each learner.
-
-    Args:
-        scenario: file of the scenario as resolved.
-        samples: for each learner, file of the searches for it.
-        learners: their rules by name.
-    """
+def measure_speed(scenario: Path) -> str:
+    """A line for moves, one for the bare loop, and one for their ratio."""
     resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
@@ -59,19 +50,10 @@ def measure_speed(scenario: Path, samples: list[Path], learners: dict[str, Learn
         for _ in range(REPEATS)
     ]
     ours, bare = np.median(pairs, axis=0) / len(angles)
-    lines = [
-        f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second",
-        f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second",
-        f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}",
-    ]
-    poses = Stream.SPEED.draw(0, range(RUNS), ITERATIONS, tests=1)
-    for (name, rules), sample in zip(learners.items(), samples, strict=True):
-        learner = build_tuned(rules, sample, range(1, RUNS + 1))
-        arguments = Plant(controller, arm), learner, poses, [ITERATIONS]
-        spent = seconds(train_for_results, *arguments) / (RUNS * ITERATIONS)
-        lines.append(
-            f"{name}: {1e6 * spent:.0f} us an iteration and seed,"
-            f" {10_000 * spent:.2f} s for 10,000 iterations"
-        )
-    print(*lines, sep="\n")
-    return "\n".join(lines) + "\n"
+    text = (
+        f"moves, {RUNS} runs side by side: {1 / ours:,.0f} a second\n"
+        f"bare loop of one Jacobian and one forward kinematics a move: {1 / bare:,.0f} a second\n"
+        f"ratio, median of {REPEATS} pairs: {np.median([a / b for a, b in pairs]):.1f}\n"
+    )
+    print(text, end="")
+    return text

@@ -36,12 +36,7 @@ def search_for(
     """All trials of some searches, a row each.
 
     Args:
-        scenario: file of the scenario as resolved.
-        training: its name.
-        learner: its rules.
-        budget: what each search may spend.
         first, last: the first of its searches that are done, and one past the last.
-        tests: poses on which a trial is measured.
     """
     resolved = Resolved.read(scenario)
     controller, seeds = resolved.controller(), [*range(budget.seeds)]
@@ -75,13 +70,10 @@ class Search:
 
     Attributes:
         robots: makes as many, for the runs of all seeds of the first trial, then of the next.
-        rules: of the learner.
-        budget: what it may spend.
         poses: from which a trial learns, and on which it is measured, with each of its seeds.
             Raises TypeError: they are for results. The randomness of trials goes by their name.
         fixed: numbers of a trial that are not sought.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
-        learner: its kind.
     """
 
     robots: Callable[[int], Commandable]

@@ -79,15 +79,14 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
         for level, factor in zip(LEVELS, factors, strict=True):
             if np.isfinite(factor.mean):
                 # beyond the ends where a learner, in some studies, does not get there
-                low, high = np.clip(factor[1:], 1, TOP)
-                axes.vlines(100 * level * aside, low, high, color=style.color)
+                there, (low, high) = 100 * level * aside, np.clip(factor[1:], 1, TOP)
+                axes.vlines(there, low, high, color=style.color)
                 for end, marker in ((1, "v"), (TOP, "^")):
                     if end in (low, high):
-                        there = 100 * level * aside
                         axes.scatter(
                             there, end, s=20, marker=marker, color=style.color, clip_on=False
                         )
-                axes.scatter(100 * level * aside, factor.mean, zorder=3, **style.signs())
+                axes.scatter(there, factor.mean, zorder=3, **style.signs())
         ours = leading(evidence, name)
         if np.isfinite(ours.mean):
             final = ladders[IMPROVED][own].mean(axis=(0, 1))

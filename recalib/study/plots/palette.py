@@ -20,8 +20,6 @@ class Style:
     Attributes:
         color: unlike that of all else in a figure, to the colour-blind, too; a test measures it.
         marker: empty for none.
-        linestyle: as Matplotlib has them.
-        label: what it is called.
     """
 
     color: str
@@ -40,13 +38,7 @@ class Style:
 
 @dataclass(frozen=True)
 class ErrorStyle(Style):
-    """How one of the two errors is shown; its label is that of an axis.
-
-    Attributes:
-        column: of a table that has it.
-        kind: position or orientation.
-        unit: as it is written behind a number.
-    """
+    """How one of the two errors is shown; its label is that of an axis."""
 
     column: str
     kind: str

@@ -20,8 +20,6 @@ class Sheet:
     Args:
         columns: widths [inch] of the words on the left, the panels, the words on the right.
         heights: of the panels [inch].
-        title: what the figure shows.
-        explained: what a reader has to know, below the title.
         below: inches for a legend.
     """
 

@@ -111,7 +111,6 @@ def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) 
 
     Args:
         axes: whose legend is that of all panels.
-        columns: of the legend.
         explained: what its signs mean.
     """
     title(figure, text)

@@ -88,8 +88,10 @@ def figure14(evidence: Evidence) -> Figure:
     heights = [sum(row.height for row in its) for its in panels.values()]
     sheet = Sheet((LEFT, PLOT, RIGHT), heights, _heading(shown), _explained(evidence, shown), 0.6)
     for axes, (kind, its) in zip(sheet.panels, panels.items(), strict=True):
-        limits = _scale(axes, kind)
-        _draw(axes, its, limits)
+        limits, (_, top) = _scale(axes, kind), axes.get_ylim()
+        for row in its:
+            _draw_row(axes, row, top - row.height / 2, limits)
+            top -= row.height
     heads = {-LEFT / PLOT: "the paper says", 1.03: "verdict", 1.32: "mean (95 % interval), spread"}
     for place, head in heads.items():
         sheet.head(place, head)
@@ -116,14 +118,6 @@ def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
         f" {replicates} replicates. Bold line in the shaded part: supported, unless the"
         " study with the choices of this project says the opposite. Paler: other systems."
     )
-
-
-def _draw(axes: Axes, its: Sequence[Row], limits: tuple[float, float]) -> None:
-    """Rows from above."""
-    _, top = axes.get_ylim()
-    for row in its:
-        _draw_row(axes, row, top - row.height / 2, limits)
-        top -= row.height
 
 
 def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) -> None:

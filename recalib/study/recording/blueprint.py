@@ -21,14 +21,11 @@ LEAST = 0.1  # cm and degrees, to which a plot reaches at least
 
 
 def arrange(
-    watched: Mapping[str, Watched],
-    sight: Sight,
-    published: Mapping[str, float],
+    watched: Mapping[str, Watched], sight: Sight, published: Mapping[str, float]
 ) -> rrb.Blueprint:
     """Tabs: the arm with the first learner, and all learners side by side where there are several.
 
     Args:
-        watched: by learner.
         published: initial errors, where there are any.
     """
     learners = list(watched)

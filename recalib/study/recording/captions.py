@@ -16,7 +16,6 @@ from recalib.study.recording.watched import Watched
 from recalib.study.scenarios.plants import Resolved
 
 TEXTS = Path("workflow/recording")
-NOTHING = 1e-3  # cm and degrees: an error below it is none
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -24,7 +23,6 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
     """The text beside the first learner's arm, in Markdown."""
     main, damages = next(iter(watched.values())), damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
-    columns = main.history.columns()
     said = {
         "robot": resolved.robot.upper(),
         "damages": "; ".join(map(in_words, damages)),
@@ -32,8 +30,6 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
         "repeated": main.scatter.shape[1],
         "times": enlarged(main),
         "poses": len(main.desired),
-        "stay": not damages and max(max(columns[error]) for error in ERRORS) < NOTHING,
-        "nothing": f"{NOTHING:g}",
         "its": _told(main),
     }
     return _rendered("about", said)

@@ -27,12 +27,7 @@ def script(
     """A script that defines STUDY: robot, damage, learner and poses; lengths in m, angles in rad.
 
     Args:
-        scenario: file of the scenario as resolved.
-        sample: file of the searches for the learner.
         history: file of its training.
-        learner: its rules.
-        measuring: how it is measured.
-        seed: of the study.
     """
     resolved, errors = Resolved.read(scenario), errors_of(pd.read_parquet(history))
     search = typical(errors)

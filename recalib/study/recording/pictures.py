@@ -60,7 +60,6 @@ def take_pictures(
     """Write what the viewer shows of a recording, one PNG for each frame.
 
     Args:
-        recording: the file.
         pictures: the frame that each shows.
         view: name of the one that is shown, such as `phases.ARM`; all that the window shows
             unless given. In a smaller window, words are larger beside the rest.

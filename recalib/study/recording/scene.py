@@ -36,16 +36,7 @@ AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
 
 @dataclass(frozen=True)
 class Scene:
-    """A learner's training on its way into a recording, below an entity of the learner's name.
-
-    Attributes:
-        rec: the recording.
-        learner: its name.
-        workspace: of the robot.
-        watched: the training.
-        motion: of the arm that shows it.
-        sight: in which words stand.
-    """
+    """A learner's training on its way into a recording, below an entity of the learner's name."""
 
     rec: rr.RecordingStream
     learner: str

@@ -55,9 +55,6 @@ def record(
     It is that of the first of the paper's learners. See `write_recording`.
 
     Args:
-        rrd: its file.
-        recording: what is recorded.
-        scenario: file of the scenario as resolved.
         samples: for each of its learners of the paper, the file of the search for it.
         histories: for each of them, the file of its training.
     """
@@ -90,7 +87,6 @@ def write_recording(
     The file appears whole or not at all, and not before it was compared with the experiment.
 
     Args:
-        job: what is recorded.
         learners: its learners, fresh ones of one run.
         measured: for each of the paper's learners, the columns of its history with this seed in the
             experiment.
@@ -150,10 +146,8 @@ def _fill(
     sight: Sight,
 ) -> None:
     robot, damages = resolved.controller().robot, damages_among(resolved.damages)
-    main, most = (
-        next(iter(watched.values())),
-        max(its.history.iterations[-1] for its in watched.values()),
-    )
+    main = next(iter(watched.values()))
+    most = max(its.history.iterations[-1] for its in watched.values())
     texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
     rec.send_recording_name(title)
     rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))

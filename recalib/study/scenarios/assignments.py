@@ -4,7 +4,7 @@ The paper says by how much three links were shortened and three encoders were sh
 the initial errors were. It says neither which links and encoders nor which signs.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import permutations, product
 
 import numpy as np
@@ -20,25 +20,16 @@ from recalib.study.scenarios.plants import Assignment, nominal_controller
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 
 
-def shortenings(
-    links: Sequence[str], lengths: Sequence[float], along: Along
-) -> list[tuple[LinkShortening, ...]]:
-    """Every way to take the lengths [m] off as many different links."""
+def _distinct(
+    names: Sequence[str], choices: Sequence[Sequence[float]]
+) -> list[list[tuple[str, float]]]:
+    """Every way to give all amounts of one of the choices to as many names, in the names' order."""
     ways = dict.fromkeys(
-        tuple(sorted(zip(chosen, lengths, strict=True)))
-        for chosen in permutations(links, len(lengths))
+        tuple(sorted(zip(chosen, amounts, strict=True)))
+        for chosen in permutations(range(len(names)), len(choices[0]))
+        for amounts in choices
     )
-    return [tuple(LinkShortening(link, length, along) for link, length in way) for way in ways]
-
-
-def shifts(joints: Sequence[str], angles: Sequence[float]) -> list[tuple[EncoderShift, ...]]:
-    """Every way to shift as many different encoders by the angles [rad], in either direction."""
-    ways = dict.fromkeys(
-        tuple(sorted(zip(chosen, signed, strict=True)))
-        for chosen in permutations(joints, len(angles))
-        for signed in product(*((angle, -angle) for angle in angles))
-    )
-    return [tuple(EncoderShift(joint, angle) for joint, angle in way) for way in ways]
+    return [[(names[place], amount) for place, amount in way] for way in ways]
 
 
 class Ways:
@@ -58,8 +49,15 @@ class Ways:
         angles: Sequence[float],
         along: Along = "line",
     ):
-        self._links, self._joints = list(links), list(joints)
-        self.short, self.shifted = shortenings(links, lengths, along), shifts(joints, angles)
+        signed = list(product(*((angle, -angle) for angle in angles)))
+        self.short = [
+            tuple(LinkShortening(link, length, along) for link, length in way)
+            for way in _distinct(links, [lengths])
+        ]
+        self.shifted = [
+            tuple(EncoderShift(joint, angle) for joint, angle in way)
+            for way in _distinct(joints, signed)
+        ]
 
     def __len__(self) -> int:
         return len(self.short) * len(self.shifted)
@@ -67,32 +65,7 @@ class Ways:
     def __getitem__(self, index: int) -> tuple[LinkShortening | EncoderShift, ...]:
         """The damages of one assignment, links first, each from the base to the tool."""
         short, shifted = divmod(int(index), len(self.shifted))
-        links = sorted(self.short[short], key=lambda damage: self._links.index(damage.link))
-        joints = sorted(self.shifted[shifted], key=lambda damage: self._joints.index(damage.joint))
-        return (*links, *joints)
-
-
-def initial_errors(
-    controller: Controller, ways: Ways, coordinates: np.ndarray, error: str = "norm"
-) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Mean position [m] and orientation errors [rad] of the uncorrected robot.
-
-    Args:
-        coordinates: (n, 6) desired poses over which the errors are averaged.
-        error: of a pose; see `recalib.nominal.poses.pose_errors`.
-
-    Yields both (shift,) for each of the shortenings.
-    """
-    robot = controller.robot
-    desired = robot.workspace.to_poses(coordinates)
-    angles = controller.inverse(desired)
-    offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
-    believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
-    for shortening in ways.short:
-        achieved = apply(robot, shortening).arm.forward(believed)
-        achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
-        errors = pose_errors(robot.workspace, achieved, desired, error)
-        yield errors[0].mean(axis=1), errors[1].mean(axis=1)
+        return (*self.short[short], *self.shifted[shifted])
 
 
 def assign(
@@ -129,11 +102,22 @@ def compare(
     """The table of `assign` for these ways, and the row of the one nearest to what is published.
 
     Args:
-        coordinates, error: see `initial_errors`.
+        coordinates: (n, 6) desired poses over which the errors are averaged.
         scale: of all lengths, in those that are published.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
     """
-    errors = initial_errors(controller, ways, coordinates, error)
-    position, orientation = map(np.concatenate, zip(*errors, strict=True))
+    robot = controller.robot
+    desired = robot.workspace.to_poses(coordinates)
+    angles = controller.inverse(desired)
+    offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
+    believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
+    errors = []
+    for shortening in ways.short:
+        achieved = apply(robot, shortening).arm.forward(believed)
+        achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
+        both = pose_errors(robot.workspace, achieved, desired, error)
+        errors.append([its.mean(axis=1) for its in both])
+    position, orientation = np.concatenate(errors, axis=1)
     table = {
         "position_error_cm": 100 * position / scale,
         "orientation_error_deg": np.degrees(orientation),

@@ -12,12 +12,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
 from recalib.nominal.robots import Robot, load_robot
 from recalib.numerics.randomness import generator
-from recalib.study.configuration.damages import (
-    Assigned,
-    Entry,
-    damages_among,
-    disturbances_among,
-)
+from recalib.study.configuration.damages import Assigned, Entry, damages_among, disturbances_among
 from recalib.study.configuration.part import Frozen
 from recalib.study.scenarios.nominal import Nominal
 
@@ -77,8 +72,6 @@ class Resolved(Kept):
         """Robots for these runs, with the disturbances of their own.
 
         Args:
-            controller: the scenario's.
-            seed: of the study.
             stream: name of that of their disturbances; the scenario's unless given.
         """
         rngs = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
@@ -107,11 +100,7 @@ def resolve(
     """A scenario with its part of the assignment put in, and the initial errors that it causes.
 
     Args:
-        name: of the scenario.
-        nominal: its robot.
-        damages: as the configuration has them.
         poses: random ones, over which the errors are averaged.
-        seed: of the study.
         assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
     assigned = damages_among(Assignment.read(assignment).damages) if assignment else []

@@ -5,7 +5,6 @@ import time
 import pytest
 import yaml
 
-from recalib.nominal.arms import load_arm
 from recalib.study.checks.consistency import check
 from recalib.study.checks.geometry import check_robots
 from recalib.study.configuration import schema
@@ -13,11 +12,22 @@ from recalib.study.configuration.messages import MOST_SHOWN, InvalidConfiguratio
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
 from recalib.study.plan.trainings import Trainings
+from recalib.study.studies import read_studies
 from tests.conftest import ROOT, loaded_with
 
 SHIPPED = ROOT / "config.yaml"
 TEXT = SHIPPED.read_text(encoding="utf-8")
-MISTAKES = yaml.safe_load((ROOT / "tests" / "mistakes.yaml").read_text(encoding="utf-8"))
+MISTAKES, OF_STUDIES = (
+    yaml.safe_load((ROOT / "tests" / f"{name}.yaml").read_text(encoding="utf-8"))
+    for name in ("mistakes", "mistakes_of_studies")
+)
+HOME = ["0 deg", "-45 deg", "0 deg", "-120 deg", "0 deg", "75 deg", "45 deg"]
+PANDA = (
+    "&panda {urdf: panda.urdf, tool: panda_link8, home: {"
+    + ", ".join(f"panda_joint{number}: {angle}" for number, angle in enumerate(HOME, 1))
+    + "}, workspace: {position: [20 cm, 24 cm, 20 cm], orientation: [40 deg, 40 deg, 40 deg]},"
+    " links: [panda_link2, panda_link3, panda_link4, panda_link6]}"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -66,44 +76,40 @@ def test_a_mistake_is_told_in_a_sentence_with_its_place(here, row):
     assert [line.split(": ", 1)[1] for line in rest] == others
 
 
-def test_a_joint_that_slides_is_told_since_its_home_is_no_angle(here):
-    arm = load_arm("tiago.urdf", "hand_tool_link")
-    tiago = {"urdf": "tiago.urdf", "tool": arm.tool, "links": ["arm_2_link"]}
-    tiago["home"] = dict.fromkeys(arm.joints, "10 deg")
-    tiago["workspace"] = {"position": ["1 cm"] * 3, "orientation": ["1 deg"] * 3}
-    (said,) = mistakes_of(here, TEXT, {"robots": {"tiago": tiago}})
-    assert said.endswith("robots.tiago.home.torso_lift_joint slides; expected: joints that turn")
+@pytest.mark.parametrize("row", OF_STUDIES, ids=[row["why"] for row in OF_STUDIES])
+def test_a_mistake_in_a_study_of_ones_own_is_told_of_the_file_that_one_wrote(here, row):
+    """By the function that the workflow calls before anything else."""
+    name = row.get("file", "mine.yaml")
+    (here / name).write_text(row["study"].replace("{panda}", PANDA), encoding="utf-8")
+    with pytest.raises(InvalidConfiguration) as caught:
+        read_studies(ROOT, [here / name], {})
+    lines = [line.partition(":") for line in caught.value.mistakes]
+    assert {source for source, _, _ in lines} == {name}
+    assert [sentence.strip() for _, _, sentence in lines] == says(row)
+    assert not any("config.yaml" in line for line in caught.value.mistakes)
+
+
+NOTHING = "mine.yaml:1:1: no configuration; expected: keys with their values"
+ENDLESS = "mine.yaml: an anchor within itself, or too many brackets"
 
 
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"a: \xff\n", "config.yaml: no text in UTF-8"),
-        (b"a: \x07\n", "config.yaml: no text in UTF-8"),
-        (b"a: &a [*a]\n", "config.yaml: an anchor within itself, or too many brackets"),
-        (b"a: " + b"[" * 9999, "config.yaml: an anchor within itself, or too many brackets"),
+        (None, "mine.yaml: No such file or directory"),
+        (b"a: \xff\n", "mine.yaml: no text in UTF-8"),
+        (b"a: \x07\n", "mine.yaml: no text in UTF-8"),
+        (b"a: &a [*a]\n", ENDLESS),
+        pytest.param(b"a: " + b"[" * 9999, ENDLESS, id="brackets"),
+        *((text, NOTHING) for text in (b"", b"# nothing\n", b"{}\n", b"---\n")),
     ],
-    ids=["Latin-1", "control character", "recursion", "brackets"],
 )
-def test_what_is_no_text_is_refused(here, content, said):
-    (here / "config.yaml").write_bytes(content)
-    with pytest.raises(InvalidConfiguration, match=f"^{said}$"):
-        read_study("config.yaml")
-
-
-def test_a_missing_file_is_named():
-    with pytest.raises(InvalidConfiguration, match=r"^mine\.yaml: No such file or directory$"):
-        read_study(SHIPPED, "mine.yaml")
-
-
-@pytest.mark.parametrize("text", ["", "# nothing\n", "{}\n", "---\n"])
-def test_a_file_that_says_nothing_is_refused(here, text):
-    (here / "mine.yaml").write_text(text, encoding="utf-8")
+def test_a_file_that_is_no_configuration_is_refused(here, content, said):
+    if content is not None:
+        (here / "mine.yaml").write_bytes(content)
     with pytest.raises(InvalidConfiguration) as caught:
         read_study(SHIPPED, "mine.yaml")
-    assert caught.value.mistakes == [
-        "mine.yaml:1:1: no configuration; expected: keys with their values"
-    ]
+    assert caught.value.mistakes == [said]
 
 
 def test_of_many_mistakes_the_first_are_shown(here):

@@ -9,16 +9,10 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
+from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
-from recalib.study.configuration.damages import (
-    Assigned,
-    Entry,
-    damages_among,
-    describe,
-    disturbances_among,
-)
+from recalib.study.configuration.damages import Assigned, Entry, describe
 
 ENTRY = TypeAdapter(Entry)
 WORDS = [
@@ -71,20 +65,6 @@ def test_no_digit_is_lost(size, angle):
 
 def test_every_kind_is_tried_above():
     assert {type(meant) for _, meant in WORDS} == {*DAMAGES, *DISTURBANCES, Assigned}
-
-
-def test_disturbances_are_gathered_beside_damages():
-    entries = [meant for _, meant in WORDS]
-    assert disturbances_among(entries) == Disturbances(*entries[9:12])
-    assert damages_among(entries) == entries[:9]
-    assert disturbances_among(entries[:9]) is None
-
-
-def test_an_assigned_damage_is_its_part_of_the_assignment():
-    links, encoders = (Assigned(assigned=part) for part in ("links", "encoders"))
-    assignment = [LinkShortening("a", 0.01), EncoderShift("b", 0.02), LinkShortening("c", 0.03)]
-    assert links.part_of(assignment) == [assignment[0], assignment[2]]
-    assert encoders.part_of(assignment) == [assignment[1]]
 
 
 @pytest.mark.parametrize(

@@ -11,17 +11,12 @@ from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.errors import RecalibError
 from recalib.study.configuration import units
-from recalib.study.configuration.damages import (
-    Assigned,
-    Entry,
-)
+from recalib.study.configuration.damages import Assigned, Entry
 from recalib.study.configuration.study import PaperDamage
 from recalib.study.configuration.values import from_file, from_mapping, shown
 from recalib.study.plan import trainings
 from recalib.study.plan.trainings import Trainings
-from recalib.study.scenarios.assignments import (
-    assign,
-)
+from recalib.study.scenarios.assignments import assign
 from recalib.study.scenarios.nominal import digest_of
 from recalib.study.scenarios.plants import nominal_controller, nominal_robot, resolve
 from recalib.study.studies import read_studies
@@ -36,27 +31,9 @@ TYPES = {
 TEXTS = (
     *("4 cm", "-4cm", " 0.2  mm ", "1e-3 m", "3 km", "4", "0 m", "101 m", "-100 m", "1 mm"),
     *("0.9 mm", "-3 deg", "0.5 rad", "180 deg", "181 deg", "-181 deg", "179.9 deg", "101 rad"),
-    *(
-        "0.05 deg",
-        "0.1 deg",
-        "2e-4 rad/Nm",
-        "0.01 deg/Nm",
-        "1.1 rad/Nm",
-        "-1 deg/Nm",
-        "inf m",
-        "-180 deg",
-    ),
-    *(
-        "-101 rad",
-        "100 rad",
-        "-100 rad",
-        "100 m",
-        "-101 m",
-        "1 rad/Nm",
-        "-0.1 m",
-        "0 deg",
-        "0.06 deg",
-    ),
+    *("0.05 deg", "0.1 deg", "2e-4 rad/Nm", "0.01 deg/Nm", "1.1 rad/Nm", "-1 deg/Nm", "inf m"),
+    *("-180 deg", "-101 rad", "100 rad", "-100 rad", "100 m", "-101 m", "1 rad/Nm", "-0.1 m"),
+    *("0 deg", "0.06 deg"),
     *("ur10", "Ur_10", "10ur", "ab", "a" * 61, "", "https://a.b", "http://a.b", "0f" * 32),
 )
 NUMBERS = (0, 1, 2, -1, 4.0, 0.5, 1e-4, 1e-3, 999.0, 1001.0, 2e4, 10_000, 10_001, 10**6, 10**6 + 1)

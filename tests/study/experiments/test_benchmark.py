@@ -2,24 +2,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.errors import UnknownName
 from recalib.loop.interfaces import Outcome
 from recalib.study.evidence.benchmark import moves_to_reach
 from recalib.study.evidence.guidance import where_worse
 from recalib.study.experiments.benchmark import Timed, compete, measured_at
 from recalib.study.inference.measured import ERRORS
-from recalib.study.plan.competitors import make_peer
 from workflow.scripts.call import write
 
 
 def test_a_map_is_measured_where_its_moves_meet_a_budget():
     assert measured_at([1, 2, 3, 4, 400, 1000], iterations=200, moves=2) == [1, 2, 200]
     assert measured_at([1, 2, 3, 500], iterations=400, moves=1) == [1, 2, 3]
-
-
-def test_an_unknown_peer_is_refused_with_the_known_ones(robot):
-    with pytest.raises(UnknownName, match="gaussian_process"):
-        make_peer("magic", 1, robot)
 
 
 def test_scenarios_side_by_side_are_what_each_of_them_is_alone(plan, tmp_path):

@@ -5,14 +5,12 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 import pytest
-from pydantic import TypeAdapter
 
-from recalib.damaged.damage import apply
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
 from recalib.learners import schedules
 from recalib.learners.cells import Cells
 from recalib.learners.nets import Nets
-from recalib.study.configuration.damages import Entry
 from recalib.study.evidence.checks import check
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
@@ -24,30 +22,22 @@ from tests.conftest import ROOT
 def final_errors(study, controller, learner="improved"):
     """The rows of the check for one learner on the paper's damage, trained here and now."""
     damages = [
-        {"link": "forearm_link", "shorten": "1 cm"},
-        {"link": "wrist_1_link", "shorten": "1 cm"},
-        {"link": "wrist_2_link", "shorten": "4 cm"},
-        {"encoder": "shoulder_pan_joint", "shift": "4 deg"},
-        {"encoder": "shoulder_lift_joint", "shift": "-4 deg"},
-        {"encoder": "wrist_3_joint", "shift": "3 deg"},
+        LinkShortening("forearm_link", 0.01),
+        LinkShortening("wrist_1_link", 0.01),
+        LinkShortening("wrist_2_link", 0.04),
+        EncoderShift("shoulder_pan_joint", np.radians(4)),
+        EncoderShift("shoulder_lift_joint", np.radians(-4)),
+        EncoderShift("wrist_3_joint", np.radians(3)),
     ]
     settings = rules(study, learner)
     seeds = np.arange(seeds_of(study, learner))  # those of the bands
     searches = 1 + seeds // study.training.seeds
     sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
+    counts = settings.iterations, study.training.tests
     history = train_for_results(
-        Plant(
-            controller,
-            apply(controller.robot, TypeAdapter(tuple[Entry, ...]).validate_python(damages)),
-        ),
+        Plant(controller, apply(controller.robot, damages)),
         build_tuned(settings, sample, searches),
-        Stream.SCENARIO.draw(
-            study.seed,
-            seeds,
-            settings.iterations,
-            study.training.tests,
-            scenario="links_encoders",
-        ),
+        Stream.SCENARIO.draw(study.seed, seeds, *counts, scenario="links_encoders"),
         [settings.iterations],
     )
     summary = pd.DataFrame(

@@ -1,6 +1,8 @@
 """What settings are chosen by, no result is measured on: neither by a slip nor in any job."""
 
 import zlib
+from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -12,13 +14,7 @@ from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.shipped import DESIGN, SEARCHED
 from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, replay, trials
 from recalib.study.experiments import poses as its
-from recalib.study.experiments.poses import (
-    ResultPoses,
-    SearchPoses,
-    Stream,
-    Use,
-    train_for_results,
-)
+from recalib.study.experiments.poses import ResultPoses, SearchPoses, Stream, train_for_results
 from recalib.study.experiments.trials import Search, search_for
 from recalib.study.multiverse import efforts, horizon, measuring
 from recalib.study.multiverse.design import read_design
@@ -59,12 +55,6 @@ def test_nobody_is_measured_where_it_learned(kind):
     drawn.tests[1, 2] = drawn.desired[1, 3]  # a single one of them
     with pytest.raises(ValueError, match="links: test poses are among those to learn from"):
         kind("links", drawn.desired, drawn.tests)
-
-
-@pytest.mark.parametrize("names", [Use, Stream])
-def test_no_two_purposes_share_a_name(names):
-    """Python makes the second of two equal names another word for the first."""
-    assert len(names.__members__) == len([*names])
 
 
 @pytest.mark.parametrize("stream", Stream)
@@ -154,52 +144,7 @@ def drawn(monkeypatch):
     return Drawn(monkeypatch)
 
 
-def test_every_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
-    study, rules, drawn, roots, tmp_path, monkeypatch
-):
-    """The root of all randomness of a job, (seed, first key): nothing else, of nobody else."""
-    own = study.scenario
-
-    def job(rule, **which):
-        return rules.arguments(study, rule, **which) | {"seed": 77}
-
-    sample, scenario = ROOT / SEARCHED / "improved_200.csv", tmp_path / f"{own}.json"
-    write(scenario, resolve(**rules.arguments(study, "scenario", scenario=own) | {"damages": ()}))
-    without_data(monkeypatch)
-    search = rules.arguments(study, "search", training="improved_200", chunk=0) | {"last": 1}
-    search["budget"] = search["budget"].model_copy(update={"seed": 77})
-    short = {"rules": job("study_replay")["rules"].model_copy(update={"iterations": 1})}
-    train = job("train", scenario=own, learner="improved", chunk=0)
-    draws = job("ensemble_chunk", series="scaled", learner="improved", chunk=0)
-    twin = job("real_twin", learner="improved") | {"poses": (2, 4, 400, 402), "subsets": 2}
-    twin["rules"] = twin["rules"].model_copy(update={"iterations": 200})
-    jobs = {
-        own: lambda: campaign.train_seeds(scenario, sample, tmp_path / "learned.npz", **train),
-        "efforts": lambda: efforts.efforts(
-            scenario, sample, **job("efforts_of", training="improved_200")
-        ),
-        f"search 1 for improved_200 on {own}": lambda: search_for(scenario, **search),
-        "ensemble": lambda: later(ensemble.train_draws(sample, **draws | {"first": 3, "last": 5})),
-        "twin": lambda: on_twin(real_arm.learn_on_twin("", "", sample, **twin)),
-        "replay": lambda: replay.replay(scenario, sample, **job("study_replay") | short),
-    }
-
-    def on_twin(table):
-        """Two moves an iteration; nobody is measured after a training has ended."""
-        assert len(table) == 3 * twin["subsets"]
-
-    def later(robots):
-        """The runs are the robots, and each has its own poses."""
-        assert sorted({*robots["robot"]}) == [3, 4]
-
-    for stream, run in jobs.items():
-        roots.clear()
-        run()
-        of_robots = (77, zlib.crc32(own.encode()))  # their luck, where a job does not say whose
-        met = {root[:2] for root in roots} | {of_robots}
-        assert met == {(77, zlib.crc32(stream.encode())), of_robots}, stream
-
-
+@pytest.fixture
 def without_data(monkeypatch):
     """A twin of no arm: its poses are drawn all the same."""
     said = type("Said", (), {"target": np.eye(4)})
@@ -208,8 +153,9 @@ def without_data(monkeypatch):
         monkeypatch.setattr(real_arm, name, lambda *_: None)
 
 
-def run_all_jobs(study, rules, folder, monkeypatch):
-    """All jobs of a study that learn."""
+def jobs_of(study, rules, folder) -> Iterator[tuple[list[str], partial]]:
+    """All jobs of a study that learn, with the streams of their poses."""
+    own, trainings = study.scenario, Trainings(study)
 
     def sample(name):
         return ROOT / SEARCHED / f"{training(study, name)}.csv"
@@ -222,33 +168,58 @@ def run_all_jobs(study, rules, folder, monkeypatch):
             write(path, resolve(**job | ({"damages": ()} if there else {})))
         return path
 
-    own, trainings = study.scenario, Trainings(study)
+    def job(function, rule, *files, **which):
+        return partial(function, *files, **rules.arguments(study, rule, **which))
+
     for scenario, learner in trainings.runs:
+        files = resolved(scenario), sample(learner), folder / "learned.npz"
         for chunk in chunks(seeds(study, learner), study.training.seeds_per_job):
             which = {"scenario": scenario, "learner": learner, "chunk": chunk}
-            job, learned = rules.arguments(study, "train", **which), folder / "learned.npz"
-            campaign.train_seeds(resolved(scenario), sample(learner), learned, **job)
+            yield [scenario], job(campaign.train_seeds, "train", *files, **which)
     longest = trainings.tuned()[0]  # the others see the first of its poses
-    job = rules.arguments(study, "efforts_of", training=longest)
-    efforts.efforts(resolved(own), sample(longest), **job)
+    files = resolved(own), sample(longest)
+    yield ["efforts"], job(efforts.efforts, "efforts_of", *files, training=longest)
     for name in trainings.tuned():
         for chunk in chunks(searches(study, name), searches_per_job(study, name)):
-            job = rules.arguments(study, "search", training=name, chunk=chunk)
-            search_for(resolved(own), **job)
+            its = job(search_for, "search", resolved(own), training=name, chunk=chunk)
+            numbers = range(1 + its.keywords["first"], 1 + its.keywords["last"])
+            yield [f"search {number} for {name} on {own}" for number in numbers], its
     for learner, series in study.experiments.ensemble.items():
         for name, robots in series.items():
             for chunk in chunks(robots.draws, study.experiments.draws_per_job):
                 which = {"series": name, "learner": learner, "chunk": chunk}
-                job = rules.arguments(study, "ensemble_chunk", **which)
-                ensemble.train_draws(sample(learner), **job)
+                its = job(ensemble.train_draws, "ensemble_chunk", sample(learner), **which)
+                yield ["ensemble"], its
     for learner in study.benchmark.learners:
-        job = rules.arguments(study, "benchmark_run", learner=learner)
-        file = job["rules"] and sample(learner)
-        benchmark.compete([*map(resolved, study.benchmark.scenarios)], **job, sample=file)
-    without_data(monkeypatch)
+        scenarios = [*map(resolved, study.benchmark.scenarios)]
+        its = job(benchmark.compete, "benchmark_run", scenarios, learner=learner)
+        file = its.keywords["rules"] and sample(learner)
+        yield [*study.benchmark.scenarios], partial(its, sample=file)
     for name in study.real.twin:
-        job = rules.arguments(study, "real_twin", learner=name)
-        real_arm.learn_on_twin("", "", sample(name), **job)
+        files = "", "", sample(name)
+        yield ["twin"], job(real_arm.learn_on_twin, "real_twin", *files, learner=name)
+    yield ["replay"], job(replay.replay, "study_replay", resolved(own), sample("improved"))
+
+
+@pytest.mark.usefixtures("drawn", "without_data")
+def test_every_kind_of_job_draws_by_the_seed_that_it_is_told_from_its_own_stream(
+    study, rules, roots, tmp_path
+):
+    """The root of all randomness of a job, (seed, first key): nothing else, of nobody else."""
+    few = {"learners": ("improved",), "ladder": {}, "beside": (), "switches": False}
+    search = study.search.model_copy(update={"seed": 77})
+    plan = study.experiments.model_copy(update=few)
+    study = study.model_copy(update={"seed": 77, "search": search, "experiments": plan})
+    of_robots = (77, zlib.crc32(study.scenario.encode()))  # their luck, where nobody says whose
+    tried = set()
+    for streams, job in jobs_of(study, rules, tmp_path):
+        if job.func not in tried:
+            tried.add(job.func)
+            roots.clear()
+            job()
+            met = {root[:2] for root in roots} | {of_robots}
+            assert met == {*((77, zlib.crc32(its.encode())) for its in streams), of_robots}, streams
+    assert len(tried) == 7
 
 
 def run_universes(study, monkeypatch):
@@ -264,10 +235,12 @@ def run_universes(study, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("without_data")
 def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
     study, rules, drawn, tmp_path, monkeypatch
 ):
-    run_all_jobs(study, rules, tmp_path, monkeypatch)
+    for _, job in jobs_of(study, rules, tmp_path):
+        job()
     run_universes(study, monkeypatch)
     tests = np.unique(np.concatenate(drawn.tests[ResultPoses]))
     searched = np.unique(np.concatenate(drawn.tests[SearchPoses]))

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from recalib.damaged.damage import EncoderShift
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
-from recalib.nominal.poses import orientation_error, position_error
 from recalib.numerics.randomness import generator
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
-from recalib.study.plan.trainings import Measuring, scenario_of, seeds
+from recalib.study.plan.trainings import Measuring, scenario_of
 from recalib.study.scenarios.plants import resolve
 from workflow.scripts.call import write
 
@@ -52,12 +50,6 @@ def test_poses_are_independent_by_default_or_spread_evenly():
         assert qmc.discrepancy((one + 1) / 2) < 0.2 * qmc.discrepancy((other + 1) / 2)
 
 
-def test_a_learner_is_trained_with_the_seeds_of_all_its_searches(study):
-    short, long = study.search.searches, study.search.searches_long
-    assert seeds(study, "improved") == short * study.training.seeds
-    assert seeds(study, "ritter") == long * study.training.seeds
-
-
 def test_moves_that_the_controller_refused_by_the_end_are_told(
     study, plan, tmp_path, monkeypatch, capsys
 ):
@@ -67,27 +59,12 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(
     for name in ("build_tuned", "save"):
         monkeypatch.setattr(campaign, name, lambda *_: None)
     write(scenario := tmp_path / "links.json", plan.resolved("links"))
-    rules, measuring = (
-        study.every_learner["improved"],
-        Measuring(tests=2, every=4, evenly=4, measurements=2),
-    )
+    rules = study.every_learner["improved"]
+    measuring = Measuring(tests=2, every=4, evenly=4, measurements=2)
     files = scenario, tmp_path / "improved.csv", tmp_path / "improved.npz"
     found = campaign.train_seeds(*files, rules, 2, 0, 2, measuring, False, 1)
     assert "improved on links: the controller refused 3 moves" in capsys.readouterr().err
     assert found["seed"].tolist() == [0, 1] and found["search"].tolist() == [1, 1]
-
-
-def test_initial_errors_are_means_over_random_poses(plan):
-    damages = (EncoderShift("elbow_joint", 0.05), EncoderShift("wrist_3_joint", 0.05))
-    resolved = resolve("bent", plan.nominal("ur10"), damages, poses=20, seed=1)
-    controller = resolved.controller()
-    workspace = controller.robot.workspace
-    commands = workspace.sample(generator(1, "bent", "initial errors"), 1, 20)
-    desired = workspace.to_poses(commands)
-    achieved = resolved.plant(controller, 1, [0]).achieve(commands)[0]
-    off = position_error(achieved, desired), orientation_error(achieved, desired)
-    assert resolved.initial_position_error_cm == pytest.approx(100 * np.mean(off[0]))
-    assert resolved.initial_orientation_error_deg == pytest.approx(np.degrees(np.mean(off[1])))
 
 
 def test_every_run_of_every_scenario_has_luck_of_its_own_that_repeats(plan):

@@ -1,12 +1,10 @@
 """Figures: drawn from what they declare, for any study, and the same on every machine."""
 
-import re
 import runpy
 from importlib import import_module
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 
 from recalib.study.evidence.findings import figures as figures_of_findings
 from recalib.study.evidence.results import Undeclared
@@ -15,18 +13,11 @@ from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
 from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
-from tests.made_up import (
-    NOISE,
-    OF_SEARCHES,
-    MadeUp,
-    evidence_of,
-    few_resamples,
-    without_one,
-)
+from tests.made_up import NOISE, OF_SEARCHES, MadeUp, evidence_of, few_resamples, without_one
 
 
-def bytes_of(figure: str, evidence, folder, suffixes=(".svg", ".png")) -> list[bytes]:
-    paths = [folder / f"{figure}{suffix}" for suffix in suffixes]
+def bytes_of(figure: str, evidence, folder) -> list[bytes]:
+    paths = [folder / f"{figure}{suffix}" for suffix in (".svg", ".png")]
     with plt.rc_context(STYLE):
         save(draw(figure, evidence), *paths)
     return [path.read_bytes() for path in paths]
@@ -126,26 +117,6 @@ def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
     plt.close(figure)
 
 
-@pytest.fixture(
-    scope="module", params=[name for name, its in FIGURES.items() if its.part != "ideas"]
-)
-def drawing(request, made_up):
-    """A figure of results, drawn."""
-    with plt.rc_context(STYLE):
-        its = draw(request.param, evidence_of(request.param, made_up))
-        its.draw_without_rendering()
-    yield its
-    plt.close(its)
-
-
-def test_legends_hide_no_data_and_the_grid_lies_below(drawing):
-    legends = [*drawing.legends, *filter(None, (axes.get_legend() for axes in drawing.axes))]
-    for axes in drawing.axes:
-        assert axes.get_axisbelow() is True
-        for legend in legends:
-            assert not legend.get_window_extent().overlaps(axes.get_window_extent())
-
-
 def test_a_colour_means_one_thing_throughout():
     """A learner, its kin of other iterations, an error, or a verdict."""
     of_learners = {style.color for style in STYLES.values()}
@@ -154,25 +125,6 @@ def test_a_colour_means_one_thing_throughout():
     assert len({*others}) == len(others)
     assert not {*others} & of_learners
     assert len(of_learners) == len(STYLES)
-
-
-def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
-    """Whether a colour (3,) is this one, or a paler one towards white."""
-    gone, most = 1 - colour, 1 - full
-    return np.allclose(gone, most * gone.max() / most.max(), atol=0.02)
-
-
-@few_resamples()
-@pytest.mark.parametrize("figure", [name for name in FIGURES if name != "figure8"])
-def test_every_colour_of_a_figure_has_its_meaning(figure, made_up, tmp_path):
-    """Of those in the drawing's text; Figure 8 shows widths, by a scale."""
-    (svg,) = bytes_of(figure, evidence_of(figure, made_up), tmp_path, [".svg"])
-    known = [style.color for style in STYLES.values()] + [color for color, _ in OTHER.values()]
-    known += [color for color, _ in UNKNOWN] + [error.color for error in BOTH]
-    known = [np.array(to_rgb(color)) for color in (*known, HOLDS, FAILS, "black")]
-    used = [np.array(to_rgb(color)) for color in {*re.findall(r"#[0-9a-f]{6}\b", svg.decode())}]
-    strange = [color for color in used if not any(is_a_shade_of(color, its) for its in known)]
-    assert used and not strange
 
 
 def test_every_figure_has_a_drawing_and_a_text_in_the_report():

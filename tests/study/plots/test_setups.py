@@ -30,6 +30,8 @@ NUMBERED = re.compile(r"^Figure \d+: ")
 WHITE = to_rgba("white")
 COLUMNS = "maps_improved", "maps_ritter"
 MOVED = 1.6  # times, by the effort of the search
+MEANT = {style.color for style in (*STYLES.values(), *BOTH)} | {HOLDS, FAILS}
+MEANT |= {color for color, _ in (*OTHER.values(), *UNKNOWN)}
 
 
 @pytest.fixture(scope="module")
@@ -135,20 +137,55 @@ def test_a_title_says_what_was_found(figures, name):
     assert re.search(r"\d", title) and "..." not in title, title
 
 
+def test_legends_hide_no_data_and_the_grid_lies_below(figures):
+    for figure in figures.values():
+        legends = [*figure.legends, *filter(None, (axes.get_legend() for axes in figure.axes))]
+        for axes in figure.axes:
+            assert axes.get_axisbelow() is True
+            for legend in legends:
+                assert not legend.get_window_extent().overlaps(axes.get_window_extent())
+
+
+@pytest.fixture(scope="module")
+def colours(figures) -> dict[str, set[str]]:
+    """Those in the drawings' texts; Figure 8 shows widths, by a scale of its own, and signs."""
+    found = {}
+    for name in FIGURES.keys() - {"figure8"}:
+        drawing = StringIO()
+        figures[name].savefig(drawing, format="svg")
+        found[name] = {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
+    return found
+
+
+def is_a_shade_of(colour: np.ndarray, full: np.ndarray) -> bool:
+    """Whether a colour (3,) is this one, or a paler one towards white."""
+    gone, most = 1 - colour, 1 - full
+    return np.allclose(gone, most * gone.max() / most.max(), atol=0.02)
+
+
+def test_every_colour_of_a_figure_has_its_meaning(colours):
+    known = [np.array(to_rgb(color)) for color in (*MEANT, "black")]
+    for name, used in colours.items():
+        shades = {color: np.array(to_rgb(color)) for color in used}
+        strange = [
+            color
+            for color, its in shades.items()
+            if not any(is_a_shade_of(its, full) for full in known)
+        ]
+        assert used and not strange, name
+
+
 @pytest.mark.parametrize("seen", SEEN)
-@pytest.mark.parametrize("name", [name for name in FIGURES if name != "figure8"])
-def test_colours_of_a_figure_differ_to_everyone(figures, name, seen):
-    """As much as those of recordings; Figure 8 has a scale of its own, and signs."""
-    drawing = StringIO()
-    figures[name].savefig(drawing, format="svg")
-    colours = {style.color for style in STYLES.values()} | {style.color for style in BOTH}
-    colours |= {color for color, _ in (*OTHER.values(), *UNKNOWN)} - {BORDER["color"]}
-    used = {to_hex(color) for color in colours | {HOLDS, FAILS}}
-    used &= {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
-    shades = {color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used}
-    shades["paper"] = lab(np.ones(3))
-    for one, other in combinations(shades, 2):
-        assert ciede2000(shades[one], shades[other]) >= FEWEST, (one, other)
+def test_colours_of_a_figure_differ_to_everyone(colours, seen):
+    """As much as those of recordings."""
+    meant = {to_hex(color) for color in MEANT - {BORDER["color"]}}
+    for name, used in colours.items():
+        shades = {
+            color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
+        }
+        shades["paper"] = lab(np.ones(3))
+        for one, other in combinations(shades, 2):
+            assert ciede2000(shades[one], shades[other]) >= FEWEST, (name, one, other)
 
 
 def said(figure) -> str:

@@ -1,6 +1,6 @@
 """What a recording shows is what was measured, where it was."""
 
-from itertools import combinations, permutations, product
+from itertools import permutations
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +14,7 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
 from recalib.study.experiments.poses import Stream
 from recalib.study.inference.measured import ERRORS
-from recalib.study.recording import colours, labels, markers, measurements, scene
+from recalib.study.recording import labels, markers, measurements, scene
 from recalib.study.recording.blueprint import TITLES, _plots
 from recalib.study.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
@@ -91,31 +91,6 @@ def test_each_arm_ends_where_it_lands_and_its_skeleton_where_it_was_sent(
     assert len(positions) == len(bones) == len(motion_of(training, robot).frames)
 
 
-def test_every_link_has_its_mesh_and_only_a_short_one_another_colour(robot, columns):
-    links = {frame.name for frame in robot.arm.model.frames if frame.name.endswith("_link")}
-    assert len(links - {"ee_link"}) == 7
-    tint = "Asset3D:albedo_factor"
-    for link in links - {"ee_link"}:
-        entity = f"/improved/ur10/visual_geometries/{link}/visual_0"
-        assert len(columns(entity, "Asset3D:blob")[1][0][0]) > 10_000
-        if link == "forearm_link":
-            red, green, blue = colours.WRONG
-            assert columns(entity, tint)[1][0][0] >> 8 == red << 16 | green << 8 | blue
-        else:
-            with pytest.raises(KeyError):
-                columns(entity, tint)
-
-
-def test_a_shifted_base_is_drawn_shifted_beside_where_it_is_believed(columns):
-    _, base = columns("/improved/links/base_link", "Transform3D:translation")
-    assert np.allclose(base, (0.01, 0.0, -0.02))
-    circles = [
-        np.reshape(columns(f"/improved/{which}/base", "LineStrips3D:strips")[1][0], (-1, 3))
-        for which in ("wrong", "believed")
-    ]
-    assert np.allclose(circles[0] - circles[1], (0.01, 0.0, -0.02))
-
-
 def test_what_is_wrong_is_marked_and_labelled_at_its_link_and_joint(robot, recording, columns):
     unit = scene.unit_of(robot.workspace)
     found = markers.markers(robot, (*DAMAGES[:-1], EncoderShift("elbow_joint", 0.01)), unit)
@@ -140,34 +115,6 @@ def test_what_is_wrong_is_marked_and_labelled_at_its_link_and_joint(robot, recor
         [["shoulder lift: sag 0.0002 rad/Nm"]],
         [["base: 2.2 cm off"]],
     ]
-
-
-def test_leaders_follow_the_arm_to_labels_off_it_off_the_workspace_and_off_one_another(
-    robot, recording, columns
-):
-    training, workspace = recording[1]["improved"], robot.workspace
-    sight = sight_of(workspace, (training.achieved[0] - training.desired)[:, :3, 3])
-    corners = np.array(list(product((-1, 1), repeat=3))) * workspace.half_ranges[:3]
-    where = [workspace.centre[:3, 3] + corners]
-    for link in robot.links:
-        _, positions = columns(f"/improved/links/{link}", "Transform3D:translation")
-        where.append(np.reshape(positions, (-1, 3)))
-    aside, above = in_picture(sight, np.concatenate(where)).T
-    labels = [
-        columns(f"/improved/wrong/{label}/label", "Points3D:positions")[1][0][0]
-        for label in range(4)
-    ]
-    places = in_picture(sight, np.array(labels))
-    for one, other in combinations(places, 2):
-        assert np.abs(one - other).max() > 0.1, "a line of words"
-    for place, label in zip(places, range(4), strict=True):
-        side = np.sign(place[0])
-        assert (np.abs(place) < 0.95).all()
-        near = np.abs(aside - place[0]) < 0.35  # half as wide as words are
-        assert not near.any() or (side * (above[near] - place[1])).min() > 0.05, label
-        _, leaders = columns(f"/improved/wrong/{label}/leader", "LineStrips3D:strips")
-        ends = np.reshape(leaders, (-1, 2, 3))[:, 1]
-        assert (ends == ends[0]).all() and np.linalg.norm(in_picture(sight, ends[0]) - place) < 0.45
 
 
 @pytest.mark.parametrize("side", [-1, 1])
@@ -282,25 +229,3 @@ def test_plots_reach_to_the_last_iteration_of_the_longest_training():
     for view in views:
         (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
         assert [shown["start"], shown["end"]] == [0, 220], "with room for the number of the last"
-
-
-def test_fewer_poses_are_visited_in_fewer_frames():
-    motion = move(np.zeros((3, 2, 6)), np.array([0, 4, 8]), np.zeros(6), 8)
-    assert len(motion.frames) == len(motion.angles) == 2 * 2 * VISIT + 3
-    assert motion.frames[0] == -2 * VISIT and motion.frames[-1] == 8 + 2 * VISIT
-    assert motion.departures.tolist() == [[-2 * VISIT, -VISIT], [9, 9 + VISIT]]
-
-
-def test_scatter_is_enlarged_by_what_it_is_on_average():
-    scatter = np.full((100, 1, 3), [measurements.VISIBLE / 100, 0, 0])
-    scatter[0] *= 100
-    assert measurements.enlarged(SimpleNamespace(scatter=scatter)) == 10
-
-
-def test_leaders_start_at_the_arm(robot, recording, columns):
-    bones = robot.arm.skeleton(motion_of(recording[1]["improved"], robot).angles)
-    for label in range(3):  # the fourth is that of the base
-        _, leaders = columns(f"/improved/wrong/{label}/leader", "LineStrips3D:strips")
-        starts = np.reshape(leaders, (-1, 2, 3))[:, :1]
-        away = np.linalg.norm(bones - starts, axis=-1).min(axis=1)
-        assert away.max() < 0.4, "half a link, and what it is off by"

@@ -66,24 +66,6 @@ def test_without_a_driver_one_is_told_of_it(recording, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_film_has_both_ends_and_what_is_learned_between_them(tmp_path, monkeypatch):
-    taken = []
-
-    def take(recording, shown, view, window):
-        taken.extend(shown.values())
-        for png in shown:
-            Image.new("RGB", (8, 8)).save(png)
-
-    first, last = -1000, 1800
-    monkeypatch.setattr(pictures, "ends", lambda _: (first, last))
-    monkeypatch.setattr(pictures, "take_pictures", take)
-    pictures.take_film(tmp_path / "arm.rrd", tmp_path / "arm.webp")
-    before, learning, after = np.split(np.array(taken), 3)
-    assert before[0] == -pictures.SHOWN and before[-1] == -pictures.STEP
-    assert learning[0] == 0 and learning[-1] == last + first
-    assert np.array_equal(after, before + last + 1)
-
-
 def test_a_recording_that_is_still_loading_is_waited_for(tmp_path):
     loading = SimpleNamespace(loading=True, recordings=[])
     states = iter([loading, loading, SimpleNamespace(loading=False, recordings=["arm"])])

@@ -13,18 +13,15 @@ from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
 from recalib.laboratory.viewer import PROGRAM, quiet
 from recalib.nominal import meshes
-from recalib.nominal.poses import position_error
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.samples import sample_of, sought
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import ERRORS, errors_of
-from recalib.study.plan.competitors import make_peer
 from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
-from recalib.study.recording.phases import POSES, VISIT, move
 from recalib.study.recording.sight import sight_of
 from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
-from tests.study.recording.conftest import DAMAGES, ITERATIONS, SEED, learner, learners
+from tests.study.recording.conftest import DAMAGES, SEED, learners
 from workflow.scripts import call
 
 
@@ -85,7 +82,9 @@ def sample(study, tmp_path):
     """Three searches, of which the first one found the best settings, and the second the worst."""
     trials = pd.DataFrame({"search": [1, 2, 3], "initial_width": [3.8, 0.3, 1.0]})
     finals = {f"{name}/{net}": 0.3 for name in ("position", "orientation") for net in search.NETS}
-    trials = trials.assign(**finals, initial_rate=0.8, final_rate=0.4, **dict.fromkeys(ERRORS, 1))
+    trials = trials.assign(
+        **finals, initial_rate=0.8, final_rate=0.4, **dict.fromkeys((*ERRORS, "score"), 1)
+    )
     path = tmp_path / "improved_40.csv"
     head = sought(study, "improved_40").model_copy(update={"searches": 3})
     path.write_text(sample_of(head, trials))
@@ -150,26 +149,3 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(
     assert "/errors/position_error_cm/paper" not in entities
     sight = sight_of(robot.workspace, np.ones((1, 3)))
     assert len(arrange(watched, sight, {}).root_container.contents) == 1
-
-
-def test_identification_in_a_few_moves_is_recorded_beside_the_map(job, robot, resolved, tmp_path):
-    its = resolved(DAMAGES[:3])
-    both = {"improved": job.learners["improved"], "geometric": None}
-    job = job.model_copy(update={"learners": both})
-    fresh = {
-        "improved": learner("improved"),
-        "geometric": make_peer("geometric", 1, its.controller().robot),
-    }
-    path = tmp_path / "links_encoders.rrd"
-    watched = write_recording(path, job, its, fresh, {}, 0)
-    few, many = watched["geometric"], watched["improved"]
-    assert list(few.history.moves) == [0, 1, 2, 3, 4, 5] and few.cells is None
-    assert (few.achieved[0] == many.achieved[0]).all() and (few.desired == many.desired).all()
-    missed = [position_error(its.achieved[-1], its.desired) for its in (few, many)]
-    assert missed[0].max() < 1e-4 < missed[1].mean()
-    motion = move(few.angles, few.history.iterations, robot.home, many.history.iterations[-1])
-    assert motion.frames[POSES * VISIT : -POSES * VISIT].tolist() == [0, 1, 2, 3, 4, 5]
-    assert motion.frames[-1] == ITERATIONS + POSES * VISIT, "one clock"
-    sight = sight_of(robot.workspace, np.ones((1, 3)))
-    tabs = arrange(watched, sight, {}).root_container
-    assert len(tabs.contents) == 2 and tabs.active_tab == 0
