@@ -30,19 +30,15 @@ def random_home(
     high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
     chain = Chain.of(robot.arm)
     for refused in range(CANDIDATES):
-        there = at_home(robot, np.radians(random.integers(low, high, endpoint=True)))
+        home = np.radians(random.integers(low, high, endpoint=True))
+        workspace = replace(robot.workspace, centre=robot.arm.forward(home[None])[0])
+        there = replace(robot, home=home, workspace=workspace)
         if _reaches_corners(there, chain):
             try:
                 return Controller(there, greatest_condition), refused
             except UnfitWorkspace:
                 pass
     raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")
-
-
-def at_home(robot: Robot, home: np.ndarray) -> Robot:
-    """The robot with its workspace about another home (6,) [rad]."""
-    centre = robot.arm.forward(home[None])[0]
-    return replace(robot, home=home, workspace=replace(robot.workspace, centre=centre))
 
 
 def _reaches_corners(robot: Robot, chain: Chain) -> bool:

@@ -5,6 +5,7 @@ are compared in it see the same poses.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +14,12 @@ import pandas as pd
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
 from recalib.study.experiments.poses import SearchPoses, Stream, train_for_results
+from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
 from recalib.study.scenarios.plants import nominal_controller
 
@@ -25,6 +27,16 @@ if TYPE_CHECKING:
     from recalib.learners.radial import RadialLearner
 
     Kind = type[HierarchicalLearner | RadialLearner]
+
+
+def rules_in(universe: Universe, learner: str) -> Rules:
+    """The rules of one of its learners; how its rate falls goes with how its widths fall."""
+    rules = rules_of(universe.learners[learner])
+    return replace(
+        rules,
+        **universe.conventions.model_dump(),
+        rate=universe.rate_of_visits if rules.equal_visits else universe.ritters_rate,
+    )
 
 
 class World:
@@ -112,6 +124,7 @@ class World:
             [100 * history.position[..., 0], np.degrees(history.orientation[..., 0])], axis=-1
         )
 
-    def final(self, learner: str, iterations: int, trials: pd.DataFrame, **how) -> np.ndarray:
-        """As `train`, geometric means of the last errors (2,) over the seeds."""
-        return np.exp(np.log(self.train(learner, iterations, trials, **how)[:, -1]).mean(axis=0))
+    def tuned(self, learner: str, iterations: int) -> np.ndarray:
+        """Final errors (seed, 2) [cm, degrees] of a learner tuned for so many iterations."""
+        trials = self.search(learner, iterations).all_rounds()
+        return self.train(learner, iterations, trials)[:, -1]

@@ -18,9 +18,8 @@ from recalib.study.inference.measured import ERRORS, KINDS, RIGID
 from recalib.study.multiverse import horizon, measuring
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
-from recalib.study.multiverse.world import World
+from recalib.study.multiverse.world import World, rules_in
 from recalib.study.plan.trainings import budget as budget_of
 
 ITERATIONS = 4
@@ -203,12 +202,12 @@ def test_the_horizon_is_sought_up_to_the_first_rung_that_reaches(
 
     def tuned(_, name, iterations):
         if name == "improved":
-            return np.array([1.0, 1.0])
+            return np.array([[1.0, 1.0]])
         seen.append(iterations)
         missed = reaches is None or iterations < reaches
-        return np.array([0.5, 2.0 if missed else 0.5])
+        return np.array([[0.5, 2.0 if missed else 0.5]])
 
-    monkeypatch.setattr(horizon, "_tuned", tuned)
+    monkeypatch.setattr(World, "tuned", tuned)
     found = horizon._factor(World(each, 0))
     assert found == {"factor": pytest.approx(factor), "bound": bound}
     assert seen == tried
@@ -373,5 +372,4 @@ def test_every_number_of_a_replicate_is_what_it_says(monkeypatch):
         expected[f"{its.key}_ritter"] = np.sqrt(np.prod(ritters))
     assert measured(world) == pytest.approx(expected)
     assert world.sampled == [np.random.default_rng([7, 3]).random()]
-    ends = horizon._tuned(world, "ritter", 8)
-    assert ends == pytest.approx(2.5 * last("ritter", 8))
+    assert world.tuned("ritter", 8) == pytest.approx(np.outer([1, 4], last("ritter", 8)))

@@ -15,11 +15,12 @@ from recalib.study.configuration.shipped import DESIGN
 from recalib.study.configuration.universes import Factors
 from recalib.study.multiverse import homes
 from recalib.study.multiverse.design import read_design
-from recalib.study.multiverse.drawing import draw, draw_design, moved
+from recalib.study.multiverse.drawing import design as design_of
+from recalib.study.multiverse.drawing import draw, moved
 from recalib.study.multiverse.factors import Row, rows
 from recalib.study.multiverse.homes import random_home
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import metric, universe, wider, width_units
+from recalib.study.multiverse.world import rules_in
 from recalib.study.scenarios.plants import nominal_controller, nominal_robot
 from tests.conftest import ROOT, changed
 
@@ -87,7 +88,7 @@ def test_what_a_robot_refuses_is_replaced_by_the_next_row(plan, rules):
     robots[name] = changed(robots[name], workspace=wide)
     job = job.model_copy(update={"plan": few, "robots": tuple(robots.values())})
     expected = [row.number for row in first if row.levels["robot"] != name][:2]
-    assert [(each.universe, each.row) for each in draw_design(job)] == list(enumerate(expected))
+    assert [(each["universe"], each["row"]) for each in design_of(job)] == [*enumerate(expected)]
 
 
 def test_a_design_that_no_robot_serves_says_so(plan, rules):
@@ -97,7 +98,7 @@ def test_a_design_that_no_robot_serves_says_so(plan, rules):
     factors = job.plan.factors.model_copy(update={"home": ("configured",)})
     few = job.plan.model_copy(update={"count": 1, "factors": factors})
     with pytest.raises(RecalibError, match="only 0 of 1 universes are possible"):
-        list(draw_design(job.model_copy(update={"plan": few, "robots": robots})))
+        design_of(job.model_copy(update={"plan": few, "robots": robots}))
 
 
 def test_a_random_home_is_near_and_one_that_the_controller_accepts(plan, monkeypatch):
