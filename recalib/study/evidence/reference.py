@@ -9,7 +9,7 @@ import numpy as np
 from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
-from recalib.study.evidence.verdicts import RATIO, Verdict
+from recalib.study.evidence.verdicts import RATIO
 from recalib.study.inference.hierarchy import student
 from recalib.study.inference.intervals import Estimate, combined
 from recalib.study.inference.measured import ERRORS, KINDS
@@ -33,16 +33,9 @@ def two_maps(reference: "pd.DataFrame") -> list[dict]:
         one, two = (
             combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two")
         )
-        estimate = _geometric(two / one)
-        verdict = RATIO.verdict(estimate)
-        rows.append(
-            {
-                "system": NAMES[system],
-                "iterations": iterations,
-                "ratio": estimate,
-                "verdict": verdict,
-            }
-        )
+        ratio = _geometric(two / one)
+        about = {"system": NAMES[system], "iterations": iterations}
+        rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows
 
 
@@ -80,10 +73,9 @@ def schedules(reference: "pd.DataFrame") -> list[dict]:
     """By system, law of the rate and n: the error with equal visits over that without."""
     rows = []
     for system, rate, n in product(NAMES, ("linear", "exponential"), (3, 6)):
-        estimate = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
-        verdict: Verdict = RATIO.verdict(estimate)
+        ratio = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
         about = {"system": NAMES[system], "rate": rate, "n": n}
-        rows.append(about | {"ratio": estimate, "verdict": verdict})
+        rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows
 
 
