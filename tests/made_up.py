@@ -192,19 +192,14 @@ class MadeUp:
         else:
             table.to_parquet(path, index=False)
 
-    def train(self, learner: str, repetition: int) -> None:
-        """Repeat a training on the study's own scenario with other luck."""
-        path = f"runs/{self.study.scenario}/{learner}.parquet"
-        self.write(path, self.history(learner, self.study.scenario, repetition))
-
-    def history(self, learner: str, scenario: str, repetition: int = 0) -> pd.DataFrame:
-        """A history; each repetition has luck of its own, of searches and of seeds."""
+    def history(self, learner: str, scenario: str) -> pd.DataFrame:
+        """A history with luck of searches and of seeds."""
         which = training(self.study, learner)
         fallback = LADDERS[which.name] / which.iterations if which.name in LADDERS else 0.3
         final = self._final.get((learner, scenario), self._final.get(learner, fallback))
         initial = AT_FIRST.get(scenario, INITIAL)
         count, seeds = searches(self.study, learner), self.study.training.seeds
-        rng = generator(repetition, "made up", scenario, learner)
+        rng = generator(0, "made up", scenario, learner)
         luck = OF_SEARCHES * rng.normal(size=(count, 1, 2))
         luck = luck + OF_SEEDS * rng.normal(size=(count, seeds, 2))
         last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
@@ -223,10 +218,10 @@ class MadeUp:
             }
         )
 
-    def reference(self, means: Mapping[str, float] | None = None, repetition=0) -> pd.DataFrame:
-        """The replicates of the reference study; `means` are those of `outcomes`."""
-        rng = generator(repetition, "made up", "reference")
-        table = _measured(REPLICATES, 1, means or {}, rng)
+    def reference(self) -> pd.DataFrame:
+        """The replicates of the reference study."""
+        rng = generator(0, "made up", "reference")
+        table = _measured(REPLICATES, 1, {}, rng)
         for system, rate, n in product(("improved", "ritter"), ("linear", "exponential"), (3, 6)):
             table[f"schedule_{system}_{rate}_{n}"] = 0.5 * _spread(rng, REPLICATES)
         for system, length, error in product(("improved", "ritter"), lengths.MAPS, ERRORS):

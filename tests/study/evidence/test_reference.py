@@ -16,7 +16,7 @@ from recalib.study.evidence.reference import (
     width_order,
 )
 from recalib.study.inference.measured import ERRORS
-from tests.made_up import LUCK, MadeUp
+from tests.made_up import MadeUp
 
 
 @pytest.fixture(scope="module")
@@ -94,14 +94,6 @@ def test_what_one_search_would_find_has_students_prediction_interval():
     assert np.log([row["low"], row["high"]]) == pytest.approx(
         values.mean() + half * np.array([-1, 1])
     )
-
-
-def test_one_search_alone_would_find_what_replicates_find(reference):
-    (row,) = spread_of_luck(reference, {"theta": "theta_improved"})
-    mean = np.exp(np.log(reference["theta_improved"]).mean())
-    assert row["low"] < mean < row["high"]
-    # Student's prediction for 8 replicates: 2.5 standard deviations, of LUCK and of setups
-    assert np.log(row["high"] / mean) == pytest.approx(2.5 * LUCK, rel=0.7)
 
 
 def test_of_few_trials_p_is_the_share_of_all_exchanges():

@@ -81,9 +81,3 @@ def test_placements_of_a_seed_are_measured_on_the_same_poses_and_placed_by_other
     assert all(np.array_equal(poses, second[0]) for poses in second)
     sets = [set(poses.ravel().tolist()) for poses in (first[0], second[0], *used)]
     assert len(set().union(*sets)) == sum(map(len, sets)), "no pose is in two of them"
-
-
-def test_a_study_of_another_seed_has_other_luck_and_of_the_same_the_same(line):
-    again, other = (quantisation(seed, (2,), (2, 2000), 4)["distance"] for seed in (7, 8))
-    assert again.equals(line["distance"])
-    assert not (other == line["distance"]).any()

@@ -24,15 +24,6 @@ def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damage
     assert coupling(controller, damaged, desired).to_numpy().max() > 0.005
 
 
-def test_an_encoder_couples_orientation_commands_to_positions(controller, robot):
-    table = coupling(
-        controller, apply(robot, [EncoderShift("elbow_joint", 0.07)]), np.zeros((1, 6))
-    )
-    assert (
-        table["orientation"][0] > 10 * table["position"][0] > 0 or table["orientation"][0] > 0.005
-    )
-
-
 def test_the_ball_is_uniform():
     points = ball(np.random.default_rng(0), 20_000, 3, 2.0)
     radii = np.linalg.norm(points, axis=1)
@@ -71,14 +62,6 @@ def test_the_condition_of_section_5_takes_the_best_constants_and_not_those_of_th
     ):
         gap = np.square(matrix @ at_centre).sum()
         assert found[rule] == pytest.approx(found[least] + gap, rel=1e-10) and gap > 0
-
-
-def test_a_constant_added_or_a_constant_learned_is_no_distance_to_it():
-    bent = lambda w: np.sin(3 * w)  # noqa: E731
-    found = propagation_errors(bent, lambda w: bent(w) + 0.3, CENTRE, OFFSETS)
-    assert found["to_original"] < 1e-20 < found["to_constant"]
-    found = propagation_errors(bent, lambda w: 0 * w + 0.7, CENTRE, OFFSETS)
-    assert found["to_constant"] < 1e-20 < found["to_original"]
 
 
 def test_the_condition_of_jacobians_sums_over_all_that_they_hold():
