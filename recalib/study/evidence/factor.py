@@ -98,12 +98,9 @@ def on_the_way(
 ) -> tuple[int, Estimate]:
     """How long a training is, and when it reaches both errors of another, over `own` iterations.
 
-    Args:
-        slow: by number of iterations.
-        goal: (search, seed, 2) final errors of the other.
-
-    It is the shortest of at least LONG iterations that reaches them on average; the longest, where
-    none does. Infinite where it does not reach them.
+    The other's final errors (search, seed, 2) are the goal. The training is the shortest of at
+    least LONG iterations that reaches them on average; the longest, where none does. Infinite where
+    it does not reach them.
     """
     target = goal.mean(axis=(0, 1))
     long = [rung for rung in sorted(slow) if rung >= LONG]

@@ -82,12 +82,8 @@ def schedules(reference: "pd.DataFrame") -> list[dict]:
 def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dict]:
     """By map: the permutation test that exchanges g_k and g_kl, over all searches together.
 
-    Args:
-        trials: all of a sample; those of the first rounds are looked at.
-        random: of the exchanges.
-
-    Both widths of a trial have the same distribution. If they mattered alike, their log ratio could
-    have had either sign.
+    Trials of the first rounds are looked at. Both widths of such a trial have the same
+    distribution. If they mattered alike, their log ratio could have had either sign.
     """
     from scipy.stats import rankdata  # half a second, which only this page needs
 
@@ -103,11 +99,7 @@ def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dic
 
 
 def spread_of_luck(reference: "pd.DataFrame", columns: Mapping[str, str]) -> list[dict]:
-    """What one search alone would find, by what is compared: where 95 % of replicates lie.
-
-    Args:
-        columns: of ratios, by what they are called.
-    """
+    """What one search alone would find: where 95 % of replicates of some columns of ratios lie."""
     from scipy.special import stdtrit
 
     rows = []

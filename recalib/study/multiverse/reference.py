@@ -23,11 +23,7 @@ SCHEDULE = SWITCHES[-1]
 
 
 def reference_universe(study: Study, resolved: Resolved) -> Universe:
-    """The reference study as a setup: the first level of each factor, and its own seed.
-
-    Args:
-        resolved: the study's own scenario.
-    """
+    """The reference study as a setup: its own scenario and seed, the first level of each factor."""
     factors = study.universes.factors
     home = study.robots[study.robot].home.values()
     designed = Designed(
@@ -46,12 +42,7 @@ def reference_universe(study: Study, resolved: Resolved) -> Universe:
 
 
 def reference(scenario: Path, study: Study, number: int) -> list[dict[str, float]]:
-    """The row of one replicate: as of a setup, schedules and maps of several kinds besides.
-
-    Args:
-        scenario: file of the study's own scenario as resolved.
-        number: of the replicate.
-    """
+    """The row of a replicate: as of a setup, schedules and maps of several kinds besides."""
     setup = reference_universe(study, Resolved.read(scenario))
     world = World(setup, number)
     row = {"universe": NUMBER, "replicate": number} | measured(world)

@@ -40,12 +40,7 @@ def rules_in(universe: Universe, learner: str) -> Rules:
 
 
 class World:
-    """A replicate.
-
-    Args:
-        universe: the setup.
-        replicate: which, from 0.
-    """
+    """A replicate of a setup, the first one with number 0."""
 
     def __init__(self, universe: Universe, replicate: int):
         self.universe, self.replicate = universe, replicate
@@ -68,7 +63,6 @@ class World:
         Args:
             like: learner whose search had the same poses; its own unless given.
             fixed: numbers of a trial that are not sought.
-            kind: of the learner.
         """
         universe, arm = self.universe, self.arm(self.universe.own)
         poses = Stream.SEARCH_OF_REPLICATE.draw(
@@ -100,8 +94,7 @@ class World:
     ) -> np.ndarray:
         """First and last errors (seed, 2, 2) [cm, degrees] of the best of some trials.
 
-        Args:
-            scenario: the paper's damage unless given.
+        On the paper's damage, or another scenario.
         """
         universe, seeds = self.universe, range(self.universe.seeds)
         arm, rules = self.arm(scenario or universe.own), rules_in(universe, learner)
