@@ -20,7 +20,7 @@ EXPERIMENTS = "tests/study/experiments", "tests/study/test_search.py", "tests/te
 EVIDENCE = tuple(
     f"tests/study/evidence/test_{name}.py"
     for name in (
-        *("words", "tables", "contexts", "criteria", "evidence", "claims", "report_texts"),
+        *("words", "tables", "criteria", "evidence", "claims", "report_texts"),
         *("across", "deviations", "factor", "findings", "outcome"),
         *("reference", "verdicts", "kept"),
     )

@@ -35,14 +35,6 @@ def test_what_was_planted_is_found_again():
     assert found.numbers == pytest.approx(values.mean(axis=1))
 
 
-def test_luck_has_a_degree_of_freedom_less_than_replicates_in_each_setup(monkeypatch):
-    seen, own = [], module._own_variances
-    monkeypatch.setattr(module, "_own_variances", lambda *its: seen.append(its[-1]) or own(*its))
-    values, groups, _ = world(np.random.default_rng(3), setups=10, replicates=4)
-    hierarchy(values, groups)
-    assert seen[0].tolist() == [15, 15]
-
-
 def test_the_mean_has_students_interval():
     values = np.random.default_rng(2).normal(size=9)
     found = student(values)
