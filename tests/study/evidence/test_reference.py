@@ -12,7 +12,6 @@ from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
     spread_of_luck,
-    two_maps,
     width_order,
 )
 from recalib.study.inference.measured import ERRORS
@@ -22,15 +21,6 @@ from tests.made_up import MadeUp
 @pytest.fixture(scope="module")
 def reference(few, tmp_path_factory):
     return MadeUp(tmp_path_factory.mktemp("reference"), few).reference()
-
-
-def test_two_maps_are_compared_with_one_for_both_systems_and_all_lengths(reference):
-    rows = two_maps(reference)
-    assert [row["iterations"] for row in rows] == [*MAPS] * 2
-    assert [row["system"] for row in rows] == ["improved system"] * 4 + ["Ritter's"] * 4
-    for row in rows:
-        assert row["ratio"].mean == pytest.approx(0.5, rel=0.15)
-        assert (row["verdict"], row["ratio"].high < 1) == ("supported", True)
 
 
 def test_two_maps_are_as_many_times_as_fast_as_their_errors_say(reference):

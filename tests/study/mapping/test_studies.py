@@ -1,20 +1,16 @@
-import zlib
-
 import numpy as np
 import pandas as pd
 import pytest
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
 from recalib.study.evidence.claims.reasons import integral_ratios
-from recalib.study.mapping.coupling import coupling, couplings
+from recalib.study.mapping.coupling import coupling
 from recalib.study.mapping.propagation import (
     ball,
     grown,
-    propagation,
     propagation_errors,
 )
 from recalib.study.mapping.visits import visits
-from workflow.scripts.call import write
 
 
 def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damaged):
@@ -91,23 +87,6 @@ def test_a_turn_beyond_60_degrees_is_nearer_to_a_constant():
 def test_visits_agree_with_the_formula_in_the_middle_and_halve_on_a_face():
     table = visits(2, [0.2], [0.0, 1.0], samples=400_000)
     assert table["ratio"].tolist() == pytest.approx([0.5, 1.0], abs=4 * table["error"].max())
-
-
-def test_each_measurement_follows_from_the_seed_and_from_its_own_name(plan, roots, tmp_path):
-    write(tmp_path / "rotation.json", plan.resolved("rotation"))
-    scenario, found = tmp_path / "rotation.json", []
-    for run in (
-        lambda: couplings([scenario], 1, 77),
-        lambda: propagation(scenario, 1, 2, 0.1, [1.0], 77),
-        lambda: visits(77, [0.2], [1.0], samples=10),
-    ):
-        roots.clear()
-        run()
-        found.append([*roots])
-    names = [["coupling"], ["ball", "centres"], []]
-    study, visited = (zlib.crc32(name.encode()) for name in ("study", "visits"))
-    expected = [[(77, study, zlib.crc32(key.encode())) for key in keys] for keys in names]
-    assert found == [*expected[:2], [(77, visited)]]
 
 
 def test_links_are_shortened_by_what_the_paper_says_at_most():
