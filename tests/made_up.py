@@ -197,9 +197,7 @@ class MadeUp:
         initial = AT_FIRST.get(scenario, INITIAL)
         count, seeds = searches(self.study, learner), self.study.training.seeds
         rng = generator(0, "made up", scenario, learner)
-        luck = OF_SEARCHES * rng.normal(size=(count, 1, 2))
-        luck = luck + OF_SEEDS * rng.normal(size=(count, seeds, 2))
-        last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
+        last = (np.broadcast_to(final, 2) * _luck(rng, count, seeds)).reshape(-1, 2)
         parts = np.array([0, 0.1, 0.4, 1])
         part = parts[:, None, None]
         measured = (initial * (1 - part) + last * part).reshape(-1, 2)
@@ -256,9 +254,8 @@ class MadeUp:
     def efforts(self) -> pd.DataFrame:
         """Trainings for the factor of 70: a rough search leaves half as much error again."""
         own, ladder = training(self.study, "improved").iterations, self.study.experiments.ladder
-        cases = [("improved", own)] + [
-            (n, it) for n in LADDERS if n != "improved" for it in ladder[n]
-        ]
+        rungs = {"improved": [own]} | {name: ladder[name] for name in LADDERS if "ritter" in name}
+        cases = [(name, iterations) for name, its in rungs.items() for iterations in its]
         tables = []
         for (name, iterations), (effort, worse) in product(cases, (("full", 1.0), ("rough", 1.5))):
             count, seeds = (4 if effort == "full" else 8), self.study.training.seeds
@@ -266,9 +263,7 @@ class MadeUp:
             keys = product(range(count), range(seeds), np.rint(whens * iterations).astype(int))
             table = pd.DataFrame(keys, columns=["search", "seed", "iteration"])
             rng = generator(0, "made up", "efforts", name, iterations, effort)
-            luck = np.exp(OF_SEARCHES * rng.normal(size=(count, 1, 1, 2)))
-            luck = luck * np.exp(OF_SEEDS * rng.normal(size=(count, seeds, 1, 2)))
-            luck = np.broadcast_to(luck, (count, seeds, len(whens), 2)).reshape(-1, 2)
+            luck = np.repeat(_luck(rng, count, seeds).reshape(-1, 2), len(whens), axis=0)
             level = worse * LADDERS[name] / table[["iteration"]].to_numpy()
             table[list(ERRORS)] = level * luck
             about = {"training": f"{name}_{iterations}", "effort": effort, "iterations": iterations}
@@ -396,6 +391,12 @@ class MadeUp:
 def _numbered(setups: int, replicates: int) -> pd.DataFrame:
     keys = product(range(setups), range(replicates))
     return pd.DataFrame(keys, columns=["universe", "replicate"])
+
+
+def _luck(rng: np.random.Generator, searches: int, seeds: int) -> np.ndarray:
+    """Factors (search, seed, 2) of errors."""
+    of_searches = OF_SEARCHES * rng.normal(size=(searches, 1, 2))
+    return np.exp(of_searches + OF_SEEDS * rng.normal(size=(searches, seeds, 2)))
 
 
 def _spread(rng: np.random.Generator, count: int, spread: float = LUCK) -> np.ndarray:

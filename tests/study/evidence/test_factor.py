@@ -19,7 +19,6 @@ from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
-from recalib.study.multiverse.efforts import rough
 from tests.made_up import MadeUp
 
 NEEDS = f"runs/{{scenario}}/{{ladder}}.parquet {shipped.EFFORTS} iterations seed"
@@ -118,22 +117,6 @@ def test_trainings_of_one_learner_are_no_trainings_of_another():
     ours, doubled = (watched(of_efforts(), name, "full") for name in ("ritter", "ritter_double"))
     assert {n: grid.tolist() for n, (grid, _) in ours.items()} == {10: [5, 10], 20: [10, 20]}
     assert [*doubled] == [10]
-
-
-def test_the_first_round_of_a_full_search_holds_rough_ones_that_share_no_trial():
-    random = np.random.default_rng(0)
-    trials = pd.DataFrame(
-        [(search, round_) for search in (1, 2) for round_ in (1, 2) for _ in range(64)],
-        columns=["search", "round"],
-    ).assign(score=random.permutation(256))
-    trials.loc[trials["round"] == 2, "score"] -= 1000
-    winners = rough(trials, 16)
-    assert len(winners) == 2 * 4 and winners.index.is_unique
-    assert (winners["round"] == 1).all() and winners["search"].tolist() == [1] * 4 + [2] * 4
-    for search in (1, 2):
-        first = trials[(trials["search"] == search) & (trials["round"] == 1)]
-        best = [first["score"].iloc[k : k + 16].idxmin() for k in range(0, 64, 16)]
-        assert winners[winners["search"] == search].index.tolist() == best
 
 
 def test_in_setups_it_stands_by_cells_and_those_with_a_bound_are_left_out():
