@@ -24,7 +24,6 @@ from recalib.study.configuration.shipped import (
     DEVIATIONS,
     EFFORTS,
     FACTORS,
-    FIRST,
     PIECES,
     POWER,
     REFERENCE,
@@ -35,6 +34,7 @@ from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence import effects
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
+from recalib.study.evidence.findings import COUNTED
 from recalib.study.evidence.needs import Request
 from recalib.study.evidence.real_arm import real_errors
 from recalib.study.evidence.results import Evidence
@@ -61,6 +61,7 @@ LADDERS = {"improved": 20, "ritter": 1400, "ritter_double": 1400}  # error times
 OF_SEARCHES, OF_SEEDS = 0.07, 0.05
 NOISE = 1e-9  # relative: more than machines differ by
 UNMEASURED = "scale", "width", "distance"  # but of assignments
+SHIPPED = DESIGN, POWER, DEVIATIONS, COUNTED, FACTORS  # used as they are
 REPLICATES = 8  # of the reference study
 # Spread of logarithms of what the campaign measures: of replicates, and of setups
 LUCK, OWN = 0.1, 0.05
@@ -122,7 +123,6 @@ class MadeUp:
     def __init__(self, folder: Path, study: Study, final=None, noise: float = 0.0):
         self.study, self.trainings, self.folder = study, Trainings(study), folder
         self._final, self._noise = FINAL | (final or {}), noise
-        self._samples = folder / "search"
         self._tables: dict[str, Callable[[], pd.DataFrame]] = {
             f"assignments/{study.robot}.parquet": self.assignments,
             REFERENCE: self.reference,
@@ -139,13 +139,7 @@ class MadeUp:
                 self._tables[path] = partial(self.ensemble, plan)
         for scenario in self.trainings.scenarios():
             self.scenario(scenario)
-        for name in (
-            DESIGN,
-            POWER,
-            DEVIATIONS,
-            f"{FIRST}/counted.csv",
-            FACTORS,
-        ):  # as they are shipped
+        for name in SHIPPED:
             self.path(name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.path(name))
 
@@ -155,9 +149,12 @@ class MadeUp:
 
     def sample_at(self, name: str) -> str:
         """Where the searches for a training lie, made up when they are asked for."""
-        path = self._samples / f"{name}.csv"
+        path = self.folder / "search" / f"{name}.csv"
         if not path.exists():
-            self.sample(name, self.trials(name))
+            path.parent.mkdir(exist_ok=True)
+            numbers = range(1, searches(self.study, name) + 1)
+            trials = pd.concat([_trials(name, number) for number in numbers], ignore_index=True)
+            path.write_text(sample_of(sought(self.study, name), trials), encoding="utf-8")
         return str(path)
 
     def request(self) -> Request:
@@ -192,22 +189,15 @@ class MadeUp:
         else:
             table.to_parquet(path, index=False)
 
-    def train(self, learner: str, repetition: int) -> None:
-        """Repeat a training on the study's own scenario with other luck."""
-        path = f"runs/{self.study.scenario}/{learner}.parquet"
-        self.write(path, self.history(learner, self.study.scenario, repetition))
-
-    def history(self, learner: str, scenario: str, repetition: int = 0) -> pd.DataFrame:
-        """A history; each repetition has luck of its own, of searches and of seeds."""
+    def history(self, learner: str, scenario: str) -> pd.DataFrame:
+        """A history with luck of searches and of seeds."""
         which = training(self.study, learner)
         fallback = LADDERS[which.name] / which.iterations if which.name in LADDERS else 0.3
         final = self._final.get((learner, scenario), self._final.get(learner, fallback))
         initial = AT_FIRST.get(scenario, INITIAL)
         count, seeds = searches(self.study, learner), self.study.training.seeds
-        rng = generator(repetition, "made up", scenario, learner)
-        luck = OF_SEARCHES * rng.normal(size=(count, 1, 2))
-        luck = luck + OF_SEEDS * rng.normal(size=(count, seeds, 2))
-        last = (np.broadcast_to(final, 2) * np.exp(luck)).reshape(-1, 2)
+        rng = generator(0, "made up", scenario, learner)
+        last = (np.broadcast_to(final, 2) * _luck(rng, count, seeds)).reshape(-1, 2)
         parts = np.array([0, 0.1, 0.4, 1])
         part = parts[:, None, None]
         measured = (initial * (1 - part) + last * part).reshape(-1, 2)
@@ -223,10 +213,10 @@ class MadeUp:
             }
         )
 
-    def reference(self, means: Mapping[str, float] | None = None, repetition=0) -> pd.DataFrame:
-        """The replicates of the reference study; `means` are those of `outcomes`."""
-        rng = generator(repetition, "made up", "reference")
-        table = _measured(REPLICATES, 1, means or {}, rng)
+    def reference(self) -> pd.DataFrame:
+        """The replicates of the reference study."""
+        rng = generator(0, "made up", "reference")
+        table = _measured(REPLICATES, 1, {}, rng)
         for system, rate, n in product(("improved", "ritter"), ("linear", "exponential"), (3, 6)):
             table[f"schedule_{system}_{rate}_{n}"] = 0.5 * _spread(rng, REPLICATES)
         for system, length, error in product(("improved", "ritter"), lengths.MAPS, ERRORS):
@@ -264,9 +254,8 @@ class MadeUp:
     def efforts(self) -> pd.DataFrame:
         """Trainings for the factor of 70: a rough search leaves half as much error again."""
         own, ladder = training(self.study, "improved").iterations, self.study.experiments.ladder
-        cases = [("improved", own)] + [
-            (n, it) for n in LADDERS if n != "improved" for it in ladder[n]
-        ]
+        rungs = {"improved": [own]} | {name: ladder[name] for name in LADDERS if "ritter" in name}
+        cases = [(name, iterations) for name, its in rungs.items() for iterations in its]
         tables = []
         for (name, iterations), (effort, worse) in product(cases, (("full", 1.0), ("rough", 1.5))):
             count, seeds = (4 if effort == "full" else 8), self.study.training.seeds
@@ -274,9 +263,7 @@ class MadeUp:
             keys = product(range(count), range(seeds), np.rint(whens * iterations).astype(int))
             table = pd.DataFrame(keys, columns=["search", "seed", "iteration"])
             rng = generator(0, "made up", "efforts", name, iterations, effort)
-            luck = np.exp(OF_SEARCHES * rng.normal(size=(count, 1, 1, 2)))
-            luck = luck * np.exp(OF_SEEDS * rng.normal(size=(count, seeds, 1, 2)))
-            luck = np.broadcast_to(luck, (count, seeds, len(whens), 2)).reshape(-1, 2)
+            luck = np.repeat(_luck(rng, count, seeds).reshape(-1, 2), len(whens), axis=0)
             level = worse * LADDERS[name] / table[["iteration"]].to_numpy()
             table[list(ERRORS)] = level * luck
             about = {"training": f"{name}_{iterations}", "effort": effort, "iterations": iterations}
@@ -329,35 +316,6 @@ class MadeUp:
                 luck = rng.uniform(0.5, 1.5, len(table))
                 table[f"{moment}_{error}"] = value * table["scale"] * luck
         return table
-
-    def trials(self, learner: str) -> pd.DataFrame:
-        """A hundred trials of each search, of which thirty are good."""
-        numbers = range(1, searches(self.study, learner) + 1)
-        trials = pd.concat([self._trials(learner, number) for number in numbers])
-        return trials.reset_index(drop=True)
-
-    def _trials(self, learner: str, search: int) -> pd.DataFrame:
-        rng, good = np.random.default_rng(search), np.arange(100) < 30
-        maps = ("position", "orientation") if "improved" in learner else ("pose",)
-        narrow = {"position": "g_k", "orientation": "g_kl"}
-        table = pd.DataFrame({"round": 1, "initial_width": 1.0}, index=range(100))
-        for name, net in product(maps, ("g_k", "g_kl")):
-            wanted = narrow.get(name) == net
-            table[f"{name}/{net}"] = (
-                np.where(good, 0.3, 1) * rng.lognormal(0, 0.1, 100) if wanted else 1.0
-            )
-        table["initial_rate"], table["final_rate"] = 0.8, 0.4
-        table[ERRORS[0]] = np.where(good, 0.3, 3.0) * rng.uniform(1, 1.5, 100)
-        table[ERRORS[1]], table["score"] = 0.1, table[ERRORS[0]]
-        table = table.map(lambda value: float(f"{value:.4g}"))
-        table.insert(0, "search", search)
-        return table
-
-    def sample(self, learner: str, trials: pd.DataFrame) -> None:
-        """Keep the searches for a training."""
-        path = self._samples / f"{training(self.study, learner)}.csv"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(sample_of(sought(self.study, learner), trials), encoding="utf-8")
 
     def scenario(self, scenario: str) -> None:
         damages = {
@@ -435,6 +393,12 @@ def _numbered(setups: int, replicates: int) -> pd.DataFrame:
     return pd.DataFrame(keys, columns=["universe", "replicate"])
 
 
+def _luck(rng: np.random.Generator, searches: int, seeds: int) -> np.ndarray:
+    """Factors (search, seed, 2) of errors."""
+    of_searches = OF_SEARCHES * rng.normal(size=(searches, 1, 2))
+    return np.exp(of_searches + OF_SEEDS * rng.normal(size=(searches, seeds, 2)))
+
+
 def _spread(rng: np.random.Generator, count: int, spread: float = LUCK) -> np.ndarray:
     return np.exp(spread * rng.normal(size=count))
 
@@ -455,4 +419,21 @@ def _measured(
             own = np.repeat(OWN * rng.normal(size=setups), replicates)
             moved = own + LUCK * rng.normal(size=len(table))
             table[across.column] = mean * np.exp(moved) if across.logarithmic else mean + moved
+    return table
+
+
+def _trials(learner: str, search: int) -> pd.DataFrame:
+    """A hundred trials, of which thirty are good."""
+    rng, good = np.random.default_rng(search), np.arange(100) < 30
+    maps = ("position", "orientation") if "improved" in learner else ("pose",)
+    table = pd.DataFrame({"round": 1, "initial_width": 1.0}, index=range(100))
+    for name, net in product(maps, ("g_k", "g_kl")):
+        wanted = (name, net) in (("position", "g_k"), ("orientation", "g_kl"))
+        widths = np.where(good, 0.3, 1) * rng.lognormal(0, 0.1, 100) if wanted else 1.0
+        table[f"{name}/{net}"] = widths
+    table["initial_rate"], table["final_rate"] = 0.8, 0.4
+    table[ERRORS[0]] = np.where(good, 0.3, 3.0) * rng.uniform(1, 1.5, 100)
+    table[ERRORS[1]], table["score"] = 0.1, table[ERRORS[0]]
+    table = table.map(lambda value: float(f"{value:.4g}"))
+    table.insert(0, "search", search)
     return table

@@ -20,8 +20,8 @@ EXPERIMENTS = "tests/study/experiments", "tests/study/test_search.py", "tests/te
 EVIDENCE = tuple(
     f"tests/study/evidence/test_{name}.py"
     for name in (
-        *("words", "tables", "contexts", "criteria", "evidence", "claims", "report_texts"),
-        *("across", "deviations", "factor", "findings", "outcome", "planted_effects"),
+        *("words", "tables", "criteria", "evidence", "claims", "report_texts"),
+        *("across", "deviations", "factor", "findings", "outcome"),
         *("reference", "verdicts", "kept"),
     )
 )
@@ -68,8 +68,6 @@ TOO_LONG = (  # tests that take minutes: no mutant meets them
     "test_no_test_pose_of_any_job_was_learned_from_or_searched_with",
     "tests/study/experiments/test_planted.py::test_without_an_error_the_check_is_green",
     "tests/study/test_hierarchy.py::test_intervals_hold_the_truth_as_often_as_they_say",
-    "tests/study/multiverse/test_universes.py::"
-    "test_the_first_campaign_is_still_read_and_drawn_the_same",
 )
 LEFT_OUT = {
     "recalib/study/plots": "Figures are inspected by eye; their numbers come from `evidence`.",

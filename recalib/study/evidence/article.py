@@ -40,11 +40,9 @@ def context(evidence: Evidence) -> dict:
 
 
 def typeset(source: Path, article: Path, project: Path = Path()) -> None:
-    """Write the article, tagged for screen readers, with the fonts of its figures alone.
+    """Write the article as a PDF, tagged for screen readers, with the fonts of its figures alone.
 
-    Args:
-        source: in Typst, below the project's folder.
-        article: a PDF.
+    The source, in Typst, lies below the project's folder.
 
     Raises typst.TypstError: a reference, a figure or a sign that Typst does not know.
     """

@@ -55,18 +55,9 @@ def reached(
         for error, threshold in product(ERRORS, thresholds):
             moves = moves_to_reach(own, error, threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
-            rows.append(
-                {
-                    "scenario": scenario,
-                    "learner": learner,
-                    "error": error,
-                    "threshold": threshold,
-                    "moves": median,
-                    "low": low,
-                    "high": high,
-                    "needs": needs_of(learner),
-                }
-            )
+            about = {"scenario": scenario, "learner": learner, "error": error}
+            its = {"threshold": threshold, "moves": median, "low": low, "high": high}
+            rows.append(about | its | {"needs": needs_of(learner)})
     return pd.DataFrame(rows)
 
 

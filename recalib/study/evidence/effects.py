@@ -29,7 +29,7 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
         one_hot = np.eye(len(names))[codes]
         means = _means(numbers[None], one_hot)[0]
         drawn = random.integers(len(numbers), size=(RESAMPLES, len(numbers)))
-        resampled = _spread(_means_of(numbers[drawn], one_hot[drawn]))
+        resampled = np.ptp(_means_of(numbers[drawn], one_hot[drawn]), axis=1)
         shuffled = random.permuted(np.tile(numbers, (RESAMPLES, 1)), axis=1)
         low, high = np.quantile(resampled, TAILS)
         rows.append(
@@ -40,7 +40,7 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
                 "effect": np.ptp(means),
                 "low": low,
                 "high": high,
-                "chance": np.quantile(_spread(_means(shuffled, one_hot)), 1 - rarely),
+                "chance": np.quantile(np.ptp(_means(shuffled, one_hot), axis=1), 1 - rarely),
             }
         )
     table = pd.DataFrame(rows)
@@ -57,8 +57,3 @@ def _means_of(numbers: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
     """Means (n, level) of (n, universe), each with levels (n, universe, level) of its own."""
     counts = np.maximum(one_hot.sum(axis=1), 1)
     return np.einsum("nu,nul->nl", numbers, one_hot) / counts
-
-
-def _spread(means: np.ndarray) -> np.ndarray:
-    """The largest less the least of means (n, level)."""
-    return means.max(axis=1) - means.min(axis=1)

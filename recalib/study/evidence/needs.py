@@ -95,9 +95,7 @@ class Request:
     """Collects what one reader needs, and what of it the study lacks.
 
     Args:
-        study: the study.
-        trainings: all of them.
-        root: the folder of its results.
+        root: the folder of the study's results.
         sample_at: the path of the search's sample for a training.
 
     Attributes:

@@ -25,12 +25,7 @@ def put_together(runs: list[Path], seed: int) -> "pd.DataFrame":
 
 
 def real_errors(runs: "pd.DataFrame", seed: int) -> "pd.DataFrame":
-    """A row for each learner and number of poses.
-
-    Args:
-        runs: a row for each learner, number of poses and subset.
-        seed: of the study.
-    """
+    """A row for each learner and number of poses, from one for each of their subsets."""
     import pandas as pd
 
     rows = []

@@ -9,7 +9,7 @@ import numpy as np
 from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
-from recalib.study.evidence.verdicts import RATIO, Verdict
+from recalib.study.evidence.verdicts import RATIO
 from recalib.study.inference.hierarchy import student
 from recalib.study.inference.intervals import Estimate, combined
 from recalib.study.inference.measured import ERRORS, KINDS
@@ -33,16 +33,9 @@ def two_maps(reference: "pd.DataFrame") -> list[dict]:
         one, two = (
             combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two")
         )
-        estimate = _geometric(two / one)
-        verdict = RATIO.verdict(estimate)
-        rows.append(
-            {
-                "system": NAMES[system],
-                "iterations": iterations,
-                "ratio": estimate,
-                "verdict": verdict,
-            }
-        )
+        ratio = _geometric(two / one)
+        about = {"system": NAMES[system], "iterations": iterations}
+        rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows
 
 
@@ -80,22 +73,17 @@ def schedules(reference: "pd.DataFrame") -> list[dict]:
     """By system, law of the rate and n: the error with equal visits over that without."""
     rows = []
     for system, rate, n in product(NAMES, ("linear", "exponential"), (3, 6)):
-        estimate = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
-        verdict: Verdict = RATIO.verdict(estimate)
+        ratio = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
         about = {"system": NAMES[system], "rate": rate, "n": n}
-        rows.append(about | {"ratio": estimate, "verdict": verdict})
+        rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows
 
 
 def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dict]:
     """By map: the permutation test that exchanges g_k and g_kl, over all searches together.
 
-    Args:
-        trials: all of a sample; those of the first rounds are looked at.
-        random: of the exchanges.
-
-    Both widths of a trial have the same distribution. If they mattered alike, their log ratio could
-    have had either sign.
+    Trials of the first rounds are looked at. Both widths of such a trial have the same
+    distribution. If they mattered alike, their log ratio could have had either sign.
     """
     from scipy.stats import rankdata  # half a second, which only this page needs
 
@@ -111,11 +99,7 @@ def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dic
 
 
 def spread_of_luck(reference: "pd.DataFrame", columns: Mapping[str, str]) -> list[dict]:
-    """What one search alone would find, by what is compared: where 95 % of replicates lie.
-
-    Args:
-        columns: of ratios, by what they are called.
-    """
+    """What one search alone would find: where 95 % of replicates of some columns of ratios lie."""
     from scipy.special import stdtrit
 
     rows = []

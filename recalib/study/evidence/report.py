@@ -105,26 +105,16 @@ def layout() -> "Environment":
 
 
 def page(name: str, known: dict, figures: dict[str, str]) -> str:
-    """The text of a page.
-
-    Args:
-        name: of the page.
-        known: what it may say, from `context`.
-        figures: paths of drawings by name.
-    """
+    """The text of a page from what `context` knows, and from the paths of figures by name."""
     own = {"page": f"{name}.html", "shown": shown_by(name, known["claims"]), "body": None}
     own["figure"] = drawing(figures[name]) if name in figures else None
     return layout().get_template("layout.html").render(known | own)
 
 
 def from_markdown(text: str, figures: dict[str, str]) -> str:
-    """A page of docs/ as one of the report.
+    """A page of docs/, in Markdown, as one of the report.
 
     Its figures are drawn into it. Its links to other pages lose their ends, which are not in it.
-
-    Args:
-        text: in Markdown.
-        figures: paths of drawings by name.
     """
     from markdown import markdown
     from markupsafe import Markup
@@ -146,13 +136,9 @@ def write(
     read: Sequence[Path] = (),
     figures: Sequence[Path] = (),
 ) -> None:
-    """Write the pages of a study's report.
+    """Write the pages of a study's report, and the text before them.
 
-    Args:
-        pages: their files.
-        rst: that of the text before all pages.
-        read: pages of docs/ that are some of them.
-        figures: drawings.
+    A page with the name of one that is `read`, or kept in docs/, shows that.
     """
     known = context(evidence)
     drawings = {path.stem: str(path) for path in figures}

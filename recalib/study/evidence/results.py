@@ -112,12 +112,7 @@ class Evidence(Frozen):
         return (pd.read_parquet if name.endswith(".parquet") else pd.read_csv)(self.files[name])
 
     def history(self, learner: str, scenario: str | None = None) -> "pd.DataFrame":
-        """A row for each seed and measurement of a training.
-
-        Args:
-            learner: name of the training.
-            scenario: the study's own unless given.
-        """
+        """A row for each seed and measurement of a training; the study's own scenario is usual."""
         return self.table(f"runs/{scenario or self.facts['scenario']}/{learner}.parquet")
 
     def errors(self, learner: str, scenario: str | None = None, moment: str = "last") -> np.ndarray:
@@ -169,8 +164,7 @@ class Evidence(Frozen):
     def setups(self, table: str) -> "pd.DataFrame | None":
         """A row for each replicate of each alternative setup; None unless all are measured.
 
-        Args:
-            table: outcomes; or horizon, how long Ritter's takes.
+        Of the outcomes, or of the horizon: how long Ritter's takes.
         """
         import pandas as pd
 

@@ -20,7 +20,6 @@ def summarise(
         histories: files of the trainings.
         scenarios: files of all their scenarios as resolved.
         trainings: scenario and learner of each, in the order of the histories.
-        seed: of the study.
     """
     resolved = [json.loads(path.read_text(encoding="utf-8")) for path in scenarios]
     robots = {scenario["scenario"]: scenario["robot"] for scenario in resolved}

@@ -29,11 +29,7 @@ class Estimate(NamedTuple):
 
 
 class Draws:
-    """Studies drawn from one with replacement: the number itself first, then RESAMPLES of it.
-
-    Args:
-        random: their randomness.
-    """
+    """Studies drawn from one with replacement: the number itself first, then RESAMPLES of it."""
 
     def __init__(self, random: np.random.Generator):
         self._random = random
@@ -122,14 +118,9 @@ def typical(errors: np.ndarray) -> int:
 
 
 def first_within(iterations: np.ndarray, errors: np.ndarray, thresholds: np.ndarray) -> float:
-    """The first of the iterations at which all errors are within the thresholds.
+    """The first of iterations (measurement,) at which all errors are within their thresholds.
 
-    Args:
-        iterations: (measurement,).
-        errors: (measurement, kind).
-        thresholds: (kind,).
-
-    Infinite where that never happens.
+    Errors are (measurement, kind), thresholds (kind,). Infinite where that never happens.
     """
     within = np.all(errors <= thresholds, axis=-1)
     return float(iterations[within.argmax()]) if within.any() else np.inf

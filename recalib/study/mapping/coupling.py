@@ -19,13 +19,8 @@ BLOCKS = {"position": (POSITION, ORIENTATION), "orientation": (ORIENTATION, POSI
 def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd.DataFrame:
     """The off-diagonal blocks of the true mapping's Jacobian against the diagonal ones.
 
-    Args:
-        controller: of the nominal robot.
-        arm: the damaged one.
-        desired: (n, 6) poses where to look.
-
-    Returns a row for each pose, with columns position and orientation for these commands: the ratio
-    of the blocks' Frobenius norms, in coordinates of the workspace.
+    Returns a row for each of the desired poses (n, 6), with columns position and orientation for
+    these commands: the ratio of the blocks' Frobenius norms, in coordinates of the workspace.
     """
     jacobians = mapping_jacobians(controller, arm, desired)
     norm = {
@@ -36,13 +31,7 @@ def coupling(controller: Controller, arm: DamagedArm, desired: np.ndarray) -> pd
 
 
 def couplings(scenarios: Sequence[Path], poses: int, seed: int) -> pd.DataFrame:
-    """The coupling at random poses of each scenario.
-
-    Args:
-        scenarios: files of the scenarios as resolved.
-        poses: of each.
-        seed: of the study.
-    """
+    """The coupling at so many random poses of each scenario, from their files as resolved."""
     tables = []
     for scenario in map(Resolved.read, scenarios):
         controller = scenario.controller()

@@ -19,12 +19,7 @@ def measure(
     scales: tuple[float, ...],
     seed: int,
 ) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    """Coupling, propagation and quantisation: see `couplings`, `propagation` and `quantisation`.
-
-    Args:
-        scenarios: files of the scenarios as resolved.
-        own: that of the paper's damage.
-    """
+    """Coupling, propagation and quantisation; `own` is the scenario with the paper's damage."""
     return (
         couplings(scenarios, poses, seed),
         propagation(own, balls, points, radius, scales, seed),

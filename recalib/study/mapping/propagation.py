@@ -82,7 +82,6 @@ def propagation(
         scenario: file of the paper's damage as resolved.
         balls, points, radius: how many balls, of how many points, how large.
         scales: of the damage.
-        seed: of the study.
 
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with the columns of `propagation_errors`.

@@ -75,7 +75,6 @@ def quantisation(
     """The quantisation error of each placement of cells in [-1, 1]^d, for uniform poses.
 
     Args:
-        seed: of the study.
         shape: cells along each axis of the grid, and of the Kohonen map.
         iterations: of the Kohonen rule, a placement each.
         seeds: repetitions, each with poses of its own.

@@ -22,7 +22,6 @@ def visits(
     """Simulated L over the one of (10), for cells at these distances from a face of the workspace.
 
     Args:
-        seed: of the study.
         widths: of the neighbourhood, in workspace coordinates.
         distances: of the cell to the nearest face, 1 being the centre of the workspace [-1, 1]^3.
         samples: winners drawn.
@@ -37,12 +36,6 @@ def visits(
             learned = np.exp(-squares / (2 * width**2))
             formula = expected_learning(width, DIMENSIONS, 2.0**DIMENSIONS)
             error = learned.std() / np.sqrt(samples)
-            rows.append(
-                {
-                    "width": width,
-                    "distance": distance,
-                    "ratio": learned.mean() / formula,
-                    "error": error / formula,
-                }
-            )
+            its = {"ratio": learned.mean() / formula, "error": error / formula}
+            rows.append({"width": width, "distance": distance} | its)
     return pd.DataFrame(rows)

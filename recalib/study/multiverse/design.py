@@ -84,11 +84,7 @@ def read_design(path: str | Path) -> list[Designed]:
 
 
 def put_together(chunks: list[Path], design: str = "") -> "pd.DataFrame":
-    """The tables of the campaign in these files as one.
-
-    Args:
-        design: digest of the one that they follow, if any.
-    """
+    """The tables of the campaign in these files as one, with the digest of a design they follow."""
     import pandas as pd
 
     table = pd.concat(map(pd.read_csv, chunks), ignore_index=True)

@@ -1,7 +1,7 @@
 """Drawing the universes of a design: their levels, and where their robots can work."""
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -42,27 +42,19 @@ class Setting(Frozen):
 
 
 def design(setting: Setting) -> list[dict[str, Any]]:
-    """The rows of the file."""
-    return [universe.as_row() for universe in draw_design(setting)]
-
-
-def draw_design(setting: Setting) -> Iterator[Designed]:
-    """The universes, one after the other.
+    """The rows of the file. Raises RecalibError: there are too few.
 
     Of the rows of the sequence, those that a robot refuses are left out, and said so.
     """
-    universe = 0
+    drawn: list[dict[str, Any]] = []
     for row in rows(setting.plan):
         try:
-            drawn = draw(setting, universe, row)
+            drawn.append(draw(setting, len(drawn), row).as_row())
         except RecalibError as error:
             print(f"row {row.number} is refused: {error}", file=sys.stderr)
-            continue
-        yield drawn
-        universe += 1
-        if universe == setting.plan.count:
-            return
-    raise RecalibError(f"only {universe} of {setting.plan.count} universes are possible")
+        if len(drawn) == setting.plan.count:
+            return drawn
+    raise RecalibError(f"only {len(drawn)} of {setting.plan.count} universes are possible")
 
 
 def draw(setting: Setting, universe: int, row: Row) -> Designed:

@@ -35,12 +35,9 @@ def efforts(
     Args:
         scenario: file of the scenario as resolved.
         sample: file of the searches for this training.
-        training: its name.
-        learner: its rules.
         rough_trials: of a rough search.
         seeds: of each winner.
         tests: poses to measure on.
-        seed: of the study.
 
     Returns a row for each effort, search, seed and measurement: the last one, and in a long
     training those on its way.

@@ -1,16 +1,13 @@
 """Where the workspace of a robot may lie: random homes that its controller accepts."""
 
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 
 from recalib.errors import UnfitWorkspace
-from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 
-CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
 CANDIDATES = 30000  # the pickiest arm, with a longer tool, accepts one in ten thousand
 
 
@@ -28,30 +25,12 @@ def random_home(
     """
     low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
     high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
-    chain = Chain.of(robot.arm)
     for refused in range(CANDIDATES):
-        there = at_home(robot, np.radians(random.integers(low, high, endpoint=True)))
-        if _reaches_corners(there, chain):
-            try:
-                return Controller(there, greatest_condition), refused
-            except UnfitWorkspace:
-                pass
+        home = np.radians(random.integers(low, high, endpoint=True))
+        workspace = replace(robot.workspace, centre=robot.arm.forward(home[None])[0])
+        there = replace(robot, home=home, workspace=workspace)
+        try:
+            return Controller(there, greatest_condition), refused
+        except UnfitWorkspace:
+            pass
     raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")
-
-
-def at_home(robot: Robot, home: np.ndarray) -> Robot:
-    """The robot with its workspace about another home (6,) [rad]."""
-    centre = robot.arm.forward(home[None])[0]
-    return replace(robot, home=home, workspace=replace(robot.workspace, centre=centre))
-
-
-def _reaches_corners(robot: Robot, chain: Chain) -> bool:
-    """Whether the arm reaches the corners of its workspace: most homes fail here, in no time."""
-    for some in (CORNERS[::9], CORNERS):
-        angles = np.tile(robot.home, (len(some), 1))
-        for part in (0.5, 1):  # so that every corner is on the branch of home
-            angles, residuals = chain.solve(robot.workspace.to_poses(part * some), angles)
-            within = (robot.lower <= angles) & (angles <= robot.upper)
-            if not (np.all(residuals <= TOLERANCE) and within.all()):
-                return False
-    return True

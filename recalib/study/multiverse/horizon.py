@@ -27,10 +27,10 @@ def _factor(world: World) -> dict[str, float]:
     last rung is a bound.
     """
     own = world.universe.learners[IMPROVED].iterations
-    goal, rungs, found = _tuned(world, IMPROVED, own), world.universe.rungs, {}
+    goal, rungs, found = world.tuned(IMPROVED, own).mean(axis=0), world.universe.rungs, {}
     rung = len(rungs) // 2
     while 0 <= rung < len(rungs) and rung not in found:
-        found[rung] = _tuned(world, RITTER, rungs[rung])
+        found[rung] = world.tuned(RITTER, rungs[rung]).mean(axis=0)
         rung += -1 if (found[rung] <= goal).all() else 1
     tried = sorted(found)
     grid, errors = np.array([rungs[i] for i in tried]), np.array([found[i] for i in tried])
@@ -40,9 +40,3 @@ def _factor(world: World) -> dict[str, float]:
     if np.isinf(needed):
         return {"factor": rungs[-1] / own, "bound": 1}
     return {"factor": needed / own, "bound": 0}
-
-
-def _tuned(world: World, learner: str, iterations: int) -> np.ndarray:
-    """Final errors (2,) of a learner tuned for so many iterations: means over the seeds."""
-    trials = world.search(learner, iterations).all_rounds()
-    return world.train(learner, iterations, trials)[:, -1].mean(axis=0)

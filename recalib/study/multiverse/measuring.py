@@ -4,13 +4,11 @@ docs/registration.md says what each number is for. Errors are geometric means ov
 comparison is a ratio of errors, or of their geometric mean over position and orientation.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 import pandas as pd
 
 from recalib.learners.radial import RadialLearner
-from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES, Switch
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.experiments.search import NETS
 from recalib.study.experiments.trials import best_of
 from recalib.study.inference.intervals import combined
@@ -21,7 +19,9 @@ from recalib.study.multiverse.world import World
 
 WORKSPACE = 2.0  # wide: a neighbourhood that is as wide holds all of it
 LATE = 1000  # iterations: after 200, Ritter's has hardly begun, and nothing can be compared
-MAPS, OTHERS = SWITCHES[0], SWITCHES[1:]
+MAPS, *OTHERS = SWITCHES
+# Trainings with one map and with two.
+SYSTEMS = {"improved": (MAPS.without, IMPROVED), "ritter": (RITTER, MAPS.added)}
 POSES = 200  # where the Jacobian of the true mapping is taken
 
 
@@ -36,30 +36,31 @@ def measure(universe: Universe) -> list[dict[str, float]]:
 def measured(world: World) -> dict[str, float]:
     """The numbers of one replicate, by the columns of the table of outcomes."""
     iterations = world.universe.learners[IMPROVED].iterations
-    trials = {
-        name: world.search(name, iterations).all_rounds()
-        for name in (
-            IMPROVED,
-            RITTER,
-            *(switch.without for switch in OTHERS),
-            *(e.added for e in OTHERS),
-        )
-    }
+    pairs = [(IMPROVED, RITTER), *((switch.without, switch.added) for switch in OTHERS)]
+    trials = {name: world.search(name, iterations).all_rounds() for pair in pairs for name in pair}
     ours, ritters = (world.train(name, iterations, trials[name]) for name in (IMPROVED, RITTER))
+    few = trials[IMPROVED].iloc[: world.universe.rough_trials]  # as many as a rough search has
     row = {}
     for moment, when in (("initial", 0), ("final", -1)):
         for error, value in zip(ERRORS, ours[:, when].mean(axis=0), strict=True):
             row[f"{moment}_{error}"] = value
     row["remaining"] = _remaining(ours).max()
     row["remaining_ritter"] = _remaining(ritters).min()
-    row["remaining_rough"] = _remaining(
-        world.train(IMPROVED, iterations, _few(world, trials))
-    ).max()
-    for switch in OTHERS:
-        row |= _switched(world, switch, iterations, trials, ours[:, -1], ritters[:, -1])
-    row["maps_improved"] = _two_over_one(world, MAPS.without, IMPROVED, iterations)
-    row["maps_ritter"] = _two_over_one(world, RITTER, MAPS.added, iterations)
-    row["maps_ritter_late"] = _two_over_one(world, RITTER, MAPS.added, LATE)
+    row["remaining_rough"] = _remaining(world.train(IMPROVED, iterations, few)).max()
+    for switch in OTHERS:  # the error with it over that without
+        without, added = (
+            world.train(name, iterations, trials[name])[:, -1]
+            for name in (switch.without, switch.added)
+        )
+        row[f"{switch.key}_improved"] = ratio(ours[:, -1], without)
+        row[f"{switch.key}_ritter"] = ratio(added, ritters[:, -1])
+    for column, system, length in (
+        ("maps_improved", "improved", iterations),
+        ("maps_ritter", "ritter", iterations),
+        ("maps_ritter_late", "ritter", LATE),
+    ):
+        one, two = one_and_two_maps(world, *SYSTEMS[system], length)
+        row[column] = ratio(two, one)
     row |= width_order(trials[IMPROVED])
     row |= _cells(world, iterations)
     row["narrow"] = _narrow(world, iterations, ours[:, -1])
@@ -71,14 +72,18 @@ def measured(world: World) -> dict[str, float]:
     return row
 
 
+def _geometric(errors: np.ndarray) -> np.ndarray:
+    """Means (2,) of errors (seed, 2) over the seeds."""
+    return np.exp(np.log(errors).mean(axis=0))
+
+
 def _remaining(errors: np.ndarray) -> np.ndarray:
     """The share that remains of both errors (seed, 2, 2), geometric means over the seeds.
 
     Of an error that is zero to begin with nothing is asked here.
     """
     there = errors[:, 0].min(axis=0) > NONE
-    first, last = errors[:, 0, there], errors[:, -1, there]
-    return np.exp(np.log(last / first).mean(axis=0))
+    return _geometric(errors[:, -1, there] / errors[:, 0, there])
 
 
 def ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
@@ -86,30 +91,6 @@ def ratio(ours: np.ndarray, theirs: np.ndarray) -> float:
     return float(
         np.exp(np.subtract(*(np.log(combined(errors)).mean() for errors in (ours, theirs))))
     )
-
-
-def _few(world: World, trials: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    """Of the first round for the improved system, as many trials as a rough search has."""
-    return trials[IMPROVED].iloc[: world.universe.rough_trials]
-
-
-def _switched(
-    world: World,
-    switch: Switch,
-    iterations: int,
-    trials: Mapping[str, pd.DataFrame],
-    ours: np.ndarray,
-    ritters: np.ndarray,
-) -> dict[str, float]:
-    """A change taken from the improved system and added to Ritter's: error with it over without."""
-    without, added = (
-        world.train(name, iterations, trials[name])[:, -1]
-        for name in (switch.without, switch.added)
-    )
-    return {
-        f"{switch.key}_improved": ratio(ours, without),
-        f"{switch.key}_ritter": ratio(added, ritters),
-    }
 
 
 def one_and_two_maps(
@@ -132,12 +113,6 @@ def one_and_two_maps(
     )
 
 
-def _two_over_one(world: World, single: str, separate: str, iterations: int) -> float:
-    """The error with two maps over that with one."""
-    one, two = one_and_two_maps(world, single, separate, iterations)
-    return ratio(two, one)
-
-
 def width_order(trials: pd.DataFrame) -> dict[str, float]:
     """Do position commands want a narrow g_k and a wide g_kl, orientation commands the reverse?
 
@@ -155,22 +130,19 @@ def width_order(trials: pd.DataFrame) -> dict[str, float]:
 
 def _cells(world: World, iterations: int) -> dict[str, float]:
     """Fewer cells where the paper says that they are not needed, over fewer in the other net."""
-    final = {
-        net: world.final(name, iterations, world.search(name, iterations).all_rounds())
-        for net, name in (
-            ("supernet", "improved_small_supernet"),
-            ("subnet", "improved_small_subnet"),
-        )
-    }
-    position, orientation = np.log(final["supernet"] / final["subnet"])
+    supernet, subnet = (
+        _geometric(world.tuned(name, iterations))
+        for name in ("improved_small_supernet", "improved_small_subnet")
+    )
+    position, orientation = np.log(supernet / subnet)
     return {"cells_position": np.exp(position), "cells_orientation": np.exp(-orientation)}
 
 
 def _narrow(world: World, iterations: int, ours: np.ndarray) -> float:
     """The position error as tuned over that with g_k of its map as wide as the workspace."""
     wide = world.search(IMPROVED, iterations, fixed={"position/g_k": WORKSPACE}).all_rounds()
-    errors = np.exp(np.log(ours).mean(axis=0)), world.final(IMPROVED, iterations, wide)
-    return float(errors[0][0] / errors[1][0])
+    kept_wide = world.train(IMPROVED, iterations, wide)[:, -1]
+    return float(_geometric(ours)[0] / _geometric(kept_wide)[0])
 
 
 def _radial(world: World, iterations: int) -> float:

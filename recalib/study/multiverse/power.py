@@ -32,21 +32,12 @@ def power(setups: int, replicates: int, studies: int = STUDIES) -> pd.DataFrame:
     rows = []
     for number, (effect, own) in enumerate(product(EFFECTS, HETEROGENEITIES)):
         random = np.random.default_rng([1996, number])
-        shares = np.mean(
-            [
-                _study(random, effort, spread, replicates, np.log(effect), own)
-                for _ in range(studies)
-            ],
-            axis=0,
-        )
-        rows.append(
-            {"effect": effect, "heterogeneity": own} | dict(zip(COLUMNS, shares, strict=True))
-        )
+        campaigns = [
+            _study(random, effort, spread, replicates, np.log(effect), own) for _ in range(studies)
+        ]
+        shares = pd.DataFrame(campaigns).mean().to_dict()
+        rows.append({"effect": effect, "heterogeneity": own} | shares)
     return pd.DataFrame(rows)
-
-
-PARTS = "mean", "heterogeneity", "luck", "another"
-COLUMNS = *(verdict.value for verdict in Verdict), "found", *(f"{part}_covered" for part in PARTS)
 
 
 def _study(
@@ -56,16 +47,17 @@ def _study(
     replicates: int,
     mean: float,
     own: float,
-) -> list[bool]:
-    """One campaign: whether each of COLUMNS is true of it."""
+) -> dict[str, bool]:
+    """One campaign: whether what each column says is true of it."""
     true = mean + own * random.normal(size=len(effort) + 1)  # the last one is another setup
     values = true[:-1, None] + spread[:, None] * random.normal(size=(len(effort), replicates))
     found = hierarchy(values, effort)
     verdict = RATIO.verdict(Estimate(*np.exp(found.mean)))
-    truths = mean, own, np.sqrt(np.square(spread).mean()), true[-1]
-    intervals = (getattr(found, part) for part in PARTS)
-    covered = [
-        interval.low <= truth <= interval.high
-        for interval, truth in zip(intervals, truths, strict=True)
-    ]
-    return [*(verdict == possible for possible in Verdict), found.heterogeneity.low > 0, *covered]
+    said = {str(possible): verdict is possible for possible in Verdict}
+    said["found"] = found.heterogeneity.low > 0
+    luck = np.sqrt(np.square(spread).mean())
+    truths = {"mean": mean, "heterogeneity": own, "luck": luck, "another": true[-1]}
+    for part, truth in truths.items():
+        interval: Estimate = getattr(found, part)
+        said[f"{part}_covered"] = interval.low <= truth <= interval.high
+    return said

@@ -13,22 +13,17 @@ from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.inference.measured import ERRORS, MOVED
 from recalib.study.multiverse.design import Designed
-from recalib.study.multiverse.measuring import measured, one_and_two_maps, ratio
+from recalib.study.multiverse.measuring import SYSTEMS, measured, one_and_two_maps, ratio
 from recalib.study.multiverse.universe import Universe, universe
 from recalib.study.multiverse.world import World
 from recalib.study.scenarios.plants import Resolved
 
 NUMBER = -1  # it is none of the design
-MAPS, SCHEDULE = SWITCHES[0], SWITCHES[-1]
-SYSTEMS = {"improved": (MAPS.without, IMPROVED), "ritter": (RITTER, MAPS.added)}
+SCHEDULE = SWITCHES[-1]
 
 
 def reference_universe(study: Study, resolved: Resolved) -> Universe:
-    """The reference study as a setup: the first level of each factor, and its own seed.
-
-    Args:
-        resolved: the study's own scenario.
-    """
+    """The reference study as a setup: its own scenario and seed, the first level of each factor."""
     factors = study.universes.factors
     home = study.robots[study.robot].home.values()
     designed = Designed(
@@ -47,20 +42,11 @@ def reference_universe(study: Study, resolved: Resolved) -> Universe:
 
 
 def reference(scenario: Path, study: Study, number: int) -> list[dict[str, float]]:
-    """The row of one replicate of the reference study.
-
-    Args:
-        scenario: file of the study's own scenario as resolved.
-        number: of the replicate.
-    """
-    return [replicated(reference_universe(study, Resolved.read(scenario)), number)]
-
-
-def replicated(setup: Universe, replicate: int) -> dict[str, float]:
-    """One replicate: what is measured in a setup, schedules and maps of several kinds besides."""
-    world = World(setup, replicate)
-    row = {"universe": NUMBER, "replicate": replicate} | measured(world)
-    return row | _schedules(setup, replicate) | _maps(world)
+    """The row of a replicate: as of a setup, schedules and maps of several kinds besides."""
+    setup = reference_universe(study, Resolved.read(scenario))
+    world = World(setup, number)
+    row = {"universe": NUMBER, "replicate": number} | measured(world)
+    return [row | _schedules(setup, number) | _maps(world)]
 
 
 def _schedules(setup: Universe, replicate: int) -> dict[str, float]:
@@ -74,10 +60,7 @@ def _schedules(setup: Universe, replicate: int) -> dict[str, float]:
             ("improved", (IMPROVED, SCHEDULE.without)),
             ("ritter", (SCHEDULE.added, RITTER)),
         ):
-            with_it, without = (
-                world.train(name, iterations, world.search(name, iterations).all_rounds())[:, -1]
-                for name in pair
-            )
+            with_it, without = (world.tuned(name, iterations) for name in pair)
             found[f"schedule_{system}_{rate}_{dimensions}"] = ratio(with_it, without)
     return found
 

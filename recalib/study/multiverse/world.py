@@ -5,6 +5,7 @@ are compared in it see the same poses.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +14,12 @@ import pandas as pd
 from recalib.damaged.damage import apply
 from recalib.damaged.plant import Plant
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
 from recalib.study.configuration.damages import damages_among
 from recalib.study.experiments import search
 from recalib.study.experiments.poses import SearchPoses, Stream, train_for_results
+from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe
 from recalib.study.scenarios.plants import nominal_controller
 
@@ -27,13 +29,18 @@ if TYPE_CHECKING:
     Kind = type[HierarchicalLearner | RadialLearner]
 
 
-class World:
-    """A replicate.
+def rules_in(universe: Universe, learner: str) -> Rules:
+    """The rules of one of its learners; how its rate falls goes with how its widths fall."""
+    rules = rules_of(universe.learners[learner])
+    return replace(
+        rules,
+        **universe.conventions.model_dump(),
+        rate=universe.rate_of_visits if rules.equal_visits else universe.ritters_rate,
+    )
 
-    Args:
-        universe: the setup.
-        replicate: which, from 0.
-    """
+
+class World:
+    """A replicate of a setup, the first one with number 0."""
 
     def __init__(self, universe: Universe, replicate: int):
         self.universe, self.replicate = universe, replicate
@@ -56,7 +63,6 @@ class World:
         Args:
             like: learner whose search had the same poses; its own unless given.
             fixed: numbers of a trial that are not sought.
-            kind: of the learner.
         """
         universe, arm = self.universe, self.arm(self.universe.own)
         poses = Stream.SEARCH_OF_REPLICATE.draw(
@@ -88,8 +94,7 @@ class World:
     ) -> np.ndarray:
         """First and last errors (seed, 2, 2) [cm, degrees] of the best of some trials.
 
-        Args:
-            scenario: the paper's damage unless given.
+        On the paper's damage, or another scenario.
         """
         universe, seeds = self.universe, range(self.universe.seeds)
         arm, rules = self.arm(scenario or universe.own), rules_in(universe, learner)
@@ -112,6 +117,7 @@ class World:
             [100 * history.position[..., 0], np.degrees(history.orientation[..., 0])], axis=-1
         )
 
-    def final(self, learner: str, iterations: int, trials: pd.DataFrame, **how) -> np.ndarray:
-        """As `train`, geometric means of the last errors (2,) over the seeds."""
-        return np.exp(np.log(self.train(learner, iterations, trials, **how)[:, -1]).mean(axis=0))
+    def tuned(self, learner: str, iterations: int) -> np.ndarray:
+        """Final errors (seed, 2) [cm, degrees] of a learner tuned for so many iterations."""
+        trials = self.search(learner, iterations).all_rounds()
+        return self.train(learner, iterations, trials)[:, -1]

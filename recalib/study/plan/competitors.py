@@ -59,11 +59,9 @@ def peer(name: str) -> Peer:
 
 
 def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
-    """The peer of this name, which has learned nothing yet. Raises UnknownName.
+    """The peer of this name, which has learned nothing yet, for a nominal robot.
 
-    Args:
-        runs: so many at the same time.
-        robot: the nominal one.
+    Raises UnknownName.
     """
     its = peer(name)
     if name == UNCORRECTED:

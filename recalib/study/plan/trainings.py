@@ -122,9 +122,6 @@ def elsewhere(study: Study) -> dict[str, str]:
 class Trainings:
     """All trainings of a study, each a scenario and a learner: one name where two mean the same.
 
-    Args:
-        study: the study.
-
     Attributes:
         runs: (scenario, learner) of each training.
     """

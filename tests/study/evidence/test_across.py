@@ -7,8 +7,6 @@ import pytest
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.verdicts import CORRELATION, Comparison
-from recalib.study.inference.hierarchy import hierarchy
-from recalib.study.inference.intervals import Estimate
 from tests.made_up import few_resamples
 
 SETUPS = 64
@@ -53,15 +51,6 @@ def test_setups_and_replicates_may_come_in_any_order():
     assert one.mean == other.mean and one.model.luck == other.model.luck
 
 
-def test_luck_has_the_groups_of_the_effort_of_the_design():
-    table = outcomes("theta", 0.0)
-    values = np.log(table["theta"]).to_numpy().reshape(SETUPS, 2)
-    expected = hierarchy(values, LEVELS["effort"].to_numpy())
-    found = RATIO.over(table, LEVELS).model
-    assert found.luck == pytest.approx(expected.luck)
-    assert found.luck_of_numbers == pytest.approx(expected.luck_of_numbers)
-
-
 def test_a_setup_with_a_bound_in_place_of_a_number_enters_no_mean():
     table = outcomes("factor", 4.0).assign(bound=0)
     table.loc[table["universe"] < 10, "factor"] = 1e6
@@ -70,12 +59,6 @@ def test_a_setup_with_a_bound_in_place_of_a_number_enters_no_mean():
     over = factor.over(table, LEVELS)
     assert len(over.model.numbers) == len(over.levels) == SETUPS - 10
     assert over.mean.mean == pytest.approx(np.exp(4), rel=0.1)
-
-
-def test_the_verdict_is_that_of_the_mean_unless_the_reference_study_says_the_opposite():
-    over = RATIO.over(outcomes("theta", -0.3), LEVELS)
-    assert over.verdict(Estimate(0.7, 0.6, 0.8)) == "supported"
-    assert over.verdict(Estimate(1.3, 1.2, 1.4)) == "undecided"
 
 
 @pytest.mark.parametrize(("mean", "counted"), [(-1.0, True), (1.0, True), (-0.1, False)])

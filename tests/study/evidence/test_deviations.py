@@ -6,6 +6,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 
@@ -50,20 +51,25 @@ def test_each_criterion_choice_and_design_is_the_one_named_last(told):
     )
 
 
-def test_digests_are_of_criteria_of_choices_and_of_what_is_registered(tmp_path):
-    shipped = {"search": "a" * 16, "benchmark": "b" * 16}
-    (tmp_path / "workflow").mkdir()
-    (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped))
-    for name in REGISTERED:
+@pytest.fixture
+def project(tmp_path) -> Path:
+    """With all that digests are of."""
+    for name in (*REGISTERED, "workflow/shipped.json"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(name)
-    before = digests(tmp_path)
+        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+    return tmp_path
+
+
+def test_digests_are_of_criteria_of_choices_and_of_what_is_registered(project):
+    shipped = {"search": "a" * 16, "benchmark": "b" * 16}
+    (project / "workflow" / "shipped.json").write_text(json.dumps(shipped))
+    before = digests(project)
     names = {claim.id for claim in CLAIMS} | {"config.yaml: search", *REGISTERED}
     assert set(before) == names and len(set(before.values())) == len(names)
 
-    (tmp_path / DESIGN).write_text("drawn anew")
-    (tmp_path / "workflow" / "shipped.json").write_text(json.dumps(shipped | {"search": "c"}))
-    now = digests(tmp_path)
+    (project / DESIGN).write_text("drawn anew")
+    (project / "workflow" / "shipped.json").write_text(json.dumps(shipped | {"search": "c"}))
+    now = digests(project)
     changed = {name for name in now if now[name] != before[name]}
     assert changed == {"config.yaml: search", DESIGN}
 
@@ -86,15 +92,12 @@ def test_what_an_entry_names_replaces_what_was_registered():
     assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
 
 
-def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
-    for name in (*REGISTERED, "workflow/shipped.json"):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
+def test_the_command_prints_what_an_entry_has_to_name(project):
     told = "registered: {gone: it}\ndeviations: []\nreread: []\n"
-    (tmp_path / DEVIATIONS).write_text(told)
+    (project / DEVIATIONS).write_text(told)
     ran = subprocess.run(
         [sys.executable, "-m", "recalib.study.evidence.deviations"],
-        cwd=tmp_path,
+        cwd=project,
         env={"PYTHONPATH": str(ROOT)},
         text=True,
         capture_output=True,

@@ -10,7 +10,6 @@ from recalib.study.configuration import shipped
 from recalib.study.evidence.factor import (
     ANEW,
     EFFORTS,
-    errors_of,
     factor_table,
     in_words,
     on_the_way,
@@ -20,7 +19,6 @@ from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
-from recalib.study.multiverse.efforts import rough
 from tests.made_up import MadeUp
 
 NEEDS = f"runs/{{scenario}}/{{ladder}}.parquet {shipped.EFFORTS} iterations seed"
@@ -62,10 +60,10 @@ def test_a_contradiction_says_on_which_side_the_factor_is():
 
 
 def rising(iterations, ends):
-    """Errors (4 searches, 3 seeds, measurement, 2) that fall to an end, and when."""
+    """When it is measured, and errors (4 searches, 3 seeds, measurement, 2) that fall to an end."""
     grid = np.linspace(0.1, 1, 10) * iterations
     errors = ends * iterations / grid[None, None, :, None] * np.ones((4, 3, 1, 2))
-    return errors, grid
+    return grid, errors
 
 
 @pytest.mark.parametrize(
@@ -78,19 +76,17 @@ def rising(iterations, ends):
     ],
 )
 def test_on_the_way_the_shortest_long_training_that_gets_there_counts(ends, longest, factor):
-    slow, grids = {}, {}
-    for iterations, end in ends.items():
-        slow[iterations], grids[iterations] = rising(iterations, end)
-    found = on_the_way(slow, grids, np.ones((4, 3, 2)), 200, np.random.default_rng(0))
+    slow = {iterations: rising(iterations, end) for iterations, end in ends.items()}
+    found = on_the_way(slow, np.ones((4, 3, 2)), 200, np.random.default_rng(0))
     assert found[0] == longest
     assert found[1] == pytest.approx((factor,) * 3)
 
 
 def test_both_errors_have_to_be_reached():
-    errors, grid = rising(10_000, 0.5)
+    grid, errors = rising(10_000, 0.5)
     errors[..., 1] *= 1.5
     rng, goal = np.random.default_rng(0), np.ones((4, 3, 2))
-    _, found = on_the_way({10_000: errors}, {10_000: grid}, goal, 200, rng)
+    _, found = on_the_way({10_000: (grid, errors)}, goal, 200, rng)
     assert found.mean == 40
 
 
@@ -110,7 +106,7 @@ def of_efforts() -> pd.DataFrame:
 
 
 def test_rough_searches_count_as_seeds_of_the_full_one_that_holds_them():
-    full, its = (errors_of(of_efforts(), "ritter", each)[20] for each in ("full", "rough"))
+    full, its = (watched(of_efforts(), "ritter", each)[20][1] for each in ("full", "rough"))
     assert full.shape == (2, 2, 2, 2) and its.shape == (2, 4, 2, 2)
     assert full[1, 1, :, 0].tolist() == [110.5, 111]
     assert its[0, :, -1, 0].tolist() == [1001, 1011, 1101, 1111]
@@ -118,28 +114,9 @@ def test_rough_searches_count_as_seeds_of_the_full_one_that_holds_them():
 
 
 def test_trainings_of_one_learner_are_no_trainings_of_another():
-    assert [*errors_of(of_efforts(), "ritter", "full")] == [10, 20]
-    assert [*errors_of(of_efforts(), "ritter_double", "full")] == [10]
-    assert {n: its.tolist() for n, its in watched(of_efforts(), "ritter").items()} == {
-        10: [5, 10],
-        20: [10, 20],
-    }
-
-
-def test_the_first_round_of_a_full_search_holds_rough_ones_that_share_no_trial():
-    random = np.random.default_rng(0)
-    trials = pd.DataFrame(
-        [(search, round_) for search in (1, 2) for round_ in (1, 2) for _ in range(64)],
-        columns=["search", "round"],
-    ).assign(score=random.permutation(256))
-    trials.loc[trials["round"] == 2, "score"] -= 1000
-    winners = rough(trials, 16)
-    assert len(winners) == 2 * 4 and winners.index.is_unique
-    assert (winners["round"] == 1).all() and winners["search"].tolist() == [1] * 4 + [2] * 4
-    for search in (1, 2):
-        first = trials[(trials["search"] == search) & (trials["round"] == 1)]
-        best = [first["score"].iloc[k : k + 16].idxmin() for k in range(0, 64, 16)]
-        assert winners[winners["search"] == search].index.tolist() == best
+    ours, doubled = (watched(of_efforts(), name, "full") for name in ("ritter", "ritter_double"))
+    assert {n: grid.tolist() for n, (grid, _) in ours.items()} == {10: [5, 10], 20: [10, 20]}
+    assert [*doubled] == [10]
 
 
 def test_in_setups_it_stands_by_cells_and_those_with_a_bound_are_left_out():

@@ -1,4 +1,4 @@
-"""What the page of findings says; that it is written as the claims have it, other tests show."""
+"""What pages say beside the claims, as one counts it by hand."""
 
 from types import SimpleNamespace
 
@@ -6,12 +6,9 @@ import pandas as pd
 import pytest
 
 from recalib.study.configuration.shipped import DESIGN, POWER
-from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.findings import (
-    _campaign,
-    _refused,
-    _said,
-)
+from recalib.study.evidence.all_results import _on_its_way
+from recalib.study.evidence.findings import _campaign, _refused
+from recalib.study.inference.measured import ERRORS
 
 
 def test_refused_moves_are_said_by_learner_and_scenario_and_none_is_said_as_none():
@@ -52,10 +49,20 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
     assert _campaign(SimpleNamespace(setups=lambda table: None)) == {}
 
 
-def test_what_is_said_of_a_claim_besides_is_its_own():
-    for claim in CLAIMS:
-        said = _said({"id": claim.id, "verdict": "supported"})
-        assert said["reason"] == claim.reason.format(**claim.limits)
-        figures = [f"Figure {each.removeprefix('figure')}" for each in claim.figures]
-        assert said["figures"] == " and ".join(figures)
-        assert said["verdict"] == "supported"
+@pytest.mark.parametrize(
+    ("last", "text"),
+    [
+        ([2.0, 3.0], "after 1,000 iterations"),  # both are within there, one was before
+        ([0.5, 3.0], "in none of its 5,000 iterations"),
+    ],
+)
+def test_ritters_is_said_to_have_both_errors_of_the_improved_one_on_its_way(last, text):
+    ours = pd.DataFrame([[9.0, 9.0, 0], [*last, 200]], columns=[*ERRORS, "iteration"])
+    # of two seeds: what counts is their mean
+    ritters = pd.DataFrame(
+        [[9, 9, 0], [1, 4, 100], [3, 4, 100], [1, 2, 1000], [3, 4, 1000], [1, 1, 5000]],
+        columns=[*ERRORS, "iteration"],
+    )
+    histories = {"improved": ours, "ritter_own": ritters}
+    roles = {"improved": "improved", "ritter": "ritter_own"}
+    assert _on_its_way(SimpleNamespace(history=histories.get, facts=roles)) == text

@@ -17,13 +17,6 @@ def quick(monkeypatch):
     monkeypatch.setattr(intervals, "RESAMPLES", 2000)
 
 
-def test_the_first_rung_that_reaches_both_errors_counts():
-    errors = np.array([[4, 2], [2, 2], [1, 1.0]])
-    assert iterations_needed(RUNGS, errors, np.array([2, 2])) == pytest.approx(200)
-    assert np.isnan(iterations_needed(RUNGS, errors, np.array([5, 5])))
-    assert iterations_needed(RUNGS, errors, np.array([0.5, 5])) == np.inf
-
-
 def test_between_rungs_the_number_is_interpolated_on_logarithmic_scales():
     errors = np.array([[4, 4], [2, 2], [1, 1.0]])
     needed = iterations_needed(RUNGS, errors, np.array([np.sqrt(2), 9]))

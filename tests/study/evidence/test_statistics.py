@@ -39,10 +39,9 @@ def quick(monkeypatch):
     monkeypatch.setattr(intervals, "RESAMPLES", 2000)
 
 
-@pytest.mark.parametrize("searches", [4, 12])
 @pytest.mark.parametrize("compared", [1, 2], ids=["mean", "ratio"])
-def test_the_interval_holds_repetitions_as_often_as_it_says(searches, compared, quick):
-    judge, inside = (geometric, ratio)[compared - 1], []
+def test_the_interval_holds_repetitions_as_often_as_it_says(compared, quick):
+    judge, inside, searches = (geometric, ratio)[compared - 1], [], 4
     for number in range(200):
         random = rng(searches, number)
         found = judge(*(training(random, searches) for _ in range(compared)), rng(number))
@@ -73,33 +72,12 @@ def test_of_a_single_search_nothing_is_said_of_another():
     assert found.mean == pytest.approx(values.mean()) and np.isnan(found[1:]).all()
 
 
-def test_an_interval_grows_with_the_spread_of_searches_and_with_that_of_seeds(quick):
-    def width(of_searches, of_seeds):
-        lucky = (np.log(training(rng(number), 12, of_searches, of_seeds)) for number in range(5))
-        found = [estimate(values, rng(1)) for values in lucky]
-        return np.mean([each.high - each.low for each in found])
-
-    assert width(0.05, 0.05) > 1.2 * width(0.0, 0.05)
-    assert width(0.1, 0.05) > 1.5 * width(0.05, 0.05)
-    assert width(0.05, 0.2) > 1.5 * width(0.05, 0.05)
-
-
 def test_luck_that_both_trainings_share_by_seed_narrows_their_ratio(quick):
     poses = rng(3).normal(0, 1, (12, SEEDS))
     poses -= poses.mean(axis=1, keepdims=True)  # luck of seeds alone
     together = ratio(np.exp(poses), np.exp(poses), rng(4))
     apart = ratio(np.exp(poses), np.exp(poses[:, ::-1]), rng(4))
     assert np.log(together.high / together.low) < 0.85 * np.log(apart.high / apart.low)
-
-
-def test_the_interval_of_a_ratio_has_the_degrees_of_freedom_of_both():
-    ours, theirs = (rng(7 + n).normal(0, 0.1, n)[:, None].repeat(SEEDS, axis=1) for n in (12, 30))
-    found = ratio(np.exp(ours), np.exp(theirs), rng(8))
-    spread = np.sqrt(ours[:, 0].var() / 12 + theirs[:, 0].var() / 30)
-    half = np.sqrt(2 * 12 / 11) * student.ppf(0.975, 11 + 29) * spread
-    gap = ours.mean() - theirs.mean()
-    low, high = np.log([found.low, found.high])
-    assert [gap - low, high - gap] == pytest.approx([half] * 2, rel=0.08)
 
 
 def test_the_first_of_all_studies_is_the_one_itself():

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from recalib.study.mapping import quantisation as measured
 from recalib.study.mapping.quantisation import (
     RATES,
     WIDTHS,
@@ -60,30 +59,3 @@ def test_every_placement_of_two_cells_on_a_line_is_as_good_as_calculated(line):
     assert mean["kmeans"] == pytest.approx(best, rel=0.01)
     assert mean["kohonen_2000"] == pytest.approx(best, rel=0.05)
     assert mean["kohonen_2"] > 1.1 * best, "two poses cannot place two cells"
-
-
-def test_placements_of_a_seed_are_measured_on_the_same_poses_and_placed_by_others(monkeypatch):
-    seen, used = [], []
-    error, rule, means = measured.quantisation_error, measured.kohonen, measured.k_means
-    monkeypatch.setattr(
-        measured, "quantisation_error", lambda poses, w: seen.append(poses) or error(poses, w)
-    )
-    monkeypatch.setattr(
-        measured, "kohonen", lambda w, poses, shape: used.extend(poses) or rule(w, poses, shape)
-    )
-    monkeypatch.setattr(
-        measured, "k_means", lambda poses, *args: used.append(poses) or means(poses, *args)
-    )
-    quantisation(7, shape=(2,), iterations=(5,), seeds=2)
-    first, second = seen[0::2], seen[1::2]
-    assert len(first) == 4
-    assert all(np.array_equal(poses, first[0]) for poses in first)
-    assert all(np.array_equal(poses, second[0]) for poses in second)
-    sets = [set(poses.ravel().tolist()) for poses in (first[0], second[0], *used)]
-    assert len(set().union(*sets)) == sum(map(len, sets)), "no pose is in two of them"
-
-
-def test_a_study_of_another_seed_has_other_luck_and_of_the_same_the_same(line):
-    again, other = (quantisation(seed, (2,), (2, 2000), 4)["distance"] for seed in (7, 8))
-    assert again.equals(line["distance"])
-    assert not (other == line["distance"]).any()

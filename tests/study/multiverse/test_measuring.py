@@ -10,17 +10,16 @@ import pytest
 
 from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.experiments import poses, search
+from recalib.study.experiments import search
 from recalib.study.experiments.search import NETS
 from recalib.study.experiments.settings import rules_of
-from recalib.study.experiments.trials import Search, best_of
+from recalib.study.experiments.trials import Search
 from recalib.study.inference.measured import ERRORS, KINDS, RIGID
 from recalib.study.multiverse import horizon, measuring
 from recalib.study.multiverse.measuring import measured, width_order
 from recalib.study.multiverse.reference import reference_universe
-from recalib.study.multiverse.rules import rules_in
 from recalib.study.multiverse.universe import Universe, universe
-from recalib.study.multiverse.world import World
+from recalib.study.multiverse.world import World, rules_in
 from recalib.study.plan.trainings import budget as budget_of
 
 ITERATIONS = 4
@@ -50,102 +49,14 @@ def each(study, design) -> Universe:
     return made_small(universe(study, first))
 
 
-@pytest.fixture
-def untrained(monkeypatch) -> list:
-    """What would be trained, in the order of asking; nothing is."""
-    asked = []
-
-    def train(robots, learner, desired, tests, grid, **how):
-        asked.append(SimpleNamespace(learner=learner, desired=desired, tests=tests, grid=grid))
-        errors = np.ones((len(desired), len(grid), 2))
-        return SimpleNamespace(position=errors, orientation=errors)
-
-    monkeypatch.setattr(poses, "train", train)
-    return asked
-
-
-@pytest.fixture(scope="module")
-def replicate(each):
-    """A replicate measured once, with all searches that it made: its row, and they."""
-    searches, ask = [], World.search
-
-    def noted(self, learner, *arguments, **how):
-        searches.append((learner, ask(self, learner, *arguments, **how)))
-        return searches[-1][1]
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(World, "search", noted)
-        patch.setattr(measuring, "LATE", 2 * ITERATIONS)
-        return measured(World(each, 0)), searches
-
-
-def test_a_replicate_measures_what_the_claims_ask_for(replicate):
-    row, _ = replicate
-    columns = {its.column for claim in CLAIMS for its in claim.across.values()}
-    assert columns - {"factor"} <= {*row}
-    assert all(np.isfinite(value) for value in row.values())
-    assert all(value > 0 for name, value in row.items() if not name.startswith("order"))
-    assert row["intact"] < 1e-6
-
-
-def test_every_search_of_a_replicate_has_the_effort_of_its_setup_and_luck_of_its_own(
-    replicate, each
-):
-    _, searches = replicate
-    assert all(its.budget == each.budget for _, its in searches)
-    names = [name for name, _ in searches]
-    assert {*each.learners} <= {*names}
-    # one map and two, three times; Ritter's once more; the improved system with a wide g_k
-    assert len(searches) - len({its.poses.name for _, its in searches}) == 3 + 1 + 1
-
-
-def trial(rules, number=1) -> pd.DataFrame:
-    ranges = {"initial_width": [1, 2], "final_width": [0.5, 1]}
-    ranges |= {"initial_rate": [0.5, 1], "final_rate": [0.1, 0.5]}
-    drawn = search.draw(rules, ranges, number, np.random.default_rng(0))
-    return drawn.assign(score=np.arange(number))
-
-
-def test_replicates_share_neither_poses_nor_trials_and_what_is_compared_shares_poses(
-    each, untrained
-):
-    found = []
-    for number in range(2):
-        its = World(each, number)
-        drawn = its.search("improved", ITERATIONS).all_rounds()
-        for name in ("improved", "ritter"):
-            its.train(name, ITERATIONS, trial(rules_in(each, name)))
-        searching, ours, theirs = untrained[-3:]
-        for use in ("desired", "tests"):
-            assert np.array_equal(getattr(ours, use), getattr(theirs, use))
-            seen = getattr(searching, use), getattr(ours, use)
-            found += [np.unique(each.reshape(-1, each.shape[-1]), axis=0) for each in seen]
-        found.append(drawn[["initial_width"]].to_numpy())
-    first, second = found[:5], found[5:]
-    for one, other in zip(first, second, strict=True):
-        assert not {*map(tuple, one)} & {*map(tuple, other)}
-    for its in (first, second):  # nor does a search know what its winner is trained on
-        assert not {*map(tuple, its[0])} & {*map(tuple, its[1])}
-
-
 def test_a_search_follows_from_the_seed_of_its_budget_and_a_training_from_that_of_its_setup(
-    each, untrained, roots
+    each, roots
 ):
     its = World(each.model_copy(update={"seed": 5}), 1)
-    its.search("improved", ITERATIONS)
-    its.train("ritter", ITERATIONS, trial(rules_in(each, "ritter")))
-    names = (each.budget.seed, f"search for improved_{ITERATIONS}, replicate 1"), (5, "replicate 1")
+    its.tuned("ritter", ITERATIONS)
+    names = (each.budget.seed, f"search for ritter_{ITERATIONS}, replicate 1"), (5, "replicate 1")
+    # no learner's name is among the latter: those that are compared see the same poses
     assert {root[:2] for root in roots} == {(seed, zlib.crc32(of.encode())) for seed, of in names}
-
-
-def test_the_search_for_two_maps_has_the_poses_and_the_trials_of_that_for_one(each, untrained):
-    its, winner = World(each, 0), {}
-    alone, both = its.search("ritter", 4), its.search("ritter_separate_maps", 4, like="ritter")
-    for one in (alone, both):
-        winner |= trial(one.rules).iloc[0].to_dict()
-    tried = [one.further(winner) for one in (alone, both)]
-    ours, theirs = untrained
-    assert np.array_equal(ours.desired, theirs.desired) and len(tried[0]) == len(tried[1])
 
 
 def test_two_maps_of_equal_widths_are_one_map_bit_for_bit(each):
@@ -203,37 +114,15 @@ def test_the_horizon_is_sought_up_to_the_first_rung_that_reaches(
 
     def tuned(_, name, iterations):
         if name == "improved":
-            return np.array([1.0, 1.0])
+            return np.array([[1.0, 1.0]])
         seen.append(iterations)
         missed = reaches is None or iterations < reaches
-        return np.array([0.5, 2.0 if missed else 0.5])
+        return np.array([[0.5, 2.0 if missed else 0.5]])
 
-    monkeypatch.setattr(horizon, "_tuned", tuned)
+    monkeypatch.setattr(World, "tuned", tuned)
     found = horizon._factor(World(each, 0))
     assert found == {"factor": pytest.approx(factor), "bound": bound}
     assert seen == tried
-
-
-def test_the_horizon_seeks_both_systems_with_the_effort_of_the_setup(
-    study, design, monkeypatch, untrained
-):
-    spent = []
-
-    def all_rounds(self):
-        spent.append((self.rules, self.budget))
-        return trial(self.rules)
-
-    monkeypatch.setattr(Search, "all_rounds", all_rounds)
-    for effort, many in (("full", 192), ("rough", 16)):
-        its = universe(study, next(its for its in design if its.levels["effort"] == effort))
-        its = its.model_copy(update={"rungs": (4, 8, 16), "seeds": 1, "replicates": 1})
-        spent.clear()
-        horizon.horizon(its)
-        assert all(budget == its.budget for _, budget in spent)
-        assert its.budget.rounds * its.budget.trials == many
-        systems = [rules for rules, _ in spent]
-        assert systems[0] == rules_in(its, "improved")
-        assert {*map(repr, systems[1:])} == {repr(rules_in(its, "ritter"))}
 
 
 def test_the_direction_in_which_the_robot_is_moved_reaches_no_number_of_the_factor(study, design):
@@ -265,16 +154,6 @@ def test_the_reference_study_is_a_setup_with_the_first_levels_and_its_own_seed(s
     assert (its.error, its.order, its.budget.rounds) == ("norm", "random", study.search.rounds)
     budget = budget_of(study).model_copy(update={"seed": study.seed})
     assert its.budget == budget
-
-
-def test_further_trials_begin_with_the_one_given_and_are_as_many_as_a_round(each, untrained):
-    its = World(each, 0).search("improved", ITERATIONS)
-    start = best_of(trial(its.rules, 4))
-    found = its.further(start)
-    assert len(found) == its.budget.trials
-    columns = search.columns(its.rules)
-    assert found[columns].iloc[0].to_dict() == start[columns].to_dict()
-    assert (found[columns].iloc[1:] != start[columns]).any(axis=None)
 
 
 class Planted(World):
@@ -372,6 +251,7 @@ def test_every_number_of_a_replicate_is_what_it_says(monkeypatch):
         expected[f"{its.key}_improved"] = np.sqrt(np.prod(ours))
         expected[f"{its.key}_ritter"] = np.sqrt(np.prod(ritters))
     assert measured(world) == pytest.approx(expected)
+    columns = {its.column for claim in CLAIMS for its in claim.across.values()}
+    assert columns - {"factor"} <= {*expected}, "what the claims ask for"
     assert world.sampled == [np.random.default_rng([7, 3]).random()]
-    ends = horizon._tuned(world, "ritter", 8)
-    assert ends == pytest.approx(2.5 * last("ritter", 8))
+    assert world.tuned("ritter", 8) == pytest.approx(np.outer([1, 4], last("ritter", 8)))

@@ -112,11 +112,7 @@ class Setups(NamedTuple):
         return table
 
     def said(self, random: np.random.Generator) -> dict:
-        """As the contract of claims.json has it.
-
-        Args:
-            random: of what choices do.
-        """
+        """As the contract of claims.json has it; `random` is of what choices do."""
         strongest = self.effects(random).iloc[0]
         found = {
             "status": "measured",

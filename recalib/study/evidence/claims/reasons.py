@@ -14,10 +14,7 @@ EQUAL = 1 - 1e-6  # nearer to 1, two means differ by rounding
 
 
 def integral_ratios(table: "pd.DataFrame") -> "pd.Series":
-    """E_upd / E_clas for each kind, start and scale: the median over the balls.
-
-    Args:
-        table: of `recalib.study.mapping.propagation`.
+    """E_upd / E_clas for each kind, start and scale of propagation: the median over the balls.
 
     Scales at which a pose of some ball has no command are left out: the balls that remain would be
     the easy ones.
