@@ -11,9 +11,7 @@ import pytest
 
 from recalib.laboratory import command_line
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
-from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import load_correction
-from recalib.laboratory.measurements import Measurements
 from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import (
     ARM,
@@ -107,33 +105,12 @@ def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
 
 
-@pytest.mark.parametrize(("margins", "leaves"), [(0.9, False), (1.1, True)])
-def test_a_twentieth_of_the_measured_range_is_not_beyond_it(calibrated, margins, leaves):
-    correction = load_correction(calibrated / "correction.npz")
-    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
-    joints = (low + high) / 2
-    joints[0] = high[0] + margins * 0.05 * (high[0] - low[0])
-    goals = correction.calibration.forward(joints[None])[:, :3, 3]
-    commands = correct(correction, Measurements(1, joints[None], goals))
-    assert commands.joints[0] == pytest.approx(joints, abs=1e-6)
-    assert commands.beyond.tolist() == [[leaves, False, False]]
-
-
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):
     out = folder / "next.csv"
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
     proposed = np.radians([read(out)[f"{joint} [deg]"] for joint in arm.joints])
     assert proposed.shape == (3, 4) and np.abs(proposed).max() < 0.95 * 2
     assert "uncertainty of predicted positions fall from" in capsys.readouterr().out
-
-
-def test_of_candidates_those_near_the_end_of_a_joint_are_left_out(calibrated, folder):
-    columns = {"swing [rad]": [0, 0.5, 1.95], "lift [rad]": [-0.7] * 3, "elbow [rad]": [1.1] * 3}
-    write(folder / "candidates.csv", columns)
-    out = folder / "chosen.csv"
-    candidates = str(folder / "candidates.csv")
-    assert main(["next", str(calibrated), candidates, f"--out={out}"]) == DONE
-    assert sorted(read(out)["swing [deg]"]) == pytest.approx([0, np.degrees(0.5)])
 
 
 def test_an_arm_without_errors_is_left_alone(arm, folder):

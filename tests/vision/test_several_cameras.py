@@ -4,6 +4,7 @@ import csv
 import json
 import re
 import tomllib
+from functools import cache
 
 import numpy as np
 import pytest
@@ -63,6 +64,27 @@ def calibrated(*folders):
     return calibrate_arm("panda.urdf", folders, tool="panda_link8")
 
 
+@pytest.fixture(scope="module")
+def in_one_fit(tmp_path_factory):
+    """By the name of a setup, its calibration and the folders of its sessions."""
+
+    @cache
+    def make(setup: str):
+        made, (sessions, _) = tmp_path_factory.mktemp("cell"), SETUPS[setup]
+        folders = [
+            write_session(made / str(number), *session) for number, session in enumerate(sessions)
+        ]
+        return calibrated(*folders), folders
+
+    return make
+
+
+def beside_left(folder, cell: Cell) -> list:
+    """Folders of two fixed cameras, of which the right one has this cell."""
+    left = write_session(folder / "left", Cell(SEED), "left")
+    return [left, write_session(folder / "right", cell, "right")]
+
+
 def true_place(name: str, sessions) -> np.ndarray:
     for cell, camera, board in sessions:
         if name in (f"camera {camera}", "the camera"):
@@ -73,12 +95,8 @@ def true_place(name: str, sessions) -> np.ndarray:
 
 
 @pytest.mark.parametrize("setup", SETUPS)
-def test_several_cameras_and_boards_are_found_in_one_fit(setup, tmp_path):
-    sessions, names = SETUPS[setup]
-    folders = [
-        write_session(tmp_path / str(number), *session) for number, session in enumerate(sessions)
-    ]
-    result, draw = calibrated(*folders), Draw(SEED, False)
+def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
+    (sessions, names), (result, _), draw = SETUPS[setup], in_one_fit(setup), Draw(SEED, False)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.15  # of 4 mm
     assert [place.name for place in result.places] == names
     assert set(result.scales) == {name for name in names if "board" in name}
@@ -96,11 +114,9 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, tmp_path):
             assert np.linalg.norm(off[:3]) < 2e-3 and np.linalg.norm(off[3:]) < np.radians(0.1)
 
 
-def test_each_camera_is_written_by_its_name(tmp_path, capsys):
-    sessions, _ = SETUPS["two fixed"]
-    folders = [str(write_session(tmp_path / its[1], *its)) for its in sessions]
-    made = tmp_path / "calibration"
-    arguments = ["panda.urdf", *folders, "--tool=panda_link8", f"--out={made}"]
+def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
+    folders, made = in_one_fit("two fixed")[1], tmp_path / "calibration"
+    arguments = ["panda.urdf", *map(str, folders), "--tool=panda_link8", f"--out={made}"]
     assert main(["calibrate", *arguments]) == DONE
     told = capsys.readouterr().out
     assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in told
@@ -121,20 +137,15 @@ def test_each_camera_is_written_by_its_name(tmp_path, capsys):
         assert [row["frame"] for row in csv.DictReader(stream)] == [*SETUPS["two fixed"][1]]
 
 
-def test_commands_go_to_the_frame_of_the_camera_that_is_named(tmp_path):
-    sessions, _ = SETUPS["two fixed"]
-    folders = [write_session(tmp_path / its[1], *its) for its in sessions]
-    result = calibrated(*folders)
-    made, sight = tmp_path / "calibration", 1
-    result.correction.save(made.with_suffix(".npz"))
-    made.mkdir()
-    made.with_suffix(".npz").rename(made / "correction.npz")
+def test_commands_go_to_the_frame_of_the_camera_that_is_named(in_one_fit, tmp_path):
+    (result, _), sight = in_one_fit("two fixed"), 1
+    result.correction.save(tmp_path / "correction.npz")
     joints = result.observations.joints[:1]
     place = 1e3 * result.calibration.predict(joints, np.array([sight]))[0, :3, 3]
     numbers = ",".join(f"{number:.6f}" for number in place)
     text = f"x [mm],y [mm],z [mm],target\n{numbers},the board by camera right\n"
     (tmp_path / "desired.csv").write_text(text)
-    files = [str(made), str(tmp_path / "desired.csv"), f"--out={tmp_path / 'commands.csv'}"]
+    files = [str(tmp_path), str(tmp_path / "desired.csv"), f"--out={tmp_path / 'commands.csv'}"]
     assert main(["correct", *files, "--frame=instrument"]) == DONE
     with (tmp_path / "commands.csv").open() as stream:
         (row,) = csv.DictReader(stream)
@@ -143,10 +154,9 @@ def test_commands_go_to_the_frame_of_the_camera_that_is_named(tmp_path):
     assert np.linalg.norm(1e3 * reached - place) < 1e-4
 
 
-def test_what_is_drawn_has_the_axes_of_the_base(tmp_path):
+def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
     """Whichever camera saw it."""
-    sessions, _ = SETUPS["two fixed"]
-    result = calibrated(*(write_session(tmp_path / its[1], *its) for its in sessions))
+    result, _ = in_one_fit("two fixed")
     rows, frames = result.observations[result.counted], result.calibration.frames
     nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]
     assert np.linalg.norm(result.positions - nominal, axis=1).max() < 0.05
@@ -225,10 +235,9 @@ def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     moved = beside(SEED)
     moved.sheet = moved.sheet @ frame([0, 0, 0], [0.003, 0, 0])
-    left = write_session(tmp_path / "left", Cell(SEED), "left")
-    right = write_session(tmp_path / "right", moved, "right")
-    told = verdict(calibrated(left, right))
-    assert f"in {right}, before row 1 the board seems to have slipped on the tool by 3" in told
+    folders = beside_left(tmp_path, moved)
+    told = verdict(calibrated(*folders))
+    assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in told
     assert "try each folder by itself" in told
 
 
@@ -267,17 +276,13 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
 )
 def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, said, tmp_path):
-    folders = [
-        write_session(tmp_path / "left", Cell(SEED), "left"),
-        write_session(tmp_path / "right", *session),
-    ]
+    left = write_session(tmp_path / "left", Cell(SEED), "left")
     with pytest.raises(RecalibError, match=said):
-        calibrated(*folders)
+        calibrated(left, write_session(tmp_path / "right", *session))
 
 
 def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
-    left = write_session(tmp_path / "left", Cell(SEED), "left")
-    right = write_session(tmp_path / "right", beside(SEED), "right")
+    left, right = beside_left(tmp_path, beside(SEED))
     lines = [line.split(",") for line in (right / "measurements.csv").read_text().splitlines()]
     joints = slice(1, 8)
     for row, line in enumerate(lines[1:PICTURES:2]):
@@ -287,9 +292,8 @@ def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
         calibrated(left, right)
 
 
-def test_several_tables_and_known_frames_are_refused(tmp_path):
-    left = write_session(tmp_path / "left", Cell(SEED), "left")
-    right = write_session(tmp_path / "right", beside(SEED), "right")
+def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path):
+    left, right = in_one_fit("two fixed")[1]
     with pytest.raises(RecalibError, match="it is one of 2 tables; expected: one, or the folders"):
         calibrated(left, right / "measurements.csv")
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
