@@ -24,6 +24,8 @@ def test_a_table_is_read_in_its_units(path):
     rows = read_rows(path)
     assert rows[0] == Row("waist", 0.01, -np.pi / 2, 0.4, 0.1)
     assert [row.slides for row in rows] == [False, False, True, False]
+    path.write_text("joint,a [mm],alpha [deg],d [cm],theta [rad]\nwaist,10,-90,40,0.1\n")
+    assert read_rows(path) == rows[:1]
 
 
 @pytest.mark.parametrize("convention", CONVENTIONS)

@@ -130,12 +130,5 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
     )
 
 
-def test_the_summary_says_postures_and_places(calibrated):
-    told = summary(calibrated[0])
-    assert "60 postures, 120 rows of m.csv" in told
-    assert "the instrument in world of arm.urdf: (" in told
-    assert "target right in tool0 of arm.urdf: (" in told
-    angles = np.degrees(calibrated[0].observations.joints[:, 0])
-    assert (
-        f"shoulder_pan_joint was measured from {angles.min():.1f} to {angles.max():.1f} deg" in told
-    )
+def test_the_summary_says_how_many_postures_there_are(calibrated):
+    assert "60 postures, 120 rows of m.csv" in summary(calibrated[0])

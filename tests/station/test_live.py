@@ -111,82 +111,60 @@ def stuck(its, cells):
     return its.last
 
 
-STOPPED = {  # what a station does, and what is said of it
-    "collides": (
-        {"moved": lambda its: raising(StationFailed("the protective stop of the arm is on"))},
-        "the protective stop of the arm is on",
-    ),
-    "stalls": (
-        {"moved": lambda its: time.sleep(3)},
-        "for 1 s the station has not answered when asked to move",
-    ),
-    "gets lost": (
-        {"moved": lambda its: its.shift(0, 0, 0.05, 0, 0, 0)},
-        "after a move, elbow_joint stands 0.05 rad or m from where it was sent",
-    ),
-    "keeps moving": (
-        {"told": lambda its, angles: its.shift(0.002) if moved(its) == 3 else angles},
-        "the arm still moves, 0.1 s after it should stand",
-    ),
-    "moves while it measures": (
-        {"measured": lambda its, cells: cells if its.shift(0.01).any() else None},
-        "the arm moved while it was measured",
-    ),
-    "has an error": (
-        {"measured": lambda its, cells: cells["temperature"]},
-        "asked to measure, the station raised KeyError: 'temperature'",
-    ),
-    "measures for ever": (
-        {"measured": lambda its, cells: time.sleep(3)},
-        "for 1 s the station has not answered when asked to measure",
-    ),
-    "measures no number": (
-        {"measured": lambda its, cells: cells | {"y [m]": np.nan} if measured(its) == 4 else cells},
-        "no row: row 4 of column 'y' is 'nan'; expected: a number",
-    ),
-    "measures other things": (
-        {"measured": lambda its, cells: cells if measured(its) < 4 else cells | {"heat": 20.0}},
-        "no row: its columns are .*, qw; the station gives .*, heat",
-    ),
-    "measures nothing": (
-        {"measured": lambda its, cells: {"picture": "000.png"}},
-        "no row: no positions are measured in it; expected: x, y and z",
-    ),
-    "lies": (
-        {"measured": stuck},
-        "the target was measured .* mm from where 1. rows put it; expected: about",
-    ),
-    "is blind": (
-        {"measured": lambda its, cells: cells if measured(its) < 2 else None},
-        "not seen the target in 10 postures, .* try: a smaller --span",
-    ),
-    "sees nothing": (
-        {"measured": lambda its, cells: None},
-        "does not see the target where the arm stands; try: begin where it does",
-    ),
-    "has other joints": (
-        {"joints": [f"joint_{number}" for number in range(6)]},
-        "the station's joints are joint_0, .*; expected: those of the arm",
-    ),
-    "has no limits": (
-        {"limits": (np.full(6, 2.0), np.full(6, -2.0))},
-        "limits of shoulder_pan_joint are the wrong way round",
-    ),
-    "disappears": (
-        {"told": lambda its, angles: raising(OSError("no route")) if moved(its) == 3 else angles},
-        "asked to tell its angles, the station raised OSError: no route",
-    ),
+PROTECTIVE = "the protective stop of the arm is on"
+STOPPED = {  # of what a station does, by what is said of it
+    PROTECTIVE: {"moved": lambda its: raising(StationFailed(PROTECTIVE))},
+    "for 1 s the station has not answered when asked to move": {"moved": lambda its: time.sleep(3)},
+    "after a move, elbow_joint stands 0.05 rad or m from where it was sent": {
+        "moved": lambda its: its.shift(0, 0, 0.05, 0, 0, 0)
+    },
+    "the arm still moves, 0.1 s after it should stand": {
+        "told": lambda its, angles: its.shift(0.002) if moved(its) == 3 else angles
+    },
+    "the arm moved while it was measured": {
+        "measured": lambda its, cells: cells if its.shift(0.01).any() else None
+    },
+    "asked to measure, the station raised KeyError: 'temperature'": {
+        "measured": lambda its, cells: cells["temperature"]
+    },
+    "for 1 s the station has not answered when asked to measure": {
+        "measured": lambda its, cells: time.sleep(3)
+    },
+    "no row: row 4 of column 'y' is 'nan'; expected: a number": {
+        "measured": lambda its, cells: cells | {"y [m]": np.nan} if measured(its) == 4 else cells
+    },
+    "no row: its columns are .*, qw; the station gives .*, heat": {
+        "measured": lambda its, cells: cells if measured(its) < 4 else cells | {"heat": 20.0}
+    },
+    "no row: no positions are measured in it; expected: x, y and z": {
+        "measured": lambda its, cells: {"picture": "000.png"}
+    },
+    "the target was measured .* mm from where 1. rows put it; expected: about": {"measured": stuck},
+    "not seen the target in 10 postures, .* try: a smaller --span": {
+        "measured": lambda its, cells: cells if measured(its) < 2 else None
+    },
+    "does not see the target where the arm stands; try: begin where it does": {
+        "measured": lambda its, cells: None
+    },
+    "the station's joints are joint_0, .*; expected: those of the arm": {
+        "joints": [f"joint_{number}" for number in range(6)]
+    },
+    "limits of shoulder_pan_joint are the wrong way round": {
+        "limits": (np.full(6, 2.0), np.full(6, -2.0))
+    },
+    "asked to tell its angles, the station raised OSError: no route": {
+        "told": lambda its, angles: raising(OSError("no route")) if moved(its) == 3 else angles
+    },
 }
 
 
-@pytest.mark.parametrize("kind", STOPPED)
-def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(kind, tmp_path):
-    what, said = STOPPED[kind]
+@pytest.mark.parametrize(("said", "what"), STOPPED.items(), ids=STOPPED)
+def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(said, what, tmp_path):
     station, told = Spoilt(**what), []
     with pytest.raises(StationFailed, match=said):
         run(station, tmp_path, on_progress=told.append)
     time.sleep(0.05)
-    if kind != "has other joints":  # it was never asked for anything
+    if "joints" not in what:  # it was never asked for anything
         assert station.calls.count("stop") == 1
         assert "move" not in station.calls[station.calls.index("stop") :]
         rows = measured(station) > 1
