@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -72,7 +73,12 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis} [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
-    assert "leave the measured range" not in capsys.readouterr().err
+    told = capsys.readouterr()
+    assert "leave the measured range" not in told.err
+    assert told.out == (
+        f"10 commands in {out}: joint coordinates, and the poses that\n"
+        "the nominal kinematics give them, of link_4 in base\n"
+    )
 
 
 def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
@@ -110,7 +116,9 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
     proposed = np.radians([read(out)[f"{joint} [deg]"] for joint in arm.joints])
     assert proposed.shape == (3, 4) and np.abs(proposed).max() < 0.95 * 2
-    assert "uncertainty of predicted positions fall from" in capsys.readouterr().out
+    said = r"4 postures in .*, the most informative first\.\nThey would make the uncertainty of"
+    said += r" predicted positions fall from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
+    assert re.match(said, capsys.readouterr().out)
 
 
 def test_an_arm_without_errors_is_left_alone(arm, folder):
@@ -134,7 +142,7 @@ def test_a_command_leaves_linear_algebra_to_one_thread_before_numpy_counts_cores
     assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
 
 
-@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
+@pytest.mark.parametrize("angle", [-1.2, 0.0])
 def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(3)
     joints = np.array([0, -1.4, 2.1, -2.9, -1.6, 0]) + random.uniform(-0.5, 0.5, (40, 6))

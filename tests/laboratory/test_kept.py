@@ -13,7 +13,6 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import RecalibError
 from recalib.laboratory import watching
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.command_line import main
 from recalib.laboratory.correct import correct, solve, unidentifiable_ends
 from recalib.laboratory.correction import load_correction
 from recalib.laboratory.description import Description
@@ -222,29 +221,4 @@ def test_corrections_and_proposals_are_as_kept(name, made, tmp_path, data_regres
     with pytest.raises(RecalibError) as refused:
         correct(correction, far)
     found["far"] = re.sub(r"leaves .*", "", str(refused.value))
-    data_regression.check(plain(found))
-
-
-def test_what_the_command_line_prints_is_as_kept(calibrated, tmp_path, capsys, data_regression):
-    table = calibrated.parent / "measurements.csv"
-    found = {}
-    links = tmp_path / "links.csv"
-    links.write_text("joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,7,-90,412,3\n")
-    for name, command in {
-        "calibrate": ["calibrate", calibrated.parent / "arm.urdf", table],
-        "urdf": ["urdf", links, "--convention=modified"],
-        "correct": ["correct", calibrated, table],
-        "to the instrument": ["correct", calibrated, table, "--frame=instrument"],
-        "next": ["next", calibrated, "--count=3"],
-    }.items():
-        out = tmp_path / f"{name.replace(' ', '_')}.csv"
-        code = main([*map(str, command), f"--out={out}"])
-        said = capsys.readouterr()
-        lines = [*said.out.splitlines(), *said.err.splitlines()]
-        lines = [re.sub(r"/\S*/", "", line) for line in lines]
-        found[name] = [
-            code,
-            lines,
-            of_table(out) if command[0] in ("correct", "next") and out.exists() else None,
-        ]
     data_regression.check(plain(found))

@@ -32,7 +32,8 @@ def test_a_table_is_read_in_its_units(path):
 def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
     out = tmp_path / "arm.urdf"
     assert main(["urdf", str(path), "--convention", convention, "--out", str(out)]) == 0
-    assert "arm.urdf" in capsys.readouterr().out
+    said = f"{out}: waist, shoulder, boom, wrist & co, from base to tool\n"
+    assert capsys.readouterr().out == said
     arm, again = arm_of_table(read_rows(path), convention), load_arm(out)
     assert out.read_text() == urdf_of(arm)
     assert (again.joints, again.tool, again.base) == (arm.joints, arm.tool, arm.base)
