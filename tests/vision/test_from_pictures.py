@@ -180,14 +180,12 @@ def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, c
 def taken(tmp_path, monkeypatch):
     """Files that observe needs, and what it finds in so many pictures: nobody has to look."""
 
-    def take(count: int, sharp: float = 1.0) -> tuple:
+    def take(count: int) -> tuple:
         cell = Cell(5)
         joints, random = cell.postures(count), np.random.default_rng(6)
         views = []
         for number, pose in enumerate(cell.seen(joints)):
-            pixels = cell.project(pose)
-            pixels += (0.1 + 0.02 * number) * random.standard_normal(pixels.shape)
-            views.append(Corners(np.arange(len(pixels)), pixels, sharp))
+            views.append(cell.view(pose, 0.1 + 0.02 * number, random))
             picture = np.full((*LENS.size[::-1],), number, np.uint8)
             cv2.imwrite(str(tmp_path / f"{number:03}.png"), picture)
         write_joints(tmp_path / "joints.csv", cell, joints)
