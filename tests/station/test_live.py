@@ -49,7 +49,7 @@ def run(station, tmp_path, ask=YES, on_progress=lambda line: None, **settings):
     return calibrate_live(its, station.arm, table, settings, ask, None, on_progress, **watch)
 
 
-@pytest.mark.parametrize(("name", "seed"), zip(ARMS, (1, 2), strict=True))
+@pytest.mark.parametrize(("name", "seed"), [*zip(ARMS, (1, 2), strict=True)])
 def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
     station = Simulated(name, seed, noise=(5e-5, np.radians(0.01)))
     reason = run(station, tmp_path, error=3e-4)
