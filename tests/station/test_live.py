@@ -247,21 +247,24 @@ def test_a_box_is_three_ranges(text):
         Box.read(text)
 
 
-def test_a_torn_row_is_dropped_and_nothing_else(tmp_path):
-    table, told = tmp_path / "table.csv", []
+@pytest.fixture
+def ten_rows(tmp_path):
+    """A table that was begun, and what is in it."""
     run(Simulated(), tmp_path, most=10)
-    whole = table.read_bytes()
-    for cut in (len(whole) - 1, len(whole) - 60, len(whole) // 2, whole.index(b"\n") + 5, 10):
+    return tmp_path / "table.csv", (tmp_path / "table.csv").read_bytes()
+
+
+def test_a_torn_row_is_dropped_and_nothing_else(ten_rows, tmp_path):
+    (table, whole), told = ten_rows, []
+    for cut in (len(whole) - 1, len(whole) // 2, whole.index(b"\n") + 5, 10):
         table.write_bytes(whole[:cut])
         run(Simulated(), tmp_path, most=10, on_progress=told.append)
         assert "a row without its end was dropped: " in "".join(told)
         assert table.read_bytes() == whole
 
 
-def test_a_row_for_which_there_is_no_room_leaves_the_table_as_it_was(tmp_path, monkeypatch):
-    run(Simulated(), tmp_path, most=10)
-    table, write = tmp_path / "table.csv", os.write
-    whole = table.read_bytes()
+def test_a_row_for_which_there_is_no_room_leaves_the_table(ten_rows, tmp_path, monkeypatch):
+    (table, whole), write = ten_rows, os.write
     monkeypatch.setattr(os, "write", lambda file, row: write(file, row[: len(row) // 2]))
     with pytest.raises(InvalidFile, match="there is no room for a row"):
         run(Simulated(), tmp_path, most=11)
