@@ -8,16 +8,11 @@ from recalib.errors import InvalidFile
 from recalib.laboratory.description import Description, read_description
 from recalib.laboratory.measurements import read_desired, read_measurements
 from recalib.nominal.arms import load_arm
+from tests.arms import urdf
 from tests.laboratory.conftest import write as write_columns
 
 ROWS = 10
-GANTRY = """<robot name="gantry">
-  <link name="floor"/><link name="bridge"/><link name="tool"/>
-  <joint name="rail" type="prismatic"><parent link="floor"/><child link="bridge"/>
-    <axis xyz="1 0 0"/><limit lower="0" upper="2" effort="1" velocity="1"/></joint>
-  <joint name="wrist" type="revolute"><parent link="bridge"/><child link="tool"/>
-    <axis xyz="0 0 1"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-</robot>"""
+GANTRY = urdf(("rail", "prismatic", "1 0 0", "0 0 0"), ("wrist", "revolute", "0 0 1", "0 0 0"))
 
 
 @pytest.fixture(scope="module")
