@@ -19,7 +19,7 @@ from tests.laboratory.conftest import NOISE, postures, table, true_positions, wr
 
 ROWS = 60
 LATE = "try to measure at rest, or to synchronise both"
-PARTS = "try rows 1 to 20 and 21 to 60 each by themselves"
+PARTS = "try rows 1 to 21 and 22 to 60 each by themselves"
 NAMES = {
     "instruments": ["the instrument"],
     "ends": ["the target"],
@@ -69,15 +69,15 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
             " session, or an instrument that is warm",
         ),
         (
-            Fault(JUMP, 1e-3, 20),
+            Fault(JUMP, 1e-3, 21),
             None,
-            "between rows 20 and 21 instrument or base seem to have moved by 1 mm and 0 deg;"
+            "between rows 21 and 22 instrument or base seem to have moved by 1 mm and 0 deg;"
             f" {PARTS}",
         ),
         (
-            Fault(SLIP, 1e-3, 20, 0.01),
+            Fault(SLIP, 1e-3, 21, 0.01),
             None,
-            "between rows 20 and 21 the target seems to have slipped on the tool by 1 mm and"
+            "between rows 21 and 22 the target seems to have slipped on the tool by 1 mm and"
             f" 0.57 deg; {PARTS}",
         ),
     ],
