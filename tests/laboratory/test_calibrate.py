@@ -168,9 +168,9 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
         (INSTRUMENT, InvalidFile, "has an instrument; a ball in sockets needs none"),
         (DISTANCE.format("middle", 300), InvalidFile, "names socket 'middle'; the table has left"),
         (
-            DISTANCE.format("left", 900),
+            DISTANCE.format("left", 400),
             WrongKnowledge,
-            r"between left and right is 900 mm; by the arm's description they are 29\d",
+            r"between left and right is 400 mm; by the arm's description they are 29\d",
         ),
     ],
     ids=["instrument", "no socket", "another arm"],
