@@ -4,7 +4,7 @@ import csv
 import io
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from itertools import islice
@@ -21,6 +21,7 @@ from recalib.spelling import instead
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
+POSE = "x [mm]", "y [mm]", "z [mm]", "rx [deg]", "ry [deg]", "rz [deg]"  # as we write poses
 FARTHEST = {  # that an arm could reach, and that a clock could show
     ANGLE: (4 * np.pi, "720 deg"),
     LENGTH: (10.0, "10 m"),
@@ -159,6 +160,15 @@ def table_of(
     if not cells:
         raise InvalidFile(path, "its description ignores every column")
     return Table(path, units, cells, shown)
+
+
+def write_table(path: Path, rows: Iterable[Mapping[str, object]]) -> None:
+    """Write rows, of which there is at least one: cells by heading, in the same order in each."""
+    rows = list(rows)
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, fieldnames=rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def _date(cell: str) -> float:

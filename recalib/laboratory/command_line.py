@@ -7,7 +7,6 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 
 from recalib.errors import RecalibError, UnknownName
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parser_of
@@ -68,26 +67,21 @@ def _no_cache_at_home() -> Iterator[None]:
 # Imported where they are used: help and refusals need not wait for Pinocchio and SciPy.
 
 
-def _calibrate(given: argparse.Namespace) -> int:
-    return _calibrate_from(given, given.measurements)
-
-
 def _live(given: argparse.Namespace) -> int:
     from recalib.laboratory.live_command import measure_live
 
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
-    return _calibrate_from(given, [given.table])
+    given.measurements = [given.table]
+    return _calibrate(given)
 
 
-def _calibrate_from(given: argparse.Namespace, tables: Sequence[Path]) -> int:
-    """Identify the arm from tables, and write and print what follows."""
+def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.calibrate import calibrate_arm
     from recalib.laboratory.files import optional_outputs, write_files
     from recalib.laboratory.summary import summary
 
-    result = calibrate_arm(
-        given.urdf, tables, given.description, given.tool, given.base, _print_progress
-    )
+    known = given.description, given.tool, given.base
+    result = calibrate_arm(given.urdf, given.measurements, *known, _print_progress)
     further, missing = optional_outputs()
     _print_progress(f"files in {given.out}")
     written = write_files(result, given.out, further)

@@ -12,6 +12,7 @@ from scipy.spatial import KDTree
 
 from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
+from recalib.identification.error_model import by_sight
 from recalib.identification.linearisation import LEVER
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
@@ -62,14 +63,30 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     Raises NotReached; where frame and desired poses do not go together, InvalidSetting and
     UnknownName.
     """
-    targets = _targets(correction, desired) if in_instrument else None
-    found, errors, reached = solve(correction, desired, targets)
-    if not reached.all():
-        refuse(correction, desired, targets, found, errors, reached)
+    found = reach(correction, desired, in_instrument)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = MARGIN * (high - low)
     beyond = (found < low - margin) | (found > high + margin)
     return Commands(found, correction.arm.forward(found), beyond)
+
+
+def reach(correction: Correction, desired: Measurements, in_instrument: bool) -> np.ndarray:
+    """Joint coordinates (n, joints) of what is desired. Raises as `correct`."""
+    targets = _targets(correction, desired) if in_instrument else None
+    found, errors, reached = solve(correction, desired, targets)
+    if reached.all():
+        return found
+    rows = np.flatnonzero(~reached)
+    first, model = rows[0], correction.arm.model
+    if errors[first] > TOLERANCE:
+        its = None if targets is None else targets[[first]]
+        (pose,) = _poses(correction.calibration, found[[first]], its)
+        gap = _gap(pose, _goals(correction.arm, desired)[first])
+        raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
+    low, high = model.lowerPositionLimit, model.upperPositionLimit
+    outside = (found[first] < low) | (found[first] > high)
+    names = ", ".join(np.array(correction.arm.joints)[outside])
+    raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
 
 
 def unidentifiable_ends(correction: Correction) -> str | None:
@@ -144,16 +161,17 @@ def _nearest(
     learned, calibration = correction.learned, correction.calibration
     count = min(STARTS, len(learned))
     found = np.empty((count, len(goals), learned.shape[1]))
-    for target in [None] if targets is None else np.unique(targets):
-        if target is None:
-            rows, poses = slice(None), calibration.forward(learned)
-        else:
-            its = np.full(len(learned), target)
-            rows, poses = targets == target, calibration.predict(learned, its)
-        features = (_features(its, goals.ndim) for its in (poses, goals[rows]))
-        tree, wanted = KDTree(next(features)), next(features)
+    for target, rows in by_sight(targets, len(goals)):
+        its = None if targets is None else np.full(len(learned), target)
+        tree = KDTree(_features(_poses(calibration, learned, its), goals.ndim))
+        wanted = _features(goals[rows], goals.ndim)
         found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
     return list(found)
+
+
+def _poses(calibration: Calibration, joints: np.ndarray, targets: np.ndarray | None) -> np.ndarray:
+    """Poses (n, 4, 4) [m] of the tool in the base, or of targets (n,) to the instrument."""
+    return calibration.forward(joints) if targets is None else calibration.predict(joints, targets)
 
 
 def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
@@ -189,31 +207,3 @@ def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
         return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
     position, orientation = position_error(pose, goal), orientation_error(pose, goal)
     return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"
-
-
-def refuse(
-    correction: Correction,
-    desired: Measurements,
-    targets: np.ndarray | None,
-    found: np.ndarray,
-    errors: np.ndarray,
-    reached: np.ndarray,
-) -> None:
-    """Raise NotReached, of what `solve` was asked and what it returned."""
-    rows = np.flatnonzero(~reached)
-    first, model = rows[0], correction.arm.model
-    if errors[first] > TOLERANCE:
-        its = None if targets is None else targets[[first]]
-        goal, there = _goals(correction.arm, desired)[first], found[[first]]
-        if its is None:
-            pose = correction.calibration.forward(there)[0]
-        else:
-            pose = correction.calibration.predict(there, its)[0]
-        reason = f"the nearest posture found is {_gap(pose, goal)} away"
-    else:
-        outside = (found[first] < model.lowerPositionLimit) | (
-            found[first] > model.upperPositionLimit
-        )
-        names = (name for name, out in zip(correction.arm.joints, outside, strict=True) if out)
-        reason = f"only beyond the limits of {', '.join(names)}"
-    raise NotReached((rows + 1).tolist(), reason)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from recalib.errors import UnknownName
-from recalib.laboratory.correct import refuse, solve
+from recalib.laboratory.correct import reach
 from recalib.laboratory.correction import Correction
 from recalib.laboratory.measurements import Measurements
 
@@ -28,20 +27,14 @@ class Corrector:
             target: whose pose it is, in the instrument's frame; the tool link's, in the arm's base,
                 unless given.
 
-        Raises NotReached (beyond reach or limits) and UnknownName.
+        Raises as `correct`: NotReached, InvalidSetting and UnknownName.
         """
-        names = self._correction.targets
-        if target is not None and target not in names:
-            raise UnknownName("target", target, names)
         whole = pose.ndim == 2
         desired = Measurements(
             1,
             near[None],
             (pose[:3, 3] if whole else pose)[None],
             pose[None, :3, :3] if whole else None,
+            targets=None if target is None else np.array([target]),
         )
-        numbers = None if target is None else np.array([names.index(target)])
-        found, errors, reached = solve(self._correction, desired, numbers)
-        if not reached.all():
-            refuse(self._correction, desired, numbers, found, errors, reached)
-        return found[0]
+        return reach(self._correction, desired, target is not None)[0]

@@ -29,46 +29,47 @@ STYLE: dict[Any, Any] = {
 }
 
 
+@rc_context(STYLE)
 def draw_errors(result: Calibrated) -> str:
     """What part of the rows has at most which error, before and after."""
     kinds = result.calibration.estimate.noise.size
-    with rc_context(STYLE):
-        figure, panels = figure_of(2.8, 1, kinds)
-        for kind, (panel, (scale, unit)) in enumerate(zip(panels.flat, UNITS, strict=False)):
-            panel.set(xlabel=f"cross-validated error [{unit}]", xscale="log")
-            _plain(panel.xaxis)
-            for name, numbers in _errors(result, kind, scale).items():
-                panel.ecdf(np.maximum(numbers, LEAST), color=COLOURS[name], linewidth=1.5)
-        panels[0, 0].set_ylabel("part of the rows")
-        return svg_of(figure)
+    figure, panels = figure_of(2.8, 1, kinds)
+    for kind, (panel, (scale, unit)) in enumerate(zip(panels.flat, UNITS, strict=False)):
+        panel.set(xlabel=f"cross-validated error [{unit}]", xscale="log")
+        _plain(panel.xaxis)
+        for name, numbers in _errors(result, kind, scale).items():
+            panel.ecdf(np.maximum(numbers, LEAST), color=COLOURS[name], linewidth=1.5)
+    panels[0, 0].set_ylabel("part of the rows")
+    return svg_of(figure)
 
 
+@rc_context(STYLE)
 def draw_over_joints(result: Calibrated) -> str:
     """Position errors over each joint's coordinate, before and after."""
     joints, arm = result.observations.joints[result.counted], result.arm
     rows = -(-len(arm.joints) // COLUMNS)
-    with rc_context(STYLE):
-        figure, panels = figure_of(2.2 * rows, rows, COLUMNS, sharey=True)
-        for panel in panels.flat[len(arm.joints) :]:
-            panel.remove()
-        for panel in panels[:, 0]:
-            panel.set(ylabel="position error [mm]", yscale="log")
-            _plain(panel.yaxis)
-        for index, (joint, slides) in enumerate(zip(arm.joints, arm.slides, strict=True)):
-            (scale, unit), panel = UNITS[0 if slides else 1], panels.flat[index]
-            panel.set_xlabel(f"{joint} [{unit}]")
-            for name, numbers in _errors(result, 0, 1e3).items():
-                panel.scatter(
-                    scale * joints[:, index],
-                    np.maximum(numbers, LEAST),
-                    s=6,
-                    color=COLOURS[name],
-                    linewidth=0,
-                    rasterized=True,
-                )
-        return svg_of(figure)
+    figure, panels = figure_of(2.2 * rows, rows, COLUMNS, sharey=True)
+    for panel in panels.flat[len(arm.joints) :]:
+        panel.remove()
+    for panel in panels[:, 0]:
+        panel.set(ylabel="position error [mm]", yscale="log")
+        _plain(panel.yaxis)
+    for index, (joint, slides) in enumerate(zip(arm.joints, arm.slides, strict=True)):
+        (scale, unit), panel = UNITS[0 if slides else 1], panels.flat[index]
+        panel.set_xlabel(f"{joint} [{unit}]")
+        for name, numbers in _errors(result, 0, 1e3).items():
+            panel.scatter(
+                scale * joints[:, index],
+                np.maximum(numbers, LEAST),
+                s=6,
+                color=COLOURS[name],
+                linewidth=0,
+                rasterized=True,
+            )
+    return svg_of(figure)
 
 
+@rc_context(STYLE)
 def draw_arm(result: Calibrated) -> tuple[str, float]:
     """The arm in a middle posture, from the side and from above, with positions and their errors.
 
@@ -81,21 +82,20 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     reach = np.linalg.norm(skeleton, axis=1).max()
     longer = LONGEST * reach / np.linalg.norm(residuals["before"], axis=1).max()
     longer = float(f"{longer:.0e}")  # a round number
-    with rc_context(STYLE):
-        figure, panels = figure_of(4.2, 1, 2)
-        views = ("from the side", [0, 2]), ("from above", [0, 1])
-        for panel, (title, axes) in zip(panels.flat, views, strict=True):
-            across, up = ("xyz"[axis] for axis in axes)
-            panel.set(title=title, xlabel=f"{across} [m]", ylabel=f"{up} [m]")
-            panel.set_aspect("equal", "datalim")
-            panel.plot(*skeleton[:, axes].T, "o-", color=GREY, linewidth=3)
-            for name, its in residuals.items():
-                start, step = positions[:, axes].T, longer * its[:, axes].T
-                scales = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.003}
-                panel.quiver(*start, *step, color=COLOURS[name], rasterized=True, **scales)
-                panel.update_datalim((start + step).T)
-            panel.autoscale_view()
-        return svg_of(figure), longer
+    figure, panels = figure_of(4.2, 1, 2)
+    views = ("from the side", [0, 2]), ("from above", [0, 1])
+    for panel, (title, axes) in zip(panels.flat, views, strict=True):
+        across, up = ("xyz"[axis] for axis in axes)
+        panel.set(title=title, xlabel=f"{across} [m]", ylabel=f"{up} [m]")
+        panel.set_aspect("equal", "datalim")
+        panel.plot(*skeleton[:, axes].T, "o-", color=GREY, linewidth=3)
+        for name, its in residuals.items():
+            start, step = positions[:, axes].T, longer * its[:, axes].T
+            scales = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.003}
+            panel.quiver(*start, *step, color=COLOURS[name], rasterized=True, **scales)
+            panel.update_datalim((start + step).T)
+        panel.autoscale_view()
+    return svg_of(figure), longer
 
 
 def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:

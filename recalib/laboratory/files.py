@@ -1,6 +1,5 @@
 """The folder of a calibration, and tables of postures."""
 
-import csv
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import import_module
@@ -13,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.columns import POSE, write_table
 from recalib.laboratory.hand_eye import hand_eye
 from recalib.laboratory.outputs import new
 from recalib.laboratory.parameters import described
@@ -49,9 +49,9 @@ def write_files(
     """
     with new(folder, folder=True) as made:
         (made / "summary.txt").write_text(summary(result), encoding="utf-8")
-        _write_table(made / "rows.csv", _rows(result))
+        write_table(made / "rows.csv", _rows(result))
         if frames := [*_frames(result)]:
-            _write_table(made / "frames.csv", frames)
+            write_table(made / "frames.csv", frames)
         if result.observations.optics is not None:
             _write_hand_eye(made, result)
         if result.worthwhile:
@@ -85,14 +85,11 @@ def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) 
     scales = [1e3 if slides else 180 / np.pi for slides in arm.slides]
     units = ["mm" if slides else "deg" for slides in arm.slides]
     names = [f"{joint} [{unit}]" for joint, unit in zip(arm.joints, units, strict=True)]
-    names += [*(f"{axis} [mm]" for axis in "xyz"), *(f"r{axis} [deg]" for axis in "xyz")]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
     numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
+    texts = ([f"{number:.9f}" for number in row] for row in numbers)
     with new(path) as made:
-        _write_table(
-            made,
-            (dict(zip(names, (f"{number:.9f}" for number in row), strict=True)) for row in numbers),
-        )
+        write_table(made, (dict(zip([*names, *POSE], row, strict=True)) for row in texts))
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:
@@ -102,9 +99,9 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
         (folder / "kinematics.yaml").write_text(kinematics, encoding="utf-8")
     result.correction.save(folder / CORRECTION)
     parameters = [vars(parameter) for parameter in described(result)]
-    _write_table(folder / "parameters.csv", parameters)
+    write_table(folder / "parameters.csv", parameters)
     offsets = [its for its in parameters if its["name"].startswith("offset of ")]
-    _write_table(folder / "joint_offsets.csv", offsets)
+    write_table(folder / "joint_offsets.csv", offsets)
     frames = geometry.frames
     bases = dict(zip(result.instruments, frames.bases.tolist(), strict=True))
     values = {
@@ -165,11 +162,3 @@ def _rows(result: Calibrated) -> Iterable[dict[str, Any]]:
             "weight": f"{weight:.3g}",
             "doubted": "yes" if row + 1 in result.doubted else "no",
         }
-
-
-def _write_table(path: Path, rows: Iterable[dict[str, Any]]) -> None:
-    rows = list(rows)
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, fieldnames=rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)

@@ -6,7 +6,7 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import Any
 
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME
@@ -16,12 +16,8 @@ from recalib.laboratory.description import read_description
 from recalib.laboratory.live import LiveSettings, calibrate_live
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import MOST, find_urdf
-from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station
 from recalib.station.opening import open_station
-
-if TYPE_CHECKING:
-    from recalib.laboratory.live_view import LiveView
 
 
 def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> str:
@@ -37,17 +33,22 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     opening: Callable[[], Station] = partial(open_station, given.station)
     if given.board is not None:
         opening = _with_board(opening, given)
+    ask = partial(_ask_to_move, arm.joints, arm.slides.tolist())
+    watch: dict[str, Any] = {}
+    if given.view:
+        from recalib.laboratory.live_view import LiveView
+
+        urdf = find_urdf(given.urdf)
+        watch["on_row"] = LiveView(arm, read_file(urdf, MOST), urdf).show
     return calibrate_live(
         opening,
         arm,
         given.table,
         settings,
-        (lambda posture: True)
-        if given.yes
-        else partial(_ask_to_move, arm.joints, arm.slides.tolist()),
+        (lambda posture: True) if given.yes else ask,
         given.description and read_description(given.description),
         on_progress,
-        _view(given.urdf, arm).show if given.view else lambda rows, running: None,
+        **watch,
     )
 
 
@@ -73,13 +74,6 @@ def _with_board(opening: Callable[[], Station], given: argparse.Namespace) -> Ca
         raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     board, lens = read_board(given.board), read_lens(given.lens)
     return lambda: PicturesOfABoard(opening(), board, lens, given.camera == IN_HAND)
-
-
-def _view(urdf: str, arm: Arm) -> "LiveView":
-    from recalib.laboratory.live_view import LiveView
-
-    path = find_urdf(urdf)
-    return LiveView(arm, read_file(path, MOST), path)
 
 
 def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:

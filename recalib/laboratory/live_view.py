@@ -11,12 +11,10 @@ from recalib.errors import InvalidSetting
 from recalib.identification.observations import Observations
 from recalib.laboratory.running import RunningCalibration
 from recalib.laboratory.viewer import HERE, answer, free_port, start
-from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
+from recalib.laboratory.viewing import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.nominal.kinematics import Arm
 
-ARM, ROW = "arm", "row"
-SURE, UNSURE, GREY = np.array([0, 114, 178]), np.array([213, 94, 0]), (120, 120, 120)
-THICK = 0.003  # m
+SURE, UNSURE = np.array([0, 114, 178]), np.array([213, 94, 0])
 
 
 class LiveView:
@@ -41,13 +39,9 @@ class LiveView:
 
     def show(self, rows: Observations, running: RunningCalibration) -> None:
         """Show what is known after some rows."""
-        rec, joints = self._rec, rows.joints[-1:]
+        rec, clock = self._rec, [rr.TimeColumn(ROW, sequence=[len(rows)])]
         rec.set_time(ROW, sequence=len(rows))
-        clock = [rr.TimeColumn(ROW, sequence=[len(rows)])]
-        for link, poses in link_placements(self._arm, self._visuals, joints).items():
-            send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", clock, poses)
-        line = rr.LineStrips3D(self._arm.skeleton(joints), radii=THICK, colors=GREY)
-        rec.log("line", line)
+        send_arm(rec, self._arm, self._visuals, clock, rows.joints[-1:])
         if not running.is_ready(rows):
             return
         calibration, error = running.calibration(rows), running.error(rows)

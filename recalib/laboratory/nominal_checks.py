@@ -32,7 +32,7 @@ ENOUGH = 40  # rows to try mistakes on
 QUARTERS = 90, -90, 180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
 
-Try = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+Change = Callable[[np.ndarray], np.ndarray]
 
 
 class WrongNominal(RecalibError):
@@ -97,12 +97,12 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: floa
     for count in (1, 2):
         fits = []
         for chosen in combinations(steps, count):
-            undone = coordinates, nominal
-            for _, change in chosen:
-                undone = change(*undone)
-            _, gaps = _fit(arm.forward(undone[0]), undone[1])
-            spread = _rms(np.linalg.norm(undone[1] - undone[1].mean(axis=0), axis=1))
-            words = " and ".join(name for name, _ in chosen)
+            joints, positions = coordinates, nominal
+            for _, of_joints, of_positions in chosen:
+                joints, positions = of_joints(joints), of_positions(positions)
+            _, gaps = _fit(arm.forward(joints), positions)
+            spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
+            words = " and ".join(name for name, *_ in chosen)
             part = _rms(gaps) / spread if spread > 0 else np.inf
             fits.append((part, _rms(gaps), gaps.max(), words))
         part, rms, largest, words = min(fits)
@@ -111,36 +111,28 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: floa
     return None
 
 
-def _steps(arm: Arm) -> Iterator[tuple[str, Try]]:
-    """Mistakes in words, and what undoes each: from joint coordinates and positions to others."""
+def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
+    """Mistakes in words, and what undoes each: of joint coordinates, and of positions."""
     count = len(arm.joints)
-    yield "joint columns in degrees that say rad", lambda q, p: (np.radians(q), p)
-    yield "joint columns in radians that say deg", lambda q, p: (np.degrees(q), p)
+    yield "joint columns in degrees that say rad", np.radians, np.asarray
+    yield "joint columns in radians that say deg", np.degrees, np.asarray
     for factor, words in UNITS.items():
-        yield f"positions {words}", _of_positions(partial(np.multiply, factor))
+        yield f"positions {words}", np.asarray, partial(np.multiply, factor)
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
-        yield f"the sign of {name}", _of_joints(partial(np.multiply, signs))
+        yield f"the sign of {name}", partial(np.multiply, signs), np.asarray
     for joint, name in enumerate(arm.joints):
         for degrees in () if arm.slides[joint] else QUARTERS:
             shift = np.where(np.arange(count) == joint, np.radians(degrees), 0.0)
             words = f"the zero of {name}, off by {-degrees} deg"
-            yield words, _of_joints(partial(np.add, shift))
+            yield words, partial(np.add, shift), np.asarray
     for one, other in combinations(range(count), 2):
         order = np.arange(count)
         order[[one, other]] = other, one
         names = f"{arm.joints[one]} and {arm.joints[other]}"
         exchanged = partial(np.take, indices=order, axis=1)
-        yield f"the columns of {names} exchanged", _of_joints(exchanged)
-    yield "the joint columns in reverse order", lambda q, p: (q[:, ::-1], p)
-
-
-def _of_positions(change: Callable[[np.ndarray], np.ndarray]) -> Try:
-    return lambda q, p: (q, change(p))
-
-
-def _of_joints(change: Callable[[np.ndarray], np.ndarray]) -> Try:
-    return lambda q, p: (change(q), p)
+        yield f"the columns of {names} exchanged", exchanged, np.asarray
+    yield "the joint columns in reverse order", np.fliplr, np.asarray
 
 
 def _gaps(

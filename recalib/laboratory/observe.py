@@ -1,9 +1,8 @@
 """From pictures of a board, and the joints at each, to what `recalib calibrate` reads."""
 
-import csv
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from os import PathLike
@@ -14,7 +13,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
 from recalib.files.quantities import ANGLE, LENGTH
-from recalib.laboratory.columns import Table, read_table
+from recalib.laboratory.columns import POSE, Table, read_table, write_table
 from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.laboratory.outputs import new
 from recalib.vision.boards import Board, read_board
@@ -186,18 +185,14 @@ def write_observed(
         names = f'camera_name = "{result.camera}"\nboard_name = "{result.board_name}"\n'
         setup = f'camera = "{camera}"\nlens_from_pictures = {fitted}\n{names}\n'
         (made / SETUP).write_text(setup + result.board.described(), encoding="utf-8")
-        _write(made / OBSERVED, *_measurements(result))
-        header = ["row", "corner", "u [px]", "v [px]"]
-        _write(
-            made / CORNERS,
-            header,
-            (
-                [row, int(number), f"{u:.4f}", f"{v:.4f}"]
-                for row, its in enumerate(result.used, 1)
-                if its.corners is not None
-                for number, (u, v) in zip(its.corners.numbers, its.corners.pixels, strict=True)
-            ),
+        write_table(made / OBSERVED, _measurements(result))
+        corners = (
+            {"row": row, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
+            for row, its in enumerate(result.used, 1)
+            if its.corners is not None
+            for number, (u, v) in zip(its.corners.numbers, its.corners.pixels, strict=True)
         )
+        write_table(made / CORNERS, corners)
         write_page(made / "page.html", result)
 
 
@@ -282,28 +277,17 @@ def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:
     return replace(picture, corners=corners, pose=pose, error=float(np.sqrt(squares.mean())))
 
 
-def _measurements(result: Observed) -> tuple[list[str], list[list[str]]]:
-    """The table of pictures and joints, with poses of the board, or of the camera in it."""
-    table, rows = result.table, []
+def _measurements(result: Observed) -> Iterator[dict[str, str]]:
+    """Rows of pictures and joints, with poses of the board, or of the camera in it."""
+    table = result.table
     # what a live calibration measured by the same pictures is measured anew
     measured = {PICTURE, *(name for group in VECTORS for name in group)}
     joints = [name for name in table.cells if name not in measured]
     units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
-    header = [
-        PICTURE,
-        *units,
-        *(f"{axis} [mm]" for axis in "xyz"),
-        *(f"r{axis} [deg]" for axis in "xyz"),
-    ]
     for its in result.used:
         assert its.pose is not None
         pose = np.linalg.inv(its.pose) if result.in_hand else its.pose
         turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
         numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
-        rows.append([its.name, *(table.cells[name][its.row - 1] for name in joints), *numbers])
-    return header, rows
-
-
-def _write(path: Path, header: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([header, *rows])
+        cells = [its.name, *(table.cells[name][its.row - 1] for name in joints), *numbers]
+        yield dict(zip([PICTURE, *units, *POSE], cells, strict=True))

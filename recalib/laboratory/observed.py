@@ -7,7 +7,7 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -121,10 +121,8 @@ def fitted_lenses(folders: Sequence[Path], optics: np.ndarray) -> dict[str, Lens
         beside[: len(own)] = optics[own]
         fx, fy, cx, cy, *distortion = beside[len(BOARD) :]
         lens = session.lens
-        matrix, changed = (
-            lens.matrix + np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 0]]),
-            lens.distortion.copy(),
-        )
+        matrix, changed = lens.matrix.copy(), lens.distortion.copy()
+        matrix[:2] += np.array([[fx, 0, cx], [0, fy, cy]])
         changed[:4] += distortion
         lenses[session.camera] = Lens(lens.size, matrix, changed)
     return lenses
@@ -136,7 +134,7 @@ def _session(folder: Path) -> Session:
     camera, fitted = setup.get("camera"), setup.get("lens_from_pictures")
     if camera not in CAMERAS or not isinstance(fitted, bool):
         raise InvalidFile(folder / SETUP, "camera or lens_from_pictures is not as observe wrote it")
-    names = [setup.get(f"{kind}_name", kind) for kind in ("camera", "board")]
+    names: list[Any] = [setup.get(f"{kind}_name") for kind in ("camera", "board")]
     if not all(isinstance(name, str) and NAME.fullmatch(name) for name in names):
         raise InvalidFile(folder / SETUP, "camera_name or board_name is not as observe wrote it")
     name, its = names

@@ -9,7 +9,7 @@ from matplotlib import rc_context
 
 from recalib.laboratory.drawings import COLOURS, STYLE, figure_of, svg_of
 from recalib.laboratory.observe import WIDE, Observed, Picture
-from recalib.laboratory.page import environment
+from recalib.laboratory.page import write_html
 
 DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it
 QUALITY = 70  # of JPEG
@@ -17,16 +17,13 @@ QUALITY = 70  # of JPEG
 
 def write_observed_page(path: Path, result: Observed) -> None:
     """Write the page."""
-    text = (
-        environment()
-        .get_template("observed.html.j2")
-        .render(
-            notes=result.summary().splitlines(),
-            pictures=[(its, _small(its)) for its in result.pictures],
-            coverage=_coverage(result),
-        )
+    write_html(
+        path,
+        "observed.html.j2",
+        notes=result.summary().splitlines(),
+        pictures=[(its, _small(its)) for its in result.pictures],
+        coverage=_coverage(result),
     )
-    path.write_text(text, encoding="utf-8")
 
 
 def _small(picture: Picture) -> str:
@@ -40,18 +37,18 @@ def _small(picture: Picture) -> str:
     return b64encode(content.tobytes()).decode()
 
 
+@rc_context(STYLE)
 def _coverage(result: Observed) -> str:
     """Corners on the lens, and boards before the camera."""
     pixels = np.concatenate([its.corners.pixels for its in result.used if its.corners is not None])
     places = np.array([its.pose[:3, 3] for its in result.used if its.pose is not None])
-    with rc_context(STYLE):
-        figure, (drawn,) = figure_of(3.4, 1, 3)
-        wide, high = result.lens.size
-        drawn[0].set(title="corners on the lens [px]", xlim=(0, wide), ylim=(high, 0))
-        drawn[0].scatter(*pixels.T, s=3, color=COLOURS["after"], linewidth=0, rasterized=True)
-        for panel, (across, up) in zip(drawn[1:], ((0, 1), (0, 2)), strict=True):
-            panel.set(title=f"the board in the camera, {'xyz'[across]} and {'xyz'[up]} [m]")
-            panel.scatter(places[:, across], places[:, up], s=12, color=COLOURS["after"])
-        for panel in drawn:
-            panel.set_aspect("equal", "datalim" if panel is not drawn[0] else "box")
-        return svg_of(figure)
+    figure, (drawn,) = figure_of(3.4, 1, 3)
+    wide, high = result.lens.size
+    drawn[0].set(title="corners on the lens [px]", xlim=(0, wide), ylim=(high, 0))
+    drawn[0].scatter(*pixels.T, s=3, color=COLOURS["after"], linewidth=0, rasterized=True)
+    for panel, (across, up) in zip(drawn[1:], ((0, 1), (0, 2)), strict=True):
+        panel.set(title=f"the board in the camera, {'xyz'[across]} and {'xyz'[up]} [m]")
+        panel.scatter(places[:, across], places[:, up], s=12, color=COLOURS["after"])
+    for panel in drawn:
+        panel.set_aspect("equal", "datalim" if panel is not drawn[0] else "box")
+    return svg_of(figure)

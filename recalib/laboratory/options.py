@@ -9,6 +9,7 @@ MAKING_FOLDERS = "calibrate", "live", "board", "observe"  # the other commands m
 DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
 Command = Callable[[argparse.Namespace], int]
+Kind = Callable[[str], object]
 
 
 def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
@@ -23,6 +24,11 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
         own.set_defaults(command=functions[name], makes_folder=name in MAKING_FOLDERS)
         return own
 
+    def add_default(
+        own: argparse.ArgumentParser, name: str, default: object, text: str, kind: Kind = str
+    ) -> None:
+        own.add_argument(name, default=default, type=kind, help=f"{text} (default: {default})")
+
     def add_arm(own: argparse.ArgumentParser) -> None:
         own.add_argument(
             "--tool", type=_name, help="tool link; needed only if the arm has several ends"
@@ -31,9 +37,7 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
             "--base", type=_name, help="link whose frame poses are given in (default: the root)"
         )
         own.add_argument("--description", type=_path, help="frames, columns and distances (TOML)")
-        own.add_argument(
-            "--out", default="calibration", help="new folder to write (default: %(default)s)"
-        )
+        add_default(own, "--out", "calibration", "new folder to write")
 
     urdf = "URDF file, or the name of an arm of example-robot-data"
     own = add("calibrate", "identify the arm's parameters from measurements")
@@ -52,40 +56,19 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
     )
     own.add_argument("urdf", type=_name, help=urdf)
     own.add_argument("--error", help="predicted error to end at, such as '0.3 mm'")
-    own.add_argument(
-        "--most",
-        type=int,
-        default=60,
-        help="rows to end at in any case (default: %(default)s)",
-    )
-    own.add_argument(
-        "--span",
-        default="45 deg",
-        help="range of each joint about the first posture, either way (default: %(default)s)",
-    )
+    add_default(own, "--most", 60, "rows to end at in any case", int)
+    add_default(own, "--span", "45 deg", "range of each joint about the first posture, either way")
     own.add_argument(
         "--box", help="ranges of the tool's x, y, z: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'"
     )
-    own.add_argument(
-        "--speed",
-        type=float,
-        default=0.1,
-        help="share of the possible speed (default: %(default)s)",
-    )
-    own.add_argument(
-        "--patience", default="60 s", help="time limit of a move or measurement (%(default)s)"
-    )
+    add_default(own, "--speed", 0.1, "share of the possible speed", float)
+    add_default(own, "--patience", "60 s", "time limit of a move or measurement")
     own.add_argument("--board", type=_path, help="board in the station's pictures (TOML)")
     own.add_argument("--lens", type=_path, help="lens calibration (YAML), with --board")
     own.add_argument("--camera", choices=CAMERAS, help="where it is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")
     own.add_argument("--view", action="store_true", help="show it in a window of rerun")
-    own.add_argument(
-        "--table",
-        type=_path,
-        default="measurements.csv",
-        help="new, or begun by live (default: %(default)s)",
-    )
+    add_default(own, "--table", "measurements.csv", "new, or begun by live", _path)
     add_arm(own)
 
     own = add("correct", "compute commands that reach the desired poses")
@@ -98,9 +81,7 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
         help="frame of the poses: the tool link in the base, or a target in the instrument's frame"
         " (default: %(default)s)",
     )
-    own.add_argument(
-        "--out", default="commands.csv", help="new file to write (default: %(default)s)"
-    )
+    add_default(own, "--out", "commands.csv", "new file to write")
 
     own = add(
         "next",
@@ -113,26 +94,20 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
         nargs="?",
         help="postures to choose from (CSV); drawn unless given",
     )
-    own.add_argument(
-        "--count", type=_positive, default=10, help="number of postures (default: %(default)s)"
-    )
-    own.add_argument("--out", default="next.csv", help="new file to write (default: %(default)s)")
+    add_default(own, "--count", 10, "number of postures", _positive)
+    add_default(own, "--out", "next.csv", "new file to write")
 
     own = add("urdf", "write a URDF from Denavit-Hartenberg parameters")
     own.add_argument("links", type=_path, help="table (CSV): joint, a, alpha, d, theta, kind")
-    own.add_argument(
-        "--convention", default="standard", help="standard or modified (default: %(default)s)"
-    )
-    own.add_argument("--out", default="arm.urdf", help="new file to write (default: %(default)s)")
+    add_default(own, "--convention", "standard", "standard or modified")
+    add_default(own, "--out", "arm.urdf", "new file to write")
 
     own = add("board", "draw a calibration board to print")
-    own.add_argument("--kind", default="charuco", help="charuco or apriltag (default: %(default)s)")
-    own.add_argument(
-        "--columns", type=int, default=7, help="squares in a row (default: %(default)s)"
-    )
-    own.add_argument("--rows", type=int, default=5, help="rows of squares (default: %(default)s)")
-    own.add_argument("--square", default="36 mm", help="width of a square (default: %(default)s)")
-    own.add_argument("--out", default="board", help="new folder to write (default: %(default)s)")
+    add_default(own, "--kind", "charuco", "charuco or apriltag")
+    add_default(own, "--columns", 7, "squares in a row", int)
+    add_default(own, "--rows", 5, "rows of squares", int)
+    add_default(own, "--square", "36 mm", "width of a square")
+    add_default(own, "--out", "board", "new folder to write")
 
     own = add("observe", "find the board in pictures, and calibrate the lens")
     own.add_argument("pictures", type=_path, help="folder of pictures")
@@ -145,7 +120,7 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
     )
     own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
     own.add_argument("--name", default="camera", help="its name, if there are several cameras")
-    own.add_argument("--out", default="observed", help="new folder to write (default: %(default)s)")
+    add_default(own, "--out", "observed", "new folder to write")
     return parser
 
 

@@ -7,12 +7,10 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.viewing import link_placements, log_meshes, send_frame
+from recalib.laboratory.viewing import ARM, GREY, ROW, THICK, log_meshes, send_arm
 
-ARM, ROW = "arm", "row"
-COLOURS, GREY = {"before": (213, 94, 0), "after": (0, 114, 178)}, (120, 120, 120)
+COLOURS = {"before": (213, 94, 0), "after": (0, 114, 178)}
 LONGEST = 0.12  # m: so long is the largest error shown
-THICK = 0.003  # m
 
 
 def write_recording(path: Path, result: Calibrated) -> None:
@@ -24,7 +22,10 @@ def write_recording(path: Path, result: Calibrated) -> None:
         rec.save(path, default_blueprint=_blueprint(longer))
         rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
         rec.log("measured", rr.Points3D(positions, radii=THICK, colors=GREY), static=True)
-        _send_arm(rec, result)
+        visuals, _ = log_meshes(rec, result.source, result.urdf, ARM)
+        joints = result.observations.joints
+        every = rr.TimeColumn(ROW, sequence=np.arange(1, len(joints) + 1))
+        send_arm(rec, result.arm, visuals, [every], joints)
         rows = rr.TimeColumn(ROW, sequence=result.counted + 1)
         for name, its in residuals.items():
             arrows = rr.Arrows3D(
@@ -58,18 +59,3 @@ def _blueprint(longer: float) -> rrb.Blueprint:
         rrb.TimePanel(timeline=ROW, fps=4),
         collapse_panels=True,
     )
-
-
-def _send_arm(rec: rr.RecordingStream, result: Calibrated) -> None:
-    """The nominal arm in each row: its meshes, and a line along it, if they are missing."""
-    arm, joints = result.arm, result.observations.joints
-    rows = [rr.TimeColumn(ROW, sequence=np.arange(1, len(joints) + 1))]
-    visuals, _ = log_meshes(rec, result.source, result.urdf, ARM)
-    for link, poses in link_placements(arm, visuals, joints).items():
-        send_frame(rec, f"{ARM}/{link}", f"{ARM}/{link}", rows, poses)
-    strips = rr.LineStrips3D.columns(
-        strips=[[line] for line in arm.skeleton(joints).tolist()],
-        radii=[THICK] * len(joints),
-        colors=[GREY] * len(joints),
-    )
-    rec.send_columns("line", rows, strips)

@@ -8,7 +8,6 @@ import cv2
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
-from recalib.damaged.disturbances import Disturbances
 from recalib.nominal.kinematics import tool_frame
 from recalib.station.engine import mujoco
 from recalib.station.physics import Gears, PhysicsStation, placed
@@ -16,6 +15,7 @@ from recalib.vision.boards import Board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import Lens
 
+FOCAL = 1100.0  # px, of a lens without distortion
 DETAIL = 20  # px of the texture to a module of the board
 BLACK, WHITE = 20, 235
 MARGIN, THIN = 0.02, 0.0005  # m of white about the board; half the thickness of a sheet
@@ -28,13 +28,12 @@ class PicturedStation(PhysicsStation):
     """An arm in MuJoCo with a board on its tool and a camera beside it.
 
     Args:
-        damaged, gears, gravity, disturbances, seed: see `PhysicsStation`.
+        damaged, gears, seed: see `PhysicsStation`.
         camera: its pose (4, 4) in the arm's base [m]; z goes into the picture.
         place: the pose (4, 4) of the board in the tool [m].
         board: one that is printable.
-        size: of a picture, width and height [px].
-        focal: the focal length [px] of a lens without distortion.
         folder: into which pictures go.
+        size: of a picture, width and height [px].
     """
 
     def __init__(
@@ -45,20 +44,17 @@ class PicturedStation(PhysicsStation):
         board: Board,
         folder: str | PathLike[str],
         gears: Gears | None = None,
-        gravity: bool = True,
         size: tuple[int, int] = (1280, 960),
-        focal: float = 1100.0,
-        disturbances: Disturbances | None = None,
         seed: int = 0,
     ):
         self._board, self._folder = board, Path(folder)
         self._folder.mkdir(parents=True, exist_ok=True)
         self._taken = len([*self._folder.glob("*.png")])  # what is there stays
         x, y = (side / 2 - 0.5 for side in size)
-        matrix = np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]])
+        matrix = np.array([[FOCAL, 0, x], [0, FOCAL, y], [0, 0, 1]])
         self.lens = Lens(size, matrix, np.zeros(5))
         self._camera, self._place = camera, place
-        super().__init__(damaged, gears, gravity, camera, place, disturbances, seed)
+        super().__init__(damaged, gears, instrument=camera, target=place, seed=seed)
         width, height = (FINE * side for side in size)
         self._renderer = mujoco.Renderer(self._model, height, width)
 

@@ -4,6 +4,7 @@ import queue
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -112,7 +113,12 @@ class Guarded:
         if self._station is None:
             return
         station = self._station
-        ending = threading.Thread(target=lambda: _quietly(lambda: do(station)), daemon=True)
+
+        def quietly() -> None:  # nobody is there to complain to: the failure before it is told
+            with suppress(Exception):
+                do(station)
+
+        ending = threading.Thread(target=quietly, daemon=True)
         ending.start()
         ending.join(STOPPING)
 
@@ -167,14 +173,6 @@ class Guarded:
                 f"the station's {name} are {numbers.tolist()}; expected: {len(self._order)} numbers"
             )
         return numbers[self._order]
-
-
-def _quietly(do: Callable[[], None]) -> None:
-    """What comes last has nobody to complain to: the failure before it is told."""
-    try:
-        do()
-    except Exception:
-        return
 
 
 def _close(station: Station) -> None:

@@ -1,6 +1,7 @@
 """A station that takes pictures of a board, as one that measures where the board is."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from typing import Any
 
 import cv2
 import numpy as np
@@ -28,23 +29,9 @@ class PicturesOfABoard:
     def __init__(self, station: Station, board: Board, lens: Lens, in_hand: bool):
         self._station, self._board, self._lens, self._in_hand = station, board, lens, in_hand
 
-    @property
-    def joints(self) -> Sequence[str]:
-        """See `Station.joints`."""
-        return self._station.joints
-
-    @property
-    def limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """See `Station.limits`."""
-        return self._station.limits
-
-    def move(self, angles: np.ndarray, speed: float) -> None:
-        """See `Station.move`."""
-        self._station.move(angles, speed)
-
-    def angles(self) -> np.ndarray:
-        """See `Station.angles`."""
-        return self._station.angles()
+    def __getattr__(self, name: str) -> Any:
+        """All else is the station's own."""
+        return getattr(self._station, name)
 
     def measure(self) -> Mapping[str, float | str] | None:
         """See `Station.measure`: the picture and the pose; None where the board is not found."""
@@ -71,11 +58,3 @@ class PicturesOfABoard:
         qx, qy, qz, qw = Rotation.from_matrix(pose[:3, :3]).as_quat().tolist()
         place = {"x [m]": x, "y [m]": y, "z [m]": z}
         return {PICTURE: path, **place, "qx": qx, "qy": qy, "qz": qz, "qw": qw}
-
-    def stop(self) -> None:
-        """See `Station.stop`."""
-        self._station.stop()
-
-    def close(self) -> None:
-        """Let go of the station, if it wants that."""
-        getattr(self._station, "close", lambda: None)()

@@ -16,7 +16,7 @@ from recalib.files.storage import read_file
 CHARUCO, APRILTAG = KINDS = "charuco", "apriltag"
 DICTIONARIES = {CHARUCO: "4X4_100", APRILTAG: "APRILTAG_36H11"}  # of the boards that we print
 BORDER = 1  # modules of black about the bits of a marker
-GAP = {CHARUCO: 1, APRILTAG: 2}  # modules of white between a marker and what is next to it
+WHITE = 2  # modules without a marker in a square, or between tags: so much white it needs
 SMALLEST, LARGEST = 1e-3, 1.0  # m, of a square
 MOST = 16_000  # bytes of a description
 
@@ -87,12 +87,10 @@ class Board:
     @property
     def modules(self) -> np.ndarray:
         """Which modules (down, across) are black, if it is one that `printable` makes."""
-        pitch = self.alphabet.markerSize + 2 * BORDER + 2 * GAP[self.kind]
-        if self.kind == APRILTAG:
-            pitch -= GAP[self.kind]
+        pitch = self.alphabet.markerSize + 2 * BORDER + WHITE
         size = pitch * np.array([self.columns, self.rows])
         if self.kind == APRILTAG:
-            size -= GAP[self.kind]
+            size -= WHITE
         return self.drawn.generateImage([int(side) for side in size]) == 0
 
     @property
@@ -116,10 +114,8 @@ def printable(kind: str, columns: int, rows: int, square: float) -> Board:
     name = DICTIONARIES.get(kind, "")
     if not name:
         raise InvalidSetting("kind", kind, " or ".join(KINDS))
-    bits = 4 if kind == CHARUCO else 6
-    modules = bits + 2 * BORDER
-    pitch = modules + (2 if kind == CHARUCO else 1) * GAP[kind]
-    return Board(kind, columns, rows, square, square * modules / pitch, name)
+    modules = (4 if kind == CHARUCO else 6) + 2 * BORDER
+    return Board(kind, columns, rows, square, square * modules / (modules + WHITE), name)
 
 
 def read_board(path: str | PathLike[str]) -> Board:

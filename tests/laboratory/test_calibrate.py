@@ -6,7 +6,9 @@ import pytest
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
+from recalib.laboratory.correct import correct, unidentifiable_ends
 from recalib.laboratory.knowledge import WrongKnowledge
+from recalib.laboratory.measurements import Measurements
 from recalib.laboratory.parameters import described
 from recalib.laboratory.propose import propose
 from recalib.laboratory.summary import summary
@@ -100,9 +102,10 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
         (INVERTED + TARGET, r"\[instrument\] is 1999 mm and 1 deg from where the measurements put"),
         (INSTRUMENT + ELSEWHERE, r"\[target\] is 396 mm and 0 deg from where the measurements put"),
         (TURNED, r"\[instrument\] is \d\d mm and 9\d deg from"),
+        (TARGET.replace('"0 mm"', '"700 mm"'), r"\[target\] is 9\d\d mm and 0 deg from"),
         (TURNED + ELSEWHERE, r"\[instrument\] and \[target\] is .* and is "),
     ],
-    ids=["turned", "inverted", "target", "instrument alone", "both"],
+    ids=["turned", "inverted", "target", "instrument alone", "target alone", "both"],
 )
 def test_a_frame_that_is_not_there_is_named(text, said, table):
     with pytest.raises(WrongKnowledge, match=rf"the description's .*{said}"):
@@ -121,6 +124,10 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)
+    assert unidentifiable_ends(result.correction) == "the arm's base and the tool link"
+    desired = Measurements(1, positions=np.zeros((1, 3)))
+    with pytest.raises(InvalidSetting, match="base: a ball in sockets had no instrument"):
+        correct(result.correction, desired, in_instrument=True)
 
 
 def test_a_distance_of_another_scale_is_doubted(in_sockets):
@@ -161,9 +168,9 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
         (INSTRUMENT, InvalidFile, "has an instrument; a ball in sockets needs none"),
         (DISTANCE.format("middle", 300), InvalidFile, "names socket 'middle'; the table has left"),
         (
-            DISTANCE.format("left", 900),
+            DISTANCE.format("left", 400),
             WrongKnowledge,
-            r"between left and right is 900 mm; by the arm's description they are 29\d",
+            r"between left and right is 400 mm; by the arm's description they are 29\d",
         ),
     ],
     ids=["instrument", "no socket", "another arm"],

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -11,9 +12,7 @@ import pytest
 
 from recalib.laboratory import command_line
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
-from recalib.laboratory.correct import correct
 from recalib.laboratory.correction import load_correction
-from recalib.laboratory.measurements import Measurements
 from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import (
     ARM,
@@ -74,7 +73,12 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis} [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
-    assert "leave the measured range" not in capsys.readouterr().err
+    told = capsys.readouterr()
+    assert "leave the measured range" not in told.err
+    assert told.out == (
+        f"10 commands in {out}: joint coordinates, and the poses that\n"
+        "the nominal kinematics give them, of link_4 in base\n"
+    )
 
 
 def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
@@ -107,33 +111,14 @@ def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
 
 
-@pytest.mark.parametrize(("margins", "leaves"), [(0.9, False), (1.1, True)])
-def test_a_twentieth_of_the_measured_range_is_not_beyond_it(calibrated, margins, leaves):
-    correction = load_correction(calibrated / "correction.npz")
-    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
-    joints = (low + high) / 2
-    joints[0] = high[0] + margins * 0.05 * (high[0] - low[0])
-    goals = correction.calibration.forward(joints[None])[:, :3, 3]
-    commands = correct(correction, Measurements(1, joints[None], goals))
-    assert commands.joints[0] == pytest.approx(joints, abs=1e-6)
-    assert commands.beyond.tolist() == [[leaves, False, False]]
-
-
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):
     out = folder / "next.csv"
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
     proposed = np.radians([read(out)[f"{joint} [deg]"] for joint in arm.joints])
     assert proposed.shape == (3, 4) and np.abs(proposed).max() < 0.95 * 2
-    assert "uncertainty of predicted positions fall from" in capsys.readouterr().out
-
-
-def test_of_candidates_those_near_the_end_of_a_joint_are_left_out(calibrated, folder):
-    columns = {"swing [rad]": [0, 0.5, 1.95], "lift [rad]": [-0.7] * 3, "elbow [rad]": [1.1] * 3}
-    write(folder / "candidates.csv", columns)
-    out = folder / "chosen.csv"
-    candidates = str(folder / "candidates.csv")
-    assert main(["next", str(calibrated), candidates, f"--out={out}"]) == DONE
-    assert sorted(read(out)["swing [deg]"]) == pytest.approx([0, np.degrees(0.5)])
+    said = r"4 postures in .*, the most informative first\.\nThey would make the uncertainty of"
+    said += r" predicted positions fall from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
+    assert re.match(said, capsys.readouterr().out)
 
 
 def test_an_arm_without_errors_is_left_alone(arm, folder):
@@ -157,7 +142,7 @@ def test_a_command_leaves_linear_algebra_to_one_thread_before_numpy_counts_cores
     assert os.environ["OPENBLAS_NUM_THREADS"] == "1"
 
 
-@pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
+@pytest.mark.parametrize("angle", [-1.2, 0.0])
 def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(3)
     joints = np.array([0, -1.4, 2.1, -2.9, -1.6, 0]) + random.uniform(-0.5, 0.5, (40, 6))

@@ -18,7 +18,6 @@ from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correct import NotReached, correct
 from recalib.laboratory.correction import Correction, load_correction
 from recalib.laboratory.measurements import Measurements
-from recalib.laboratory.propose import BEYOND, _drawn
 from recalib.nominal.arms import find_urdf, load_arm
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil
@@ -35,21 +34,6 @@ def correction():
     seen = Observations(joints, arm.forward(bent))
     calibration = calibrate(arm, (OFFSETS, JOINT_ERRORS), seen)
     return Correction(find_urdf("panda.urdf").read_bytes(), calibration, joints)
-
-
-@pytest.fixture
-def saved(correction, tmp_path):
-    path = tmp_path / "correction.npz"
-    correction.save(path)
-    return path
-
-
-def test_a_file_needs_no_other(correction, saved):
-    again, joints = load_correction(saved), HOME + 0.3
-    assert again.arm.tool == "panda_hand_tcp" and again.urdf == correction.urdf
-    assert np.array_equal(again.learned, correction.learned)
-    here, there = (its.calibration.forward(joints[None]) for its in (correction, again))
-    assert np.abs(here - there).max() < 1e-14
 
 
 def test_a_urdf_may_be_in_another_encoding(correction, tmp_path):
@@ -78,13 +62,6 @@ def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correct
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - correction.arm.forward(HOME[None])).max() < 1e-7
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
-
-
-def test_postures_are_proposed_a_little_beyond_those_that_were_learned_from(correction):
-    proposed = _drawn(correction)
-    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
-    over = np.stack([proposed.max(axis=0) - high, low - proposed.min(axis=0)]) / (high - low)
-    assert over == pytest.approx(BEYOND, abs=0.02)
 
 
 def test_nothing_that_is_desired_is_refused_by_what_is_missing(correction):

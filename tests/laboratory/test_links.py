@@ -24,13 +24,16 @@ def test_a_table_is_read_in_its_units(path):
     rows = read_rows(path)
     assert rows[0] == Row("waist", 0.01, -np.pi / 2, 0.4, 0.1)
     assert [row.slides for row in rows] == [False, False, True, False]
+    path.write_text("joint,a [mm],alpha [deg],d [cm],theta [rad]\nwaist,10,-90,40,0.1\n")
+    assert read_rows(path) == rows[:1]
 
 
 @pytest.mark.parametrize("convention", CONVENTIONS)
 def test_the_urdf_of_a_table_is_its_arm(convention, path, tmp_path, capsys):
     out = tmp_path / "arm.urdf"
     assert main(["urdf", str(path), "--convention", convention, "--out", str(out)]) == 0
-    assert "arm.urdf" in capsys.readouterr().out
+    said = f"{out}: waist, shoulder, boom, wrist & co, from base to tool\n"
+    assert capsys.readouterr().out == said
     arm, again = arm_of_table(read_rows(path), convention), load_arm(out)
     assert out.read_text() == urdf_of(arm)
     assert (again.joints, again.tool, again.base) == (arm.joints, arm.tool, arm.base)

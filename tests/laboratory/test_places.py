@@ -15,7 +15,6 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.identification.validation import HYBRID
-from recalib.laboratory import places
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.files import write_files
 from recalib.laboratory.measurements import POSITION
@@ -64,20 +63,6 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, positions):
         ("the instrument", arm.base),
         ("the target", TOOL),
     ]
-
-
-def test_uncertainties_of_places_do_not_depend_on_the_step_of_their_slopes(arm, monkeypatch):
-    real = Real(arm, 3)
-    joints = real.postures(40)
-    seen = Observations(joints, real.poses(joints))
-    model = ErrorModel(arm, OFFSETS, initial_frames(arm, seen))
-    calibration = Calibration(model, identify(model, seen))
-    given = calibration, unidentifiable_parameters(calibration, seen), ["the target"], [], TOOL
-    usual = found_places(*given)
-    monkeypatch.setattr(places, "STEP", places.STEP / 2)
-    for one, other in zip(usual, found_places(*given), strict=True):
-        assert one.deviations == pytest.approx(other.deviations, rel=1e-6)
-        assert one.real_deviations == pytest.approx(other.real_deviations, rel=1e-6)
 
 
 @pytest.fixture(scope="module")
@@ -130,12 +115,5 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
     )
 
 
-def test_the_summary_says_postures_and_places(calibrated):
-    told = summary(calibrated[0])
-    assert "60 postures, 120 rows of m.csv" in told
-    assert "the instrument in world of arm.urdf: (" in told
-    assert "target right in tool0 of arm.urdf: (" in told
-    angles = np.degrees(calibrated[0].observations.joints[:, 0])
-    assert (
-        f"shoulder_pan_joint was measured from {angles.min():.1f} to {angles.max():.1f} deg" in told
-    )
+def test_the_summary_says_how_many_postures_there_are(calibrated):
+    assert "60 postures, 120 rows of m.csv" in summary(calibrated[0])

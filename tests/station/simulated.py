@@ -9,7 +9,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.nominal.arms import load_arm
-from recalib.station.interface import StationFailed
 from tests.identification.real import ARMS, NOISE, Real
 
 HOMES = {"UR10": [0, -1.2, 1.9, -2.3, -1.6, 0], "Panda": [0, 0.2, 0, -2, 0, 2.2, 0.8]}  # rad
@@ -75,113 +74,39 @@ class Lasting(Simulated):
         return super().measure()
 
 
-class Collides(Simulated):
-    def move(self, angles, speed):
-        super().move(angles, speed)
-        if self.calls.count("move") == 3:
-            raise StationFailed("the protective stop of the arm is on")
+class Spoilt(Simulated):
+    """One that does something of its own.
 
+    Args:
+        moved: called with it after its third move.
+        told: called with it and the angles at which it stands; what it says of them.
+        measured: called with it and the cells of a measurement; what it says of them.
+        attributes: of it, in place of its own.
+    """
 
-class Stalls(Simulated):
-    def move(self, angles, speed):
-        super().move(angles, speed)
-        if self.calls.count("move") == 3:
-            time.sleep(3)
-
-
-class GetsLost(Simulated):
-    def move(self, angles, speed):
-        super().move(angles, speed)
-        if self.calls.count("move") == 3:
-            self.stands = angles + 0.05 * np.eye(6)[2]
-
-
-class KeepsMoving(Simulated):
-    def angles(self):
-        if self.calls.count("move") == 3:
-            self.stands = self.stands + 0.002
-        return self.stands
-
-
-class MovesWhileItMeasures(Simulated):
-    def measure(self):
-        cells = super().measure()
-        self.stands = self.stands + 0.01
-        return cells
-
-
-class HasAnError(Simulated):
-    def measure(self):
-        return super().measure()["temperature"]
-
-
-class MeasuresForever(Simulated):
-    def measure(self):
-        super().measure()
-        time.sleep(3)
-
-
-class MeasuresNoNumber(Simulated):
-    def measure(self):
-        cells = super().measure()
-        return cells | {"y [m]": np.nan} if self.calls.count("measure") == 4 else cells
-
-
-class MeasuresOtherThings(Simulated):
-    def measure(self):
-        cells = super().measure()
-        return cells if self.calls.count("measure") < 4 else cells | {"temperature": 20.0}
-
-
-class MeasuresNothing(Simulated):
-    def measure(self):
-        super().measure()
-        return {"picture": "000.png"}
-
-
-class Lies(Simulated):
-    """It says that it is where it was sent, but it moves no more."""
-
-    def move(self, angles, speed):
-        super().move(angles, speed)
-        self.stuck = self.stuck if self.calls.count("move") > 9 else angles
-
-    def pose(self):
-        told = self.stands
-        self.stands = getattr(self, "stuck", told)
-        pose, self.stands = super().pose(), told
-        return pose
-
-
-class IsBlind(Simulated):
-    def measure(self):
-        return super().measure() if self.calls.count("measure") < 2 else None
-
-
-class SeesNothing(Simulated):
-    def measure(self):
-        return None
-
-
-class ForgetsAJoint(Simulated):
-    def angles(self):
-        return self.stands[:5]
-
-
-class HasOtherJoints(Simulated):
-    def __init__(self):
+    def __init__(
+        self,
+        moved=lambda its: None,
+        told=lambda its, angles: angles,
+        measured=lambda its, cells: cells,
+        **attributes,
+    ):
         super().__init__()
-        self.joints = [f"joint_{number}" for number in range(6)]
+        self.moved, self.told, self.measured = moved, told, measured
+        vars(self).update(attributes)
 
-
-class HasNoLimits(Simulated):
-    def __init__(self):
-        super().__init__()
-        self.limits = self.limits[::-1]
-
-
-class Disappears(Simulated):
-    def angles(self):
+    def move(self, angles, speed):
+        super().move(angles, speed)
         if self.calls.count("move") == 3:
-            raise ConnectionResetError("connection reset by peer")
+            self.moved(self)
+
+    def angles(self):
+        return self.told(self, super().angles())
+
+    def measure(self):
+        return self.measured(self, super().measure())
+
+    def shift(self, *by):
+        """Stand elsewhere, by so many rad of all joints or of each."""
+        self.stands = self.stands + by
         return self.stands

@@ -29,8 +29,7 @@ from tests.conftest import ROOT
 from tests.identification.real import ARMS
 from tests.kept import plain
 from tests.logged import logged
-from tests.station import simulated
-from tests.station.simulated import HOMES, Simulated
+from tests.station.simulated import HOMES, Simulated, Spoilt
 
 YES = lambda posture: True  # noqa: E731
 AROUND = Box(np.array([-2.0, -2.0, 0.1]), np.array([2.0, 2.0, 2.0]))
@@ -50,8 +49,7 @@ def run(station, tmp_path, ask=YES, on_progress=lambda line: None, **settings):
     return calibrate_live(its, station.arm, table, settings, ask, None, on_progress, **watch)
 
 
-@pytest.mark.parametrize("name", ARMS)
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize(("name", "seed"), [*zip(ARMS, (1, 2), strict=True)])
 def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
     station = Simulated(name, seed, noise=(5e-5, np.radians(0.01)))
     reason = run(station, tmp_path, error=3e-4)
@@ -94,38 +92,83 @@ def test_a_station_that_does_not_open_leaves_no_rows_to_go_on_with(tmp_path, mon
     assert "rows are in" not in capsys.readouterr().err
 
 
-STOPPED = {
-    simulated.Collides: "the protective stop of the arm is on",
-    simulated.Stalls: "for 1 s the station has not answered when asked to move",
-    simulated.GetsLost: "after a move, elbow_joint stands 0.05 rad or m from where it was sent",
-    simulated.KeepsMoving: "the arm still moves, 0.1 s after it should stand",
-    simulated.MovesWhileItMeasures: "the arm moved while it was measured",
-    simulated.HasAnError: "asked to measure, the station raised KeyError: 'temperature'",
-    simulated.MeasuresForever: "for 1 s the station has not answered when asked to measure",
-    simulated.MeasuresNoNumber: "no row: row 4 of column 'y' is 'nan'; expected: a number",
-    simulated.MeasuresOtherThings: "no row: its columns are .*, qw; the station gives .*, temp",
-    simulated.MeasuresNothing: "no row: no positions are measured in it; expected: x, y and z",
-    simulated.Lies: "the target was measured .* mm from where 1. rows put it; expected: about",
-    simulated.IsBlind: "not seen the target in 10 postures, .* try: a smaller --span",
-    simulated.SeesNothing: "does not see the target where the arm stands; try: begin where it does",
-    simulated.ForgetsAJoint: r"the station's angles are \[.*\]; expected: 6 numbers",
-    simulated.HasOtherJoints: "the station's joints are joint_0, .*; expected: those of the arm",
-    simulated.HasNoLimits: "limits of shoulder_pan_joint are the wrong way round",
-    simulated.Disappears: "asked to tell its angles, the station raised ConnectionResetError",
+def raising(error):
+    raise error
+
+
+def moved(its) -> int:
+    return its.calls.count("move")
+
+
+def measured(its) -> int:
+    return its.calls.count("measure")
+
+
+def stuck(its, cells):
+    """It says that it is where it was sent, but after nine moves it moves no more."""
+    its.last = cells if moved(its) <= 9 else its.last
+    return its.last
+
+
+PROTECTIVE = "the protective stop of the arm is on"
+STOPPED = {  # of what a station does, by what is said of it
+    PROTECTIVE: {"moved": lambda its: raising(StationFailed(PROTECTIVE))},
+    "for 1 s the station has not answered when asked to move": {"moved": lambda its: time.sleep(3)},
+    "after a move, elbow_joint stands 0.05 rad or m from where it was sent": {
+        "moved": lambda its: its.shift(0, 0, 0.05, 0, 0, 0)
+    },
+    "the arm still moves, 0.1 s after it should stand": {
+        "told": lambda its, angles: its.shift(0.002) if moved(its) == 3 else angles
+    },
+    "the arm moved while it was measured": {
+        "measured": lambda its, cells: cells if its.shift(0.01).any() else None
+    },
+    "asked to measure, the station raised KeyError: 'temperature'": {
+        "measured": lambda its, cells: cells["temperature"]
+    },
+    "for 1 s the station has not answered when asked to measure": {
+        "measured": lambda its, cells: time.sleep(3)
+    },
+    "no row: row 4 of column 'y' is 'nan'; expected: a number": {
+        "measured": lambda its, cells: cells | {"y [m]": np.nan} if measured(its) == 4 else cells
+    },
+    "no row: its columns are .*, qw; the station gives .*, heat": {
+        "measured": lambda its, cells: cells if measured(its) < 4 else cells | {"heat": 20.0}
+    },
+    "no row: no positions are measured in it; expected: x, y and z": {
+        "measured": lambda its, cells: {"picture": "000.png"}
+    },
+    "the target was measured .* mm from where 1. rows put it; expected: about": {"measured": stuck},
+    "not seen the target in 10 postures, .* try: a smaller --span": {
+        "measured": lambda its, cells: cells if measured(its) < 2 else None
+    },
+    "does not see the target where the arm stands; try: begin where it does": {
+        "measured": lambda its, cells: None
+    },
+    "the station's joints are joint_0, .*; expected: those of the arm": {
+        "joints": [f"joint_{number}" for number in range(6)]
+    },
+    "limits of shoulder_pan_joint are the wrong way round": {
+        "limits": (np.full(6, 2.0), np.full(6, -2.0))
+    },
+    "asked to tell its angles, the station raised OSError: no route": {
+        "told": lambda its, angles: raising(OSError("no route")) if moved(its) == 3 else angles
+    },
 }
 
 
-@pytest.mark.parametrize("kind", STOPPED, ids=lambda kind: kind.__name__)
-def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(kind, tmp_path):
-    station, told = kind(), []
-    with pytest.raises(StationFailed, match=STOPPED[kind]):
+@pytest.mark.parametrize(("said", "what"), STOPPED.items(), ids=STOPPED)
+def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(said, what, tmp_path):
+    station, told = Spoilt(**what), []
+    with pytest.raises(StationFailed, match=said):
         run(station, tmp_path, on_progress=told.append)
     time.sleep(0.05)
-    if kind not in (simulated.HasOtherJoints,):  # it was never asked for anything
+    if "joints" not in what:  # it was never asked for anything
         assert station.calls.count("stop") == 1
         assert "move" not in station.calls[station.calls.index("stop") :]
-        rows = station.calls.count("measure") > 1
+        rows = measured(station) > 1
         assert bool(re.match(r"stopped; \d+ rows are in ", (told or [""])[-1])) == rows
+    assert bool(len(told)) == (tmp_path / "table.csv").exists()
 
 
 def test_joints_in_another_order_are_the_same_joints(tmp_path):
@@ -145,17 +188,6 @@ def test_joints_in_another_order_are_the_same_joints(tmp_path):
     run(Simulated(), tmp_path / "..", most=12)
     tables = (tmp_path / "table.csv", tmp_path / ".." / "table.csv")
     assert tables[0].read_bytes() == tables[1].read_bytes()
-
-
-def test_nothing_moves_without_a_yes(tmp_path):
-    station, asked = Simulated(), []
-
-    def ask(posture):
-        asked.append(posture)
-        return len(asked) < 3
-
-    assert run(station, tmp_path, ask) == "you ended it"
-    assert station.calls.count("move") == 2
 
 
 def test_an_interrupt_stops_the_arm(tmp_path):
@@ -215,21 +247,24 @@ def test_a_box_is_three_ranges(text):
         Box.read(text)
 
 
-def test_a_torn_row_is_dropped_and_nothing_else(tmp_path):
-    table, told = tmp_path / "table.csv", []
+@pytest.fixture
+def ten_rows(tmp_path):
+    """A table that was begun, and what is in it."""
     run(Simulated(), tmp_path, most=10)
-    whole = table.read_bytes()
-    for cut in (len(whole) - 1, len(whole) - 60, len(whole) // 2, whole.index(b"\n") + 5, 10):
+    return tmp_path / "table.csv", (tmp_path / "table.csv").read_bytes()
+
+
+def test_a_torn_row_is_dropped_and_nothing_else(ten_rows, tmp_path):
+    (table, whole), told = ten_rows, []
+    for cut in (len(whole) - 1, len(whole) // 2, whole.index(b"\n") + 5, 10):
         table.write_bytes(whole[:cut])
         run(Simulated(), tmp_path, most=10, on_progress=told.append)
         assert "a row without its end was dropped: " in "".join(told)
         assert table.read_bytes() == whole
 
 
-def test_a_row_for_which_there_is_no_room_leaves_the_table_as_it_was(tmp_path, monkeypatch):
-    run(Simulated(), tmp_path, most=10)
-    table, write = tmp_path / "table.csv", os.write
-    whole = table.read_bytes()
+def test_a_row_for_which_there_is_no_room_leaves_the_table(ten_rows, tmp_path, monkeypatch):
+    (table, whole), write = ten_rows, os.write
     monkeypatch.setattr(os, "write", lambda file, row: write(file, row[: len(row) // 2]))
     with pytest.raises(InvalidFile, match="there is no room for a row"):
         run(Simulated(), tmp_path, most=11)
@@ -248,12 +283,6 @@ def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
     table.write_text(table.read_text().replace("elbow_joint [rad]", "elbow_joint [deg]"))
     with pytest.raises(InvalidFile, match=r"no column 'elbow_joint \[rad\]'"):
         run(Simulated(), tmp_path)
-
-
-def test_without_a_row_there_is_no_table(tmp_path):
-    with pytest.raises(StationFailed):
-        run(simulated.SeesNothing(), tmp_path)
-    assert not (tmp_path / "table.csv").exists()
 
 
 @pytest.mark.parametrize("hangs", [False, True])
@@ -286,15 +315,6 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs, monkeypat
 
 
 LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
-
-
-def test_the_command_calibrates(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main([*LINE.format("Simulated").split(), "--yes"]) == DONE
-    told = capsys.readouterr()
-    assert "row 14: predicted error by the model 0." in told.err
-    assert "the mean error falls from" in told.out
-    assert (tmp_path / "calibration" / "correction.npz").exists()
 
 
 def test_it_can_be_watched(tmp_path):

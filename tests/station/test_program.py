@@ -131,5 +131,9 @@ def test_the_example_in_another_language_is_a_station(tmp_path):
     assert lived(f"node {ROOT / 'examples' / 'station.js'}", tmp_path) < 0.3
 
 
-def test_the_example_in_python_is_a_station(tmp_path):
+def test_the_example_in_python_is_a_station(tmp_path, capsys):
     assert lived(f"{ROOT / 'examples' / 'station.py'}:BentUR10", tmp_path) < 0.5
+    told = capsys.readouterr()
+    assert re.search(r"row 14: predicted error by the model 0\.\d+ mm, by the last rows", told.err)
+    assert "the mean error falls from" in told.out
+    assert (tmp_path / "new" / "correction.npz").exists()

@@ -54,9 +54,7 @@ class Draw:
     def _view(self, pose: np.ndarray) -> Corners:
         if self.rendered:
             return find_corners(self.cell.board, self.cell.picture(pose))
-        pixels = self.cell.project(pose)
-        pixels += NOISE * self.cell.random.standard_normal(pixels.shape)
-        return Corners(np.arange(len(pixels)), pixels, 0.0)
+        return self.cell.view(pose, NOISE)
 
     def calibration(self, observations: Observations) -> Calibration:
         """By geometry alone."""

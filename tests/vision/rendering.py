@@ -8,6 +8,7 @@ import numpy as np
 
 from recalib.nominal.arms import load_arm
 from recalib.vision.boards import Board, printable
+from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 from tests.identification.real import Real
 
@@ -76,6 +77,12 @@ class Cell:
         return cv2.projectPoints(points, turn, pose[:3, 3], self.lens.matrix, self.lens.distortion)[
             0
         ].reshape(-1, 2)
+
+    def view(self, pose: np.ndarray, noise: float = 0.0, random=None) -> Corners:
+        """All corners of the board at a pose, off by some noise [px]."""
+        pixels = self.project(pose)
+        pixels += noise * (random or self.random).standard_normal(pixels.shape)
+        return Corners(np.arange(len(pixels)), pixels, 1.0)
 
     def postures(self, count: int) -> np.ndarray:
         """Postures (count, 7) [rad] in which the whole board is in the picture, turned to it."""

@@ -60,11 +60,7 @@ def write_session(
         setattr(cell, place, before @ motion)
         poses[pictures // 2 :] = cell.seen(joints)[pictures // 2 :]
         setattr(cell, place, before)
-    views = []
-    for pose in poses:
-        pixels = cell.project(pose)
-        pixels += NOISE * cell.random.standard_normal(pixels.shape)
-        views.append(Corners(np.arange(len(pixels)), pixels, 0.0))
+    views = [cell.view(pose, NOISE) for pose in poses]
     found = lens or find_lens(cell.board, views, cell.lens.size)
     return write_views(folder, cell, joints, views, found, lens is None, camera, board)
 

@@ -60,8 +60,6 @@ def test_a_description_that_is_none_is_refused(line, said, tmp_path):
     with pytest.raises(InvalidFile) as refused:
         read_board(tmp_path / "board.toml")
     assert said in str(refused.value)
-    with pytest.raises(InvalidSetting, match="charuco or apriltag"):
-        printable("chess", 7, 5, 0.036)
 
 
 def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
@@ -117,7 +115,6 @@ def test_the_bar_below_a_board_is_100_mm_long(size, tmp_path):
     ("change", "said"),
     [
         ({"kind": "chess"}, "kind is 'chess'; expected: charuco or apriltag"),
-        ({"columns": 2, "rows": 2}, ""),
         ({"rows": 51}, "rows is 51; expected: a whole number from 2 to 50"),
         ({"columns": 6.0}, "columns is 6.0; expected: a whole number from 2 to 50"),
         ({"marker": 0.0365}, "marker is '36.5 mm'; expected: less than the square"),
@@ -125,12 +122,12 @@ def test_the_bar_below_a_board_is_100_mm_long(size, tmp_path):
     ],
 )
 def test_what_cannot_be_a_board_is_refused(change, said):
-    if not said:
-        assert replace(BOARDS["charuco"], **change).markers == 2
-    else:
-        with pytest.raises(InvalidSetting) as refused:
-            replace(BOARDS["charuco"], **change)
-        assert said in str(refused.value)
+    assert replace(BOARDS["charuco"], columns=2, rows=2).markers == 2
+    with pytest.raises(InvalidSetting) as refused:
+        replace(BOARDS["charuco"], **change)
+    assert said in str(refused.value)
+    with pytest.raises(InvalidSetting, match="charuco or apriltag"):
+        printable("chess", 7, 5, 0.036)
 
 
 def test_a_lens_is_written_as_ros_reads_it():

@@ -42,18 +42,17 @@ class Photographs:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("camera", ["fixed", "hand"])
-def test_pictures_calibrate_live_and_then_by_their_pixels(camera, tmp_path):
-    station = Photographs(tmp_path, camera == "hand")
+def test_pictures_calibrate_live_and_then_by_their_pixels(tmp_path):
+    station = Photographs(tmp_path, in_hand=True)
     cell, table = station.cell, tmp_path / "measurements.csv"
-    seeing = PicturesOfABoard(station, cell.board, cell.lens, camera == "hand")
+    seeing = PicturesOfABoard(station, cell.board, cell.lens, in_hand=True)
     settings = LiveSettings(most=12, span=0.2)
     calibrate_live(lambda: seeing, cell.arm, table, settings, lambda posture: True)
     (tmp_path / "board.toml").write_text(cell.board.described())
     (tmp_path / "lens.yaml").write_text(cell.lens.as_ros())
     options = [f"--{name}={tmp_path / file}" for name, file in FILES.items()]
     out = f"--out={tmp_path / 'observed'}"
-    assert main(["observe", ".", str(table), f"--camera={camera}", *options, out]) == DONE
+    assert main(["observe", ".", str(table), "--camera=hand", *options, out]) == DONE
     result = calibrate_arm("panda.urdf", tmp_path / "observed", tool=cell.arm.tool)
     assert result.worthwhile and len(result.observations) >= 10
 

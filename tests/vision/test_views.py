@@ -10,7 +10,6 @@ from recalib.identification.linearisation import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
     MISPLACED,
-    Corners,
     Unusable,
     _misplaced,
     _softness,
@@ -59,18 +58,17 @@ def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
 
 
 def test_a_corner_that_is_off_is_left_out(cell, poses):
-    pixels = cell.project(poses[0])
-    pixels += NOISE * np.random.default_rng(5).standard_normal(pixels.shape)
-    pixels[7] += 5
-    left = good_corners(BOARD, LENS, Corners(np.arange(len(pixels)), pixels, 1.0)).numbers
-    assert 7 not in left and len(left) > len(pixels) - 4
+    view = cell.view(poses[0], NOISE, np.random.default_rng(5))
+    view.pixels[7] += 5
+    left = good_corners(BOARD, LENS, view).numbers
+    assert 7 not in left and len(left) > len(view.pixels) - 4
 
 
 @PLACES
 def test_poses_move_with_optics_as_it_is_said(in_hand):
     cell = Cell(2, in_hand)
     (pose,) = cell.seen(cell.postures(1))
-    view = Corners(np.arange(len(BOARD.points)), cell.project(pose), 1.0)
+    view = cell.view(pose)
     _, optics = optics_of(BOARD, LENS, [view, view], True, in_hand)
     places = [(0, 0), (1, 1), (0, 2), (1, 2)]
     for column, step in enumerate([1e-4] * 2 + [0.5] * 4 + [1e-3] * 2 + [1e-4] * 2):
@@ -94,9 +92,8 @@ def test_poses_move_with_optics_as_it_is_said(in_hand):
 def test_poses_are_as_sure_as_is_said(in_hand):
     cell = Cell(3, in_hand)
     poses = cell.seen(cell.postures(300))
-    pixels = np.array([cell.project(pose) for pose in poses])
-    pixels += NOISE * np.random.default_rng(3).standard_normal(pixels.shape)
-    views = [Corners(np.arange(len(BOARD.points)), its, 1.0) for its in pixels]
+    rng = np.random.default_rng(3)
+    views = [cell.view(pose, NOISE, rng) for pose in poses]
     measured, optics = optics_of(BOARD, LENS, views, False, in_hand)
     gaps = displacements(np.linalg.inv(poses) if in_hand else poses, measured)
     squares = np.einsum("ni,nij,nj->n", gaps, np.linalg.inv(optics.spread), gaps)
