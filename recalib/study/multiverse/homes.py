@@ -1,13 +1,16 @@
 """Where the workspace of a robot may lie: random homes that its controller accepts."""
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
 from recalib.errors import UnfitWorkspace
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import Robot
 
+CORNERS = np.array(list(product((-1.0, 1.0), repeat=6)))
 CANDIDATES = 30000  # the pickiest arm, with a longer tool, accepts one in ten thousand
 
 
@@ -25,12 +28,26 @@ def random_home(
     """
     low = np.ceil(np.degrees(np.maximum(robot.home - spread, robot.lower)))
     high = np.floor(np.degrees(np.minimum(robot.home + spread, robot.upper)))
+    chain = Chain.of(robot.arm)
     for refused in range(CANDIDATES):
         home = np.radians(random.integers(low, high, endpoint=True))
         workspace = replace(robot.workspace, centre=robot.arm.forward(home[None])[0])
         there = replace(robot, home=home, workspace=workspace)
-        try:
-            return Controller(there, greatest_condition), refused
-        except UnfitWorkspace:
-            pass
+        if _reaches_corners(there, chain):
+            try:
+                return Controller(there, greatest_condition), refused
+            except UnfitWorkspace:
+                pass
     raise UnfitWorkspace(f"the {robot.name}'s controller refuses all of {CANDIDATES} random homes")
+
+
+def _reaches_corners(robot: Robot, chain: Chain) -> bool:
+    """Whether the arm reaches the corners of its workspace: most homes fail here, in no time."""
+    for some in (CORNERS[::9], CORNERS):
+        angles = np.tile(robot.home, (len(some), 1))
+        for part in (0.5, 1):  # so that every corner is on the branch of home
+            angles, residuals = chain.solve(robot.workspace.to_poses(part * some), angles)
+            within = (robot.lower <= angles) & (angles <= robot.upper)
+            if not (np.all(residuals <= TOLERANCE) and within.all()):
+                return False
+    return True
