@@ -16,6 +16,7 @@ from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import yaml
 from rocrate.model import ContextEntity, Person
@@ -30,6 +31,7 @@ NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it
 CHOSEN = (
     "summary.csv",
     "claims.json",
+    "claims.jsonld",
     "SHA256SUMS",
     "check.txt",
     "article.pdf",
@@ -77,6 +79,46 @@ def notes() -> Iterator[tuple[Path, Mapping]]:
     for path in sorted(NOTES.iterdir()):
         name = base64.b64decode(path.name).decode()
         yield Path(name), json.loads(path.read_text(encoding="utf-8"))
+
+
+def claims_as_linked_data(claims: list[Mapping], paper: Mapping) -> dict[str, Any]:
+    """Each judged claim as a review of a sentence of the paper, in the words of schema.org."""
+    article = {"@type": "ScholarlyArticle", "name": paper["title"]}
+    return {
+        "@context": "https://schema.org",
+        "@graph": [
+            {
+                "@type": "ClaimReview",
+                "@id": f"#{claim['id']}",
+                "claimReviewed": claim["statement"],
+                "itemReviewed": {
+                    "@type": "Claim",
+                    "text": claim["quotation"],
+                    "appearance": article | {"pagination": f"section {claim['section']}"},
+                },
+                "reviewAspect": claim["criterion"],
+                "reviewRating": {"@type": "Rating", "alternateName": claim["verdict"]},
+                "additionalProperty": [*_numbers(claim)],
+            }
+            for claim in claims
+        ],
+    }
+
+
+def _numbers(claim: Mapping) -> Iterator[dict[str, Any]]:
+    for name, value in claim["measured"].items():
+        number = {"@type": "PropertyValue", "name": name, "value": value}
+        if name in claim["interval"]:
+            low, high = claim["interval"][name]
+            number |= {"minValue": low, "maxValue": high}
+        yield number
+    if "mean" in claim["universes"]:
+        low, high = claim["universes"]["mean_interval"]
+        name, mean = "mean over the alternative setups", claim["universes"]["mean"]
+        yield {"@type": "PropertyValue", "name": name, "value": mean} | {
+            "minValue": low,
+            "maxValue": high,
+        }
 
 
 def _moment(seconds: float) -> str:
@@ -161,8 +203,14 @@ def _add_run(its: ROCrate, workflow, results: Mapping[Path, Path], authors: list
 def pack(archive: Path) -> None:
     """Write the archive."""
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
-    with whole(RESULTS / "SHA256SUMS") as path:
-        path.write_text(checksums(), encoding="utf-8")
+    claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
+    linked = claims_as_linked_data(claims, citation["references"][0])
+    for name, text in (
+        ("claims.jsonld", json.dumps(linked, indent=1) + "\n"),
+        ("SHA256SUMS", checksums()),
+    ):
+        with whole(RESULTS / name) as path:
+            path.write_text(text, encoding="utf-8")
     its, top = crate(citation), f"recalib-{recalib.__version__}"
     with whole(archive) as path, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         text = json.dumps(its.metadata.generate(), indent=1) + "\n"

@@ -247,8 +247,8 @@ def drawn(curves: pd.DataFrame) -> None:
         best = learners[0] if learners == MAPS else learners[-1]
         ratio = _mean_ratio(curves, best)
         column[0].set_title(
-            f"{TITLES[learners]}: where physics moves\nthe arm, the {label_of(short(best))} one ends"
-            f" with {_short(ratio)} times the error"
+            f"{TITLES[learners]}: where physics moves the arm,\n"
+            f"the {label_of(short(best))} one ends with {_short(ratio)} times the error"
         )
         column[1].legend(fontsize=8)
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")

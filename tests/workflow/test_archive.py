@@ -9,6 +9,7 @@ from importlib.resources import files
 
 import pytest
 
+from recalib.study.evidence.claims import CLAIMS
 from tests.conftest import ROOT
 
 pytest.importorskip("rocrate")
@@ -82,6 +83,19 @@ def test_checksums_tell_which_results_another_run_has_to_give(unpacked):
     (published / "claims.json").write_text("[]", encoding="utf-8")
     spoilt = subprocess.run(check, cwd=published, capture_output=True, text=True)
     assert spoilt.returncode != 0 and "claims.json: FAILED" in spoilt.stdout
+
+
+def test_each_claim_is_a_review_of_a_sentence_of_the_paper(unpacked):
+    linked = json.loads((unpacked / "published" / "claims.jsonld").read_text(encoding="utf-8"))
+    judged = json.loads((unpacked / "published" / "claims.json").read_text(encoding="utf-8"))
+    reviews = {review["@id"]: review for review in linked["@graph"]}
+    assert len(reviews) == len(CLAIMS) == len(judged)
+    for claim in judged:
+        review = reviews[f"#{claim['id']}"]
+        assert review["reviewRating"]["alternateName"] == claim["verdict"]
+        assert review["itemReviewed"]["text"] == claim["quotation"]
+        numbers = {row["name"]: row["value"] for row in review["additionalProperty"]}
+        assert claim["measured"].items() <= numbers.items()
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of rdflib, by its own callers

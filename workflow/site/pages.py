@@ -32,7 +32,8 @@ Watch the recording here (35 MB)</button>
 EXAMPLES = sorted((Path(recalib.__file__).parents[1] / "examples").glob("*.py"))
 REFERENCE = """# Reference
 
-What `import recalib` has, and which examples use it; tests run them all. [How it fits together](library.md).
+What `import recalib` has, and which examples use it: tests run them all.
+[How it fits together](library.md).
 
 """
 
