@@ -39,7 +39,7 @@ class GaussianProcessLearner(Refitting):
     def _fit(
         self, sent: np.ndarray, achieved: np.ndarray, last: Process | None, before: int
     ) -> Process:
-        if last is None or is_time_to_search(before, self._experience.moves):
+        if last is None or is_time_to_search(before, self.moves):
             return Process(achieved, sent - achieved)
         return Process(achieved, sent - achieved, last.hyperparameters)
 

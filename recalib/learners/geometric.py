@@ -38,11 +38,6 @@ class GeometricLearner(Refitting):
         super().__init__(runs, len(controller.robot.joints))
         self._controller = controller
 
-    @property
-    def calibrations(self) -> list[Calibration | None]:
-        """Of each run; None where nothing has been learned."""
-        return self.models
-
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         commands = desired.copy()

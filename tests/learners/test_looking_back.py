@@ -54,7 +54,7 @@ def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_comm
     executed = EXECUTED & targets.executed
     learner.observe(SENT, workspace.to_coordinates(poses), executed)
     commands = learner.command(SENT)
-    for run, calibration in enumerate(learner.calibrations):
+    for run, calibration in enumerate(learner.models):
         assert len(calibration.estimate.weights) == executed[run].sum()
         angles = controller.targets(commands[run][None]).angles[0]
         found = workspace.to_coordinates(calibration.forward(angles))
