@@ -109,13 +109,6 @@ def test_refused_moves_are_counted_and_the_run_goes_on(controller, damaged, pose
     assert history.position[1, -1, 0] < 0.3 * history.position[1, 0, 0]
 
 
-def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
-    plant = Plant(controller, damaged)
-    achieved, executed = plant.achieve(np.array([[[20.0, 0, 0, 0, 0, 0], [0.0] * 6]]))
-    assert executed.tolist() == [[False, True]]
-    assert np.allclose(achieved[0, 0], damaged.forward(controller.robot.home[None])[0])
-
-
 def test_the_table_has_a_row_for_each_run_and_measurement(history):
     frame = pd.DataFrame(history.columns())
     assert len(frame) == 3 * len(history.iterations)

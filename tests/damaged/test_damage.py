@@ -93,11 +93,6 @@ def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
         apply(robot, [damage])
 
 
-def test_a_link_cannot_grow():
-    with pytest.raises(InvalidSetting, match="LinkShortening.length is -0.01; expected: a finite"):
-        LinkShortening("forearm_link", -0.01)
-
-
 @pytest.mark.parametrize(
     ("damage", "twice"),
     [

@@ -8,8 +8,8 @@ from recalib.errors import BadMeasurement
 from recalib.identification.closed_forms import turns_by_poses
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import NoInitialEstimate, fewest, initial_frames
-from recalib.identification.observations import Distance, Observations
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import SCARA
 from tests.identification.real import ARMS, Real, geometry_of
@@ -91,24 +91,6 @@ def test_orientations_tell_the_turn_of_the_instrument_unless_the_tool_turns_abou
     assert told(Rotation.from_rotvec(random.uniform(-3, 3, (12, 1)) * [0, 0, 1])) == []
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (lambda observations: observations[np.arange(2)], "2 rows are too few .* at least 6"),
-        (lambda observations: observations[np.zeros(20, dtype=int)], "along a line"),
-        (
-            lambda observations: Observations(observations.joints[::-1], observations.measured),
-            "explains the measurements",
-        ),
-    ],
-    ids=["too few", "one posture", "rows mixed up"],
-)
-def test_frames_that_nothing_tells_are_refused(change, said, panda):
-    observations = Real(panda, 8).seen(30, True)
-    with pytest.raises(NoInitialEstimate, match=said):
-        initial_frames(panda, change(observations))
-
-
 def test_positions_in_a_plane_tell_how_the_instrument_stands():
     """Those of a UR10 whose parallel axes alone move: the plane's two sides differ for the arm."""
     arm = load_arm(*ARMS["UR10"])
@@ -120,14 +102,6 @@ def test_positions_in_a_plane_tell_how_the_instrument_stands():
     frames = initial_frames(arm, observations)
     found = (frames.base @ exact @ frames.targets[0])[:, :3, 3]
     assert np.abs(found - observations.positions).max() < 1e-3
-
-
-def test_it_says_how_many_rows_it_needs():
-    joints, two = np.zeros((8, 6)), np.arange(8) % 2
-    assert fewest(Observations(joints, np.zeros((8, 4, 4)))) == 3
-    assert fewest(Observations(joints, np.zeros((8, 3)))) == 6
-    assert fewest(Observations(joints, np.zeros((8, 3)), two)) == 7
-    assert fewest(Observations(joints, sockets=two, distances=[Distance(0, 1, 0.3)])) == 4
 
 
 def test_a_target_or_socket_beyond_the_known_ones_is_refused(panda):

@@ -73,11 +73,6 @@ def arm():
     return load_arm("ur10_robot.urdf", "tool0")
 
 
-@pytest.fixture(scope="module")
-def panda():
-    return load_arm("panda.urdf", "panda_link8")
-
-
 def measured(arm, kind: str, rows: int = 30) -> Observations:
     """Of a synthetic arm, with one row that is off."""
     real = Real(arm, 3, targets=2 if kind == "targets" else 1)

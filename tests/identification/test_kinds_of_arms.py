@@ -43,16 +43,6 @@ def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
         assert held["sine 1"].tolist() == held["cosine 1"].tolist() == [False, True]
 
 
-def test_an_offset_of_a_joint_that_slides_is_a_length(load):
-    model = ErrorModel(load(GANTRY), OFFSETS)
-    parameters = np.zeros_like(model.deviations)
-    parameters[model.offset_columns] = 0, 0, 0.01
-    moved = model.predict(parameters, np.zeros((1, 3))) - model.predict(
-        0 * parameters, np.zeros((1, 3))
-    )
-    assert np.allclose(moved[0, :3, 3], [0, 0.006, 0.008])
-
-
 @pytest.fixture(scope="module")
 def balls():
     """Of a Panda: what joint angles alone tell, and before and after [m] with frames aligned."""

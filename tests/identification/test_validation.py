@@ -124,13 +124,6 @@ def test_a_target_that_was_seen_in_one_region_alone_is_learned_in_all_parts():
     assert len(np.unique(folds[targets == 0].reshape(4, 8), axis=1).T) == 1
 
 
-def test_blocks_lie_together():
-    centres = np.repeat(np.eye(6)[:FOLDS], 8, axis=0)
-    joints = centres + np.random.default_rng(3).normal(0, 0.01, (40, 6))
-    folds = blocks(Observations(joints, 0), postures_of(joints))
-    assert len(np.unique(folds.reshape(FOLDS, 8), axis=1).T) == 1 and len(set(folds)) == FOLDS
-
-
 def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
     joints = np.random.default_rng(4).uniform(-1, 1, (40, 6))
     units = np.array([1024, 1, 1, 1 / 1024, 1, 1])  # powers of two, which round nothing
@@ -184,11 +177,6 @@ def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
         Untrustworthy, match=r"the best fit are [0-9.]+ mm .*rows 12, ([0-9]+, ){3}"
     ):
         validate(ur10, observations, initial_frames(ur10, observations))
-
-
-def test_few_rows_are_refused(ur10):
-    with pytest.raises(Untrustworthy, match="9 rows of 9 postures; expected: at least 10"):
-        validate(ur10, Real(ur10, 6).seen(9))
 
 
 def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():

@@ -1,18 +1,6 @@
 from itertools import pairwise
 
-import numpy as np
-
-from recalib.learners.experience import Experience, is_due
-
-
-def test_a_run_remembers_the_moves_that_it_carried_out():
-    experience = Experience(2)
-    for number in range(3):
-        moves = np.full((2, 1, 6), number)
-        experience.add(moves, -moves, np.array([[number != 1], [True]]))
-    sent, achieved = experience.of(0)
-    assert sent[:, 0].tolist() == [0, 2] and achieved[:, 0].tolist() == [0, -2]
-    assert len(experience.of(1)[0]) == experience.moves == 3
+from recalib.learners.experience import is_due
 
 
 def test_looking_back_gets_rarer_and_never_lacks_more_than_a_fifth():

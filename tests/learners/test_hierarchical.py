@@ -3,7 +3,6 @@ from itertools import product
 import numpy as np
 import pytest
 
-from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.nets import regular_grid
@@ -40,6 +39,7 @@ CONVENTIONS = [
 ]
 CASES = [(switches, {}) for switches in SWITCHES]
 CASES += [(switches, each) for each in CONVENTIONS for switches in (SWITCHES[0], SWITCHES[-1])]
+CASES += [((True, False, True, True), {"initial": 3})]  # values of theta, in two maps
 
 
 def written_out(learner, desired, start, rates):
@@ -104,19 +104,6 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
             held = each.theta.all[run, k, l], each.jacobian.all[run, k, l]
             assert np.allclose(held[0], slow[run][number].theta[k, l], atol=1e-12)
             assert np.allclose(held[1], slow[run][number].A[k, l], atol=1e-12)
-
-
-def test_a_metric_matters_by_the_ratios_of_its_units():
-    def learned(metric):
-        rules = Rules(*SWITCHES[-1], **SIZES, metric=metric)
-        learner = HierarchicalLearner(rules, Schedule(1.5, SEPARATE_WIDTHS, 0.9, 0.3))
-        for t, u in enumerate(np.random.default_rng(5).uniform(-1, 1, (10, 1, 6))):
-            learner.learn(u, strange_world, t / 10)
-        return learner.maps["position"].jacobian.all
-
-    metres = (0.25, 0.3, 0.25, 0.35, 0.35, 0.35)
-    assert np.allclose(learned(metres), learned(tuple(8 * unit for unit in metres)), atol=1e-12)
-    assert not np.allclose(learned(metres), learned((1,) * 6), atol=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -210,29 +197,3 @@ def test_a_new_learner_commands_what_is_desired(sizes, separate):
     )
     u = np.random.default_rng(0).uniform(-1.5, 1.5, (2, 30, 6))
     assert np.allclose(fresh.command(u), u, atol=1e-14)
-
-
-def test_random_values_of_theta_are_the_same_for_all_runs_and_for_one_map_as_for_two():
-    def started(runs, separate, theta_increments, initial):
-        rules = Rules(separate, theta_increments, False, False, **SIZES, initial=initial)
-        learner = HierarchicalLearner(rules, Schedule(1.5, WIDTHS[separate], 0.9, 0.3), runs=runs)
-        return np.concatenate([each.theta.all for each in learner.maps.values()], axis=-1)
-
-    one, two, other = (
-        started(2, separate, False, seed) for separate, seed in ((False, 3), (True, 3), (True, 4))
-    )
-    assert np.array_equal(one, two) and np.array_equal(one[0], one[1])
-    assert not np.isclose(two, other).any() and np.abs(two).max() <= 1
-    assert np.array_equal(started(1, True, True, 3), started(1, True, True, None)), "increments"
-
-
-def test_an_intact_robot_is_left_alone(controller, robot):
-    from recalib.damaged.damage import apply
-
-    learner, plant = improved(), Plant(controller, apply(robot, []))
-    rng = np.random.default_rng(9)
-    for t in range(50):
-        learner.learn(rng.uniform(-1, 1, (1, 6)), plant.execute, t / 50)
-    u = rng.uniform(-1, 1, (1, 100, 6))
-    assert np.abs(learner.command(u) - u).max() < 1e-8
-    assert plant.moves == 100

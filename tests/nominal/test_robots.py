@@ -23,17 +23,6 @@ def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, p
     assert ends[1] - ends[0] == pytest.approx(0.12)
 
 
-def test_the_workspace_is_centred_on_home(robot):
-    assert np.allclose(robot.workspace.centre, robot.arm.forward(robot.home[None])[0])
-    assert np.allclose(2 * robot.workspace.half_ranges[:3], [0.5, 0.6, 0.5])
-    assert np.allclose(np.degrees(2 * robot.workspace.half_ranges[3:]), 40)
-
-
-def test_a_locked_gripper_leaves_six_joints(plan):
-    joints = nominal_robot(plan.nominal("z1")).joints
-    assert joints == tuple(f"joint{index}" for index in range(1, 7))
-
-
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [
