@@ -6,7 +6,7 @@ import pytest
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.nets import regular_grid
-from recalib.learners.rules import Rules
+from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
 from recalib.loop.interfaces import Outcome
 from tests.reference import SlowMap, cycle
@@ -42,12 +42,26 @@ CASES += [(switches, each) for each in CONVENTIONS for switches in (SWITCHES[0],
 CASES += [((True, False, True, True), {"initial": 3})]  # values of theta, in two maps
 
 
+def fallen(rules, f, start, rates):
+    """The learning rate, and for each map the widths of g_k and g_kl, after a part of training."""
+    widths = WIDTHS[rules.separate_maps].values()
+    power = (1 if rules.spread == "widths" else 0) - rules.dimensions
+    if rules.equal_visits:
+        now = [
+            tuple((start**power + (e**power - start**power) * f) ** (1 / power) for e in ends)
+            for ends in widths
+        ]
+    else:
+        now = [tuple(start * (e / start) ** f for e in ends) for ends in widths]
+    if rules.rate == "linear" or (rules.rate is None and rules.equal_visits):
+        return rates[0] + (rates[1] - rates[0]) * f, now
+    return rates[0] * (rates[1] / rates[0]) ** f, now
+
+
 def written_out(learner, desired, start, rates):
     """The maps of each run after learning by the paper, written out cell by cell."""
-    rules, widths = learner.rules, WIDTHS[learner.rules.separate_maps]
+    rules, start_theta = learner.rules, None
     grids = [regular_grid(SIZES[net], rules.centres) for net in ("supernet", "subnet")]
-    power = (1 if rules.spread == "widths" else 0) - rules.dimensions
-    start_theta = None
     if rules.initial is not None and not rules.theta_increments:
         shape = (*map(len, grids), 6)
         start_theta = np.random.default_rng(rules.initial).uniform(-1, 1, shape)
@@ -55,26 +69,11 @@ def written_out(learner, desired, start, rates):
     for poses in desired:
         maps = [SlowMap(*grids, outputs, start_theta) for outputs in rules.maps.values()]
         for t, u in enumerate(poses):
-            f = t / len(poses)
-            if rules.equal_visits:
-                now = [
-                    tuple(
-                        (start**power + (e**power - start**power) * f) ** (1 / power) for e in ends
-                    )
-                    for ends in widths.values()
-                ]
-            else:
-                now = [tuple(start * (e / start) ** f for e in ends) for ends in widths.values()]
-            if rules.rate == "linear" or (rules.rate is None and rules.equal_visits):
-                rate = rates[0] + (rates[1] - rates[0]) * f
-            else:
-                rate = rates[0] * (rates[1] / rates[0]) ** f
             cycle(
                 maps,
                 u,
                 lambda c: strange_world(c[None, None]).achieved[0, 0],
-                rate,
-                now,
+                *fallen(rules, t / len(poses), start, rates),
                 rules.theta_increments,
                 rules.jacobian_increments,
                 np.array(rules.metric),
@@ -139,11 +138,8 @@ def test_impossible_widths_and_rates_are_refused(widths, rate):
 
 
 def improved(runs=1):
-    return HierarchicalLearner(
-        Rules(True, True, True, True),
-        Schedule(4.0, {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}, 0.8, 0.4),
-        runs=runs,
-    )
+    widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
+    return HierarchicalLearner(IMPROVED, Schedule(4.0, widths, 0.8, 0.4), runs=runs)
 
 
 def test_nothing_is_learned_from_a_refused_move():

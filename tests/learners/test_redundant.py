@@ -10,15 +10,13 @@ from recalib.damaged.plant import Plant
 from recalib.errors import UnknownName
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
-from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.hybrid import HybridLearner
 from recalib.learners.learned import load, save
-from recalib.learners.rules import IMPROVED
-from recalib.learners.schedules import Schedule
 from recalib.loop.training import train
 from recalib.nominal.controller import Controller
 from recalib.nominal.robots import load_robot
 from tests.arms import RAILED, panda
+from tests.learners.test_hierarchical import improved
 
 DAMAGES = (
     LinkShortening("panda_link4", 0.03),
@@ -41,15 +39,10 @@ def left(learner, plant, iterations: int, runs: int = 2) -> np.ndarray:
     return (errors[..., -1] / errors[..., 0]).mean(axis=-1)
 
 
-def hierarchical() -> HierarchicalLearner:
-    widths = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
-    return HierarchicalLearner(IMPROVED, Schedule(4.0, widths, 0.8, 0.4), runs=2)
-
-
 @pytest.mark.parametrize(
     ("make", "iterations", "most"),
     [
-        (lambda controller: hierarchical(), 100, 0.15),
+        (lambda controller: improved(runs=2), 100, 0.15),
         (lambda controller: GaussianProcessLearner(runs=2), 60, 0.02),
         (lambda controller: GeometricLearner(controller, runs=2), 12, 1e-6),
     ],
