@@ -8,13 +8,12 @@ from recalib.identification.design import information_gains, most_informative
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
+from tests.identification.test_estimation import postures
 
 
 @pytest.fixture
-def angles(robot, controller):
-    workspace = robot.workspace
-    poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 9))
-    return controller.inverse(poses)
+def angles(controller):
+    return postures(controller, 9)
 
 
 @pytest.fixture(params=["poses", "positions"])

@@ -5,6 +5,7 @@ from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.arms import load_arm
 from recalib.nominal.robots import load_robot
 from recalib.study.scenarios.plants import nominal_robot
+from tests.arms import SCARA
 from tests.conftest import changed
 
 SIDES = [0.5, 0.6, 0.5], np.radians([40, 40, 40])
@@ -64,3 +65,12 @@ def test_a_workspace_without_size_is_refused(robot):
     home = dict(zip(robot.joints, robot.home, strict=True))
     with pytest.raises(InvalidSetting, match="above zero"):
         load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], SIDES[1])
+
+
+def test_a_workspace_needs_six_joints(tmp_path):
+    (path := tmp_path / "scara.urdf").write_text(SCARA)
+    home = dict.fromkeys(("shoulder", "elbow", "quill", "wrist"), 0.1)
+    with pytest.raises(
+        UnsuitableRobot, match="with 4 joints: shoulder, .*; expected: at least six"
+    ):
+        load_robot(path, "link_5", home, *SIDES)
