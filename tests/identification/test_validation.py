@@ -20,6 +20,7 @@ from recalib.identification.validation import (
     WAYS,
     validate,
 )
+from tests.identification.honesty import distances
 from tests.identification.real import Real
 
 ROWS = 40
@@ -40,9 +41,7 @@ def validation(ur10, real):
 
 def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
     assert validation.chosen == GEOMETRIC
-    fresh = real.postures(200)
-    missed = validation.calibration.residuals(Observations(fresh, real.poses(fresh)))
-    errors = np.linalg.norm(missed[:, :3], axis=1)
+    errors = distances(validation.calibration, real.seen(200))
     said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
     assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
     assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
@@ -139,9 +138,7 @@ def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     observations.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
     found = validate(ur10, observations, initial_frames(ur10, observations))
     assert np.array_equal(np.flatnonzero(~found.counted), bad)
-    fresh = real.postures(50)
-    residuals = found.calibration.predict(fresh) - real.poses(fresh, noise=(0, 0))
-    assert np.linalg.norm(residuals[:, :3, 3], axis=1).mean() < 1e-3
+    assert real.missed(found.calibration.predict) < 1e-3
 
 
 def test_an_arm_without_errors_is_left_alone(ur10):
