@@ -28,7 +28,6 @@ class GaussianProcessLearner(Refitting):
         super().__init__(runs)
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         return np.stack(
             [
                 poses if process is None else poses + process.predict(poses)
