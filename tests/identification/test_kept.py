@@ -30,7 +30,6 @@ from recalib.identification.error_model import (
 )
 from recalib.identification.estimation import identify
 from recalib.identification.frames import Frames
-from recalib.identification.held_out import HeldOut, blocks, random_folds
 from recalib.identification.identifiability import unidentifiable_parameters
 from recalib.identification.initial_estimate import fewest, initial_frames, median_error
 from recalib.identification.linearisation import Linearisation
@@ -307,27 +306,6 @@ def test_faults_that_are_named_are_as_kept(kind, size, positions, on_a_path, arm
     session = Session(arm, 6, kind, size, positions, on_a_path, rows, times)
     named = [replace(its, size=float(coarse(its.size, 3))) for its in session.named()]
     data_regression.check(plain(named))
-
-
-def test_parts_to_hold_out_and_their_errors_are_as_kept(arm, data_regression):
-    rng = np.random.default_rng(9)
-    joints = np.repeat(rng.uniform(-1, 1, (25, 6)), 2, axis=0) + 1e-5 * rng.normal(size=(50, 6))
-    joints[:, 4] = 0.7
-    seen = Observations(joints, rng.normal(size=(50, 3)), np.where(np.arange(50) < 3, 1, 0))
-    found = {"postures": find_postures(joints, arm.slides, 1e-4)}
-    postures = found["postures"]
-    found["each"] = len(postures), postures.first, len(find_postures(joints, arm.slides, 1e-7))
-    for name, divide in {"random": random_folds, "blocks": blocks}.items():
-        parts = divide(seen, postures)
-        found[name] = parts.tolist()
-        for columns in (3, 6):
-            out = HeldOut(rng.lognormal(size=(50, columns)), parts)
-            some = out[parts != 1]
-            found[f"{name} {columns}"] = [out.errors, out.losses, out.radius(), out.coverage()]
-            found[f"{name} {columns}"] += [some.radius(), some.coverage()]
-    many = HeldOut(rng.lognormal(size=(130, 3)), np.arange(130) % 2)
-    found["many"] = [many.radius(), many.coverage()]
-    data_regression.check(plain(found))
 
 
 @pytest.mark.parametrize("gears", [0.0, 0.006])
