@@ -3,18 +3,10 @@ import pandas as pd
 import pytest
 
 from recalib.damaged.plant import Plant
-from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.rules import IMPROVED
-from recalib.learners.schedules import Schedule
 from recalib.loop.interfaces import Outcome
 from recalib.loop.training import SUMMARIES, corrected, measuring_grid, train
 from recalib.nominal.poses import position_error
-
-WIDTHS = {"position": (0.6, 1.5), "orientation": (1.0, 1.0)}
-
-
-def learner(runs):
-    return HierarchicalLearner(IMPROVED, Schedule(4.0, WIDTHS, 0.8, 0.4), runs=runs)
+from tests.learners.test_hierarchical import improved
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +17,7 @@ def poses():
 
 @pytest.fixture(scope="module")
 def history(controller, damaged, poses):
-    return train(Plant(controller, damaged), learner(3), *poses, measuring_grid(60, 4, 200, 50))
+    return train(Plant(controller, damaged), improved(3), *poses, measuring_grid(60, 4, 200, 50))
 
 
 def test_learning_reduces_both_errors_of_every_run(history):
@@ -86,7 +78,7 @@ def test_a_learner_is_told_each_pose_in_turn_and_what_fraction_of_the_training_i
 
 
 def test_one_robot_has_no_run_axis(history, controller, damaged, poses):
-    plant, alone = Plant(controller, damaged), learner(1)
+    plant, alone = Plant(controller, damaged), improved(1)
     of_one = train(plant, alone, poses[0][2], poses[1][2], history.iterations)
     among = history.of_run(2)
     assert np.allclose(of_one.position, among.position, rtol=1e-9)
@@ -104,16 +96,9 @@ def test_refused_moves_are_counted_and_the_run_goes_on(controller, damaged, pose
     desired = poses[0].copy()
     desired[1, 5, :3] = 20  # five metres away
     plant = Plant(controller, damaged)
-    history = train(plant, learner(3), desired, poses[1], [0, 5, 6, 60])
+    history = train(plant, improved(3), desired, poses[1], [0, 5, 6, 60])
     assert history.refused[1].tolist() == [0, 0, 2, 2] and not history.refused[[0, 2]].any()
     assert history.position[1, -1, 0] < 0.3 * history.position[1, 0, 0]
-
-
-def test_a_refused_test_pose_counts_as_the_arm_at_home(controller, damaged):
-    plant = Plant(controller, damaged)
-    achieved, executed = plant.achieve(np.array([[[20.0, 0, 0, 0, 0, 0], [0.0] * 6]]))
-    assert executed.tolist() == [[False, True]]
-    assert np.allclose(achieved[0, 0], damaged.forward(controller.robot.home[None])[0])
 
 
 def test_the_table_has_a_row_for_each_run_and_measurement(history):
@@ -137,7 +122,7 @@ def test_long_trainings_are_measured_on_a_logarithmic_grid():
 
 def test_progress_tells_the_means_over_all_runs(history, controller, damaged, poses):
     seen = []
-    train(Plant(controller, damaged), learner(3), *poses, [0, 8], lambda *said: seen.append(said))
+    train(Plant(controller, damaged), improved(3), *poses, [0, 8], lambda *said: seen.append(said))
     means = history.position[:, [0, 2], 0].mean(axis=0), history.orientation[:, [0, 2], 0]
     assert [its[0] for its in seen] == [0, 8]
     assert [its[1] for its in seen] == pytest.approx(100 * means[0])

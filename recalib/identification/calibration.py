@@ -23,7 +23,8 @@ STEPS = 10
 TOLERANCE = 1e-9  # m, rad
 FEWEST = 16  # measurements to see a pattern in residuals
 MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
-# A gain in log evidence, over the root of the number of further parameters, that is no chance.
+# A gain in log evidence, over the root of the number of further parameters, that is no chance: idle
+# ones gain, too, since the deviations of their prior are fitted to the data.
 CONVINCING = 2.5
 
 
@@ -289,17 +290,9 @@ def most_probable(
     for terms in candidates[1:]:
         richer = identified(terms)
         gain = richer.estimate.log_evidence - best.estimate.log_evidence
-        if gain > _chance(best.model, richer.model):
+        if gain > CONVINCING * np.sqrt(richer.model.size - best.model.size):
             best = richer
     return best
-
-
-def _chance(poorer: ErrorModel, richer: ErrorModel) -> float:
-    """The gain in log evidence that further parameters may make by chance.
-
-    Idle ones gain, too, since the deviations of their prior are fitted to the data.
-    """
-    return CONVINCING * np.sqrt(richer.size - poorer.size)
 
 
 def _with_pattern(

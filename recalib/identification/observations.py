@@ -56,19 +56,8 @@ class Observations:
 
     def __getitem__(self, rows: np.ndarray | slice) -> "Observations":
         """Some of the rows, by their numbers, by a mask or by a slice."""
-
-        def some(its: np.ndarray | None) -> np.ndarray | None:
-            return None if its is None else its[rows]
-
-        return replace(
-            self,
-            joints=self.joints[rows],
-            measured=some(self.measured),
-            targets=self.targets[rows],
-            sockets=some(self.sockets),
-            times=some(self.times),
-            optics=None if self.optics is None else self.optics[rows],
-        )
+        by_row = vars(self) | {"distances": None}
+        return replace(self, **{name: its[rows] for name, its in by_row.items() if its is not None})
 
     def whitened(self, columns: np.ndarray) -> np.ndarray:
         """Displacements (n, 6, ...) of poses as their optics weigh them, or as they are."""

@@ -23,56 +23,6 @@ def is_due(before: int, moves: int) -> bool:
     return moves // stride > before // stride
 
 
-class Experience:
-    """The moves of each run: what was sent, and what was achieved.
-
-    Args:
-        runs: how many.
-        sent: how many numbers are sent in a move.
-
-    Attributes:
-        moves: how many there were, refused ones included.
-    """
-
-    def __init__(self, runs: int, sent: int = 6):
-        self._sent, self._achieved = np.empty((runs, 0, sent)), np.empty((runs, 0, 6))
-        self._executed = np.empty((runs, 0), dtype=bool)
-
-    @property
-    def moves(self) -> int:
-        return self._executed.shape[1]
-
-    def add(self, sent: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        """Keep moves.
-
-        Args:
-            sent: (run, move, sent) in the form that the learner uses.
-            achieved: (run, move, 6) in coordinates of the workspace.
-            executed: (run, move) whether they were carried out.
-        """
-        self._sent = np.concatenate([self._sent, sent], axis=1)
-        self._achieved = np.concatenate([self._achieved, achieved], axis=1)
-        self._executed = np.concatenate([self._executed, executed], axis=1)
-
-    def of(self, run: int) -> tuple[np.ndarray, np.ndarray]:
-        """Sent (n, sent) and achieved (n, 6) of the moves that one run carried out."""
-        executed = self._executed[run]
-        return self._sent[run, executed], self._achieved[run, executed]
-
-    def state(self) -> list[State]:
-        """The moves of each run."""
-        parts = zip(self._sent, self._achieved, self._executed, strict=True)
-        return [
-            dict(zip(("sent", "achieved", "executed"), arrays, strict=True)) for arrays in parts
-        ]
-
-    def restore(self, states: Sequence[State]) -> None:
-        """Take over what `state` returned."""
-        self._sent, self._achieved, self._executed = (
-            np.stack([state[name] for state in states]) for name in ("sent", "achieved", "executed")
-        )
-
-
 class Refitting(Observer):
     """A learner with a model for each run, fitted to all of the run's moves.
 
@@ -82,22 +32,37 @@ class Refitting(Observer):
 
     Attributes:
         models: of each run; None where nothing has been learned.
+        moves: how many there were, refused ones included.
     """
 
     MODEL: ClassVar[str]  # what a model is called in files
 
     def __init__(self, runs: int, sent: int = 6):
-        self._experience = Experience(runs, sent)
+        self._moves = {
+            "sent": np.empty((runs, 0, sent)),
+            "achieved": np.empty((runs, 0, 6)),
+            "executed": np.empty((runs, 0), dtype=bool),
+        }
         self.models: list[Any] = [None] * runs
 
+    @property
+    def moves(self) -> int:
+        return self._moves["executed"].shape[1]
+
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:
-        before = self._experience.moves
-        self._experience.add(self._sent(commands), achieved, executed)
-        if is_due(before, self._experience.moves):
-            for run, last in enumerate(self.models):
-                moves = self._experience.of(run)
-                if len(moves[0]):
-                    self.models[run] = self._fit(*moves, last, before)
+        before = self.moves
+        new = self._sent(commands), achieved, executed
+        for name, its in zip(self._moves, new, strict=True):
+            self._moves[name] = np.concatenate([self._moves[name], its], axis=1)
+        if is_due(before, self.moves):
+            for run, (last, kept) in enumerate(zip(self.models, self._by_run(), strict=True)):
+                sent, achieved, executed = kept.values()
+                if executed.any():
+                    self.models[run] = self._fit(sent[executed], achieved[executed], last, before)
+
+    def _by_run(self) -> list[dict[str, np.ndarray]]:
+        runs = range(len(self.models))
+        return [{name: its[run] for name, its in self._moves.items()} for run in runs]
 
     def _sent(self, commands: np.ndarray) -> np.ndarray:
         """What is kept (run, move, sent) of pose commands (run, move, 6)."""
@@ -125,12 +90,14 @@ class Refitting(Observer):
         """For each run its moves and, once there is one, its model."""
         return [
             {"moves": moves, self.MODEL: model and model.state()}
-            for moves, model in zip(self._experience.state(), self.models, strict=True)
+            for moves, model in zip(self._by_run(), self.models, strict=True)
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        self._experience.restore([state["moves"] for state in states])
+        self._moves = {
+            name: np.stack([state["moves"][name] for state in states]) for name in self._moves
+        }
         self.models = [
             self._restored(state[self.MODEL]) if state.get(self.MODEL) else None for state in states
         ]

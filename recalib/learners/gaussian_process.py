@@ -28,7 +28,6 @@ class GaussianProcessLearner(Refitting):
         super().__init__(runs)
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         return np.stack(
             [
                 poses if process is None else poses + process.predict(poses)
@@ -39,7 +38,7 @@ class GaussianProcessLearner(Refitting):
     def _fit(
         self, sent: np.ndarray, achieved: np.ndarray, last: Process | None, before: int
     ) -> Process:
-        if last is None or is_time_to_search(before, self._experience.moves):
+        if last is None or is_time_to_search(before, self.moves):
             return Process(achieved, sent - achieved)
         return Process(achieved, sent - achieved, last.hyperparameters)
 

@@ -11,9 +11,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, angles_for
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.estimation import identify
+from recalib.identification.calibration import Calibration, angles_for, most_probable
+from recalib.identification.error_model import OFFSETS
 from recalib.identification.observations import Observations
 from recalib.learners.experience import Refitting
 from recalib.nominal.controller import Controller
@@ -38,13 +37,7 @@ class GeometricLearner(Refitting):
         super().__init__(runs, len(controller.robot.joints))
         self._controller = controller
 
-    @property
-    def calibrations(self) -> list[Calibration | None]:
-        """Of each run; None where nothing has been learned."""
-        return self.models
-
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         commands = desired.copy()
         known = {run: each for run, each in enumerate(self.models) if each is not None}
         if known:
@@ -66,8 +59,7 @@ class GeometricLearner(Refitting):
 
     @staticmethod
     def _calibrate(arm: Arm, observations: Observations, last: Calibration | None) -> Calibration:
-        model = ErrorModel(arm, OFFSETS)
-        return Calibration(model, identify(model, observations, last.estimate if last else None))
+        return most_probable(arm, (OFFSETS,), observations, start=last.estimate if last else None)
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:

@@ -53,8 +53,8 @@ class Nets:
         self,
         supernet: Sequence[int],
         subnet: Sequence[int],
-        centres: str = "boxes",
-        units: Sequence[float] = (1.0,) * 6,
+        centres: str,
+        units: Sequence[float],
     ):
         self.w_k, self.w_kl = regular_grid(supernet, centres), regular_grid(subnet, centres)
         k, l = np.indices((len(self.w_k), len(self.w_kl)))

@@ -48,7 +48,6 @@ class PolynomialLearner(Observer):
         self._spread = np.tile(np.diag((np.array(DEVIATIONS)[degrees] / NOISE) ** 2), (runs, 1, 1))
 
     def command(self, desired: np.ndarray) -> np.ndarray:
-        """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         return desired + monomials(desired, self._degree) @ self._coefficients
 
     def _update(self, commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray) -> None:

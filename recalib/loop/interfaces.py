@@ -38,7 +38,6 @@ class Learner(Protocol):
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
-        ...
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One iteration: try the desired poses (run, 6) by moves through `execute`; learn from it.
@@ -46,7 +45,6 @@ class Learner(Protocol):
         Args:
             fraction: of the training that is done, in [0, 1).
         """
-        ...
 
 
 # What one run has learned: arrays by name, in groups where that is clearer. What is None or absent
@@ -63,19 +61,15 @@ class Savable(Learner, Protocol):
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
         """The learner of so many runs that has learned nothing, from what `settings` returned."""
-        ...
 
     def settings(self) -> dict[str, Any]:
         """What it was made with, in the types of JSON; a list, `by_run`, of what runs differ in."""
-        ...
 
     def state(self) -> list[State]:
         """What each run has learned: enough to go on from there."""
-        ...
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned, in a learner made with the same settings."""
-        ...
 
 
 class Commandable(Protocol):
@@ -84,21 +78,17 @@ class Commandable(Protocol):
     @property
     def workspace(self) -> "Workspace":
         """The workspace in whose coordinates poses are given."""
-        ...
 
     @property
     def moves(self) -> int:
         """How many moves were commanded in each run."""
-        ...
 
     @property
     def refused(self) -> np.ndarray | int:
         """(run,) how many of them were not carried out; 0 before the first."""
-        ...
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what is achieved."""
-        ...
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) [m] and whether each was executed (run, move).
@@ -106,7 +96,6 @@ class Commandable(Protocol):
         As `execute`, to judge a learner by: these moves are not counted and, where the robot is
         simulated, free of disturbances.
         """
-        ...
 
 
 @runtime_checkable
@@ -119,4 +108,3 @@ class ForwardKinematics(Protocol):
         Args:
             angles: (n, joint) rad in which the controller believes.
         """
-        ...

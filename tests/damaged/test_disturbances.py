@@ -80,29 +80,6 @@ def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, comman
     assert noisy.moves == quiet.moves == 40
 
 
-def test_each_run_has_luck_of_its_own_that_repeats(controller, damaged, commands):
-    same = np.repeat(commands[:1], 2, axis=0)
-    for disturbances in (
-        Disturbances(Noise(1e-3, 1e-3)),
-        Disturbances(repeatability=Repeatability(1e-3)),
-        Disturbances(outliers=Outliers(1.0, 0.05)),
-    ):
-        first, second = (
-            Plant(controller, damaged, disturbances, generators(9, 10)).execute(same).achieved
-            for _ in range(2)
-        )
-        assert np.array_equal(first, second)
-        assert np.all(first[0, :, :3] != first[1, :, :3])
-
-
-def test_no_disturbance_at_all_changes_nothing(controller, damaged, commands):
-    quiet = Plant(controller, damaged).execute(commands).achieved
-    still = (
-        Plant(controller, damaged, Disturbances(), generators(11, 12)).execute(commands).achieved
-    )
-    assert np.allclose(still, quiet, atol=1e-12)
-
-
 def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, commands):
     disturbances = Disturbances(Noise(1e-3, 1e-3), Repeatability(1e-3), Outliers(0.5, 0.05))
     both = Plant(controller, damaged, disturbances, generators(9, 10)).execute(commands)

@@ -5,27 +5,14 @@ import pytest
 
 from recalib.damaged.damage import (
     BaseShift,
-    EncoderShift,
-    LinkShortening,
     apply,
 )
 from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
-from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib.damaged.nongeometric import Sag
 from recalib.damaged.plant import Plant
 from tests.kept import plain
 
-EACH = {
-    "moved": BaseShift((0.03, -0.02, 0.05), (0.04, -0.07, 0.11)),
-    "shorter": LinkShortening("forearm_link", 0.04),
-    "shorter along its axis": LinkShortening("wrist_1_link", 0.013, "axis"),
-    "shorter at the tool": LinkShortening("wrist_3_link", 0.017),
-    "shifted": EncoderShift("elbow_joint", 0.07),
-    "eccentric": EccentricGear("shoulder_lift_joint", 0.02, 0.4),
-    "sagging": Sag("elbow_joint", 2e-4),
-    "loose": Backlash("wrist_1_joint", 0.012),
-}
 DISTURBED = Disturbances(Noise(2e-3, 4e-3), Repeatability(3e-3), Outliers(0.3, 0.05))
-SOME = [*EACH][2:5]
 
 
 def sent(seed: int, runs: int, moves: int) -> np.ndarray:
@@ -46,7 +33,8 @@ def done(plant, runs: int) -> list:
 
 @pytest.mark.parametrize("disturbances", [None, DISTURBED], ids=["steady", "disturbed"])
 def test_what_a_plant_does_is_as_kept(disturbances, controller, data_regression):
-    arms = [apply(controller.robot, [EACH[name]]) for name in ("sagging", "moved")]
+    damages = Sag("elbow_joint", 2e-4), BaseShift((0.03, -0.02, 0.05), (0.04, -0.07, 0.11))
+    arms = [apply(controller.robot, [damage]) for damage in damages]
     luck = generators(5, 6) if disturbances else ()
     plants = [
         Plant(controller, arms, disturbances, luck),

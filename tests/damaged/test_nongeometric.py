@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.damage import EncoderShift, apply
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
-from recalib.errors import InvalidSetting, UnknownName
 
 
 @pytest.fixture
@@ -19,20 +18,6 @@ def test_eccentric_gear_moves_its_joint_by_a_sine(robot, angles):
     moved = deflection(robot, EccentricGear("elbow_joint", 0.01, 0.3), angles)
     assert np.allclose(moved[:, 2], 0.01 * np.sin(angles[:, 2] + 0.3))
     assert np.allclose(np.delete(moved, 2, axis=1), 0)
-
-
-def test_gravity_torque_is_the_slope_of_the_potential_energy(robot, angles):
-    import pinocchio as pin
-
-    model, data, step = robot.arm.model, robot.arm.model.createData(), 1e-6
-    torques = robot.arm.gravity_torque(angles)
-    for joint in range(6):
-        shift = step * np.eye(6)[joint]
-        up, down = (
-            np.array([pin.computePotentialEnergy(model, data, q + s) for q in angles])
-            for s in (shift, -shift)
-        )
-        assert np.allclose(torques[:, joint], (up - down) / (2 * step), atol=1e-5)
 
 
 def test_a_joint_sags_by_its_compliance_times_its_torque(robot, angles):
@@ -72,29 +57,3 @@ def test_deflections_start_from_where_the_encoders_leave_the_joints(robot, angle
 
 def test_a_vertical_axis_has_no_load_and_rests_in_the_middle_of_its_gap(robot, angles):
     assert not deflection(robot, Backlash("shoulder_pan_joint", 0.004), angles).any()
-
-
-def test_damages_combine_in_any_order(robot, angles):
-    damages = [
-        LinkShortening("forearm_link", 0.04),
-        EccentricGear("elbow_joint", 0.01),
-        EncoderShift("elbow_joint", 0.05),
-        Sag("shoulder_lift_joint", 1e-4),
-        Backlash("elbow_joint", 0.002),
-    ]
-    one, other = (apply(robot, order).forward(angles) for order in (damages, damages[::-1]))
-    assert np.allclose(one, other, atol=1e-12)
-    assert np.abs(one - apply(robot, damages[:1]).forward(angles)).max() > 1e-3
-
-
-@pytest.mark.parametrize("size", [-1e-3, np.nan, np.inf])
-@pytest.mark.parametrize("damage", [EccentricGear, Sag, Backlash])
-def test_sizes_below_zero_or_not_finite_are_refused(damage, size):
-    with pytest.raises(InvalidSetting, match=f"{damage.__name__}.* from 0 on"):
-        damage("elbow_joint", size)
-
-
-@pytest.mark.parametrize("damage", [EccentricGear, Sag, Backlash])
-def test_an_unknown_joint_is_named_with_the_known_ones(robot, damage):
-    with pytest.raises(UnknownName, match="elbow_joint"):
-        apply(robot, [damage("knee_joint", 0.01)])

@@ -9,19 +9,11 @@ from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Observations
 from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault, faults
-from recalib.identification.validation import (
-    BLOCKWISE,
-    GEOMETRIC,
-    HYBRID,
-    OUTLYING,
-    RANDOM,
-    validate,
-)
+from recalib.identification.validation import BLOCKWISE, OUTLYING, validate
 from tests.identification.real import Real
 
-GEARS = np.radians(0.03)
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad
-ROWS, HELD_BACK, POSTURES = 119, 400, 150
+ROWS = 119
 
 
 def distances(calibration: Calibration, observations: Observations) -> np.ndarray:
@@ -34,46 +26,6 @@ def with_targets(real: Real, postures: int, targets: int = 3) -> Observations:
     joints = np.repeat(real.postures(postures), targets, axis=0)
     numbers = np.arange(targets * postures) % targets
     return Observations(joints, real.poses(joints, numbers)[:, :3, 3], numbers)
-
-
-def three_targets(arm, seed: int, gears: float = GEARS) -> dict[str, tuple[float, float]]:
-    """Said and true errors [m] of geometry and of all of it, where a posture has three targets.
-
-    From 60 postures a mean error is known to 9 %, whatever the folds: the luck of its postures
-    alone would put one arm in twenty off by 20 %. That folds learn from fewer rows adds 5 %.
-    """
-    real = Real(arm, seed, targets=3, gears=gears)
-    known, fresh = with_targets(real, POSTURES), with_targets(real, 500)
-    found = validate(arm, known, initial_frames(arm, known))
-    assert len(found.postures) == POSTURES
-    return {
-        kind: (
-            found.errors(RANDOM, kind)[found.counted, 0].mean(),
-            distances(found.full[kind], fresh).mean(),
-        )
-        for kind in (GEOMETRIC, HYBRID)
-    }
-
-
-def other_half(arm, seed: int) -> float:
-    """The part of positions within the radius in the half of a joint's range not measured."""
-    real = Real(arm, seed, gears=GEARS * (seed % 2))
-    joints, halved = real.postures(4 * HELD_BACK), seed % len(arm.joints)
-    upper = joints[:, halved] > np.median(joints[:, halved])
-    here, there = joints[~upper][:60], joints[upper][:HELD_BACK]
-    known = Observations(here, real.poses(here))
-    found = validate(arm, known, initial_frames(arm, known))
-    errors = distances(found.calibration, Observations(there, real.poses(there)))
-    return float(np.mean(errors <= found.radius))
-
-
-def few_poses(arm, seed: int) -> float:
-    """The part of fresh positions within the radius that 16 poses tell, which exceeds the mean."""
-    real = Real(arm, seed)
-    known = real.seen(16)
-    found = validate(arm, known, initial_frames(arm, known))
-    assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
-    return float(np.mean(distances(found.calibration, real.seen(HELD_BACK)) <= found.radius))
 
 
 class Session:

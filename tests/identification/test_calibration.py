@@ -7,18 +7,21 @@ from recalib.identification import calibration as module
 from recalib.identification.calibration import angles_for, calibrate, calibrate_again
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
+from tests.identification.test_estimation import noisy, postures
 
 
 @pytest.fixture(scope="module")
-def calibrations(controller):
+def geared(controller):
+    """Of an arm with an eccentric gear."""
+    angles = postures(controller, 40)
+    gear = apply(controller.robot, [EccentricGear("elbow_joint", 0.02)])
+    return Observations(angles, gear.forward(angles))
+
+
+@pytest.fixture(scope="module")
+def calibrations(robot, geared):
     """Of two arms, with and without something left for a Gaussian process."""
-    robot, generator = controller.robot, np.random.default_rng(1)
-    angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(generator, 40)))
-    gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
-    found = [
-        calibrate(robot.arm, (terms,), Observations(angles, gear.forward(angles)))
-        for terms in (OFFSETS, JOINT_ERRORS)
-    ]
+    found = [calibrate(robot.arm, (terms,), geared) for terms in (OFFSETS, JOINT_ERRORS)]
     assert [calibration.pattern is None for calibration in found] == [False, True]
     return found
 
@@ -47,25 +50,18 @@ def test_no_poses_need_no_angles(calibrations):
     assert angles_for(calibrations, np.empty((2, 0, 4, 4)), np.empty((2, 0, 6))).shape == (2, 0, 6)
 
 
-def test_a_pattern_is_learned_from_so_many_rows_at_most(controller, monkeypatch):
-    robot, random = controller.robot, np.random.default_rng(1)
-    angles = controller.inverse(robot.workspace.to_poses(robot.workspace.sample(random, 40)))
-    gear = apply(robot, [EccentricGear("elbow_joint", 0.02)])
-    observations = Observations(angles, gear.forward(angles))
+def test_a_pattern_is_learned_from_so_many_rows_at_most(robot, geared, monkeypatch):
     for most, used in ((40, 40), (30, 30)):
         monkeypatch.setattr(module, "MOST", most)
-        inputs = calibrate(robot.arm, (OFFSETS,), observations).pattern.state()["inputs"]
+        inputs = calibrate(robot.arm, (OFFSETS,), geared).pattern.state()["inputs"]
         assert len(np.unique(inputs, axis=0)) == used
-        assert {*map(tuple, inputs)} <= {*map(tuple, angles)}
+        assert {*map(tuple, inputs)} <= {*map(tuple, geared.joints)}
 
 
 def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibrations):
     """Neither joint errors nor a pattern, of an arm that has none."""
-    robot, random = controller.robot, np.random.default_rng(4)
-    workspace = robot.workspace
-    angles = controller.inverse(workspace.to_poses(workspace.sample(random, 40)))
-    measured = robot.arm.forward(angles)
-    measured[:, :3, 3] += random.normal(scale=1e-4, size=(40, 3))
+    angles = postures(controller, 40, seed=4)
+    measured = noisy(controller.robot.arm, angles, 4)
     observations = Observations(angles, measured[:, :3, 3])
     patterned, eccentric = calibrations
     assert calibrate_again(patterned, (OFFSETS,), observations).pattern is None

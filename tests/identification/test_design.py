@@ -8,26 +8,19 @@ from recalib.identification.design import information_gains, most_informative
 from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.observations import Observations
+from tests.identification.test_estimation import postures
 
 
 @pytest.fixture
-def angles(robot, controller):
-    workspace = robot.workspace
-    poses = workspace.to_poses(workspace.sample(np.random.default_rng(1), 9))
-    return controller.inverse(poses)
+def angles(controller):
+    return postures(controller, 9)
 
 
-@pytest.fixture
-def calibration(robot, damaged, angles):
-    model = ErrorModel(robot.arm, OFFSETS)
-    observations = Observations(angles[:3], damaged.forward(angles[:3]))
-    return Calibration(model, identify(model, observations))
-
-
-def test_a_pose_that_was_measured_teaches_less_than_a_new_one(calibration, angles):
-    gains = information_gains(calibration, angles)
-    assert gains[:3].max() < gains[3:].min()
-    assert np.all(gains > 0)
+@pytest.fixture(params=["poses", "positions"])
+def calibration(request, robot, damaged, angles):
+    model, measured = ErrorModel(robot.arm, OFFSETS), damaged.forward(angles[:3])
+    measured = measured if request.param == "poses" else measured[:, :3, 3]
+    return Calibration(model, identify(model, Observations(angles[:3], measured)))
 
 
 def test_each_of_a_set_is_the_best_given_those_before_it(calibration, angles):

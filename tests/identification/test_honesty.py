@@ -3,41 +3,68 @@
 import numpy as np
 import pytest
 
-from recalib.identification.sequence import DRIFT, JUMP, LAG
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.observations import Observations
+from recalib.identification.sequence import DRIFT, LAG
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
 from recalib.nominal.arms import load_arm
-from tests.identification.honesty import Session, few_poses, other_half, three_targets
-from tests.identification.real import ARMS
+from tests.identification.honesty import Session, distances, with_targets
+from tests.identification.real import ARMS, Real
+
+pytestmark = pytest.mark.slow
+GEARS, HELD_BACK = np.radians(0.03), 400
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ARMS)
 def test_what_is_said_holds_where_a_posture_has_three_targets(name):
-    for said, true in three_targets(load_arm(*ARMS[name]), seed=0).values():
-        assert said == pytest.approx(true, rel=0.2)
+    """From 60 postures a mean error is known to 9 %, whatever the folds: the luck of its postures
+    alone would put one arm in twenty off by 20 %. That folds learn from fewer rows adds 5 %.
+    """
+    arm = load_arm(*ARMS[name])
+    real = Real(arm, 0, targets=3, gears=GEARS)
+    known, fresh = with_targets(real, 150), with_targets(real, 500)
+    found = validate(arm, known, initial_frames(arm, known))
+    assert len(found.postures) == 150
+    for kind in (GEOMETRIC, HYBRID):
+        said = found.errors(RANDOM, kind)[found.counted, 0].mean()
+        assert said == pytest.approx(distances(found.full[kind], fresh).mean(), rel=0.2)
 
 
-@pytest.mark.slow
-def test_intervals_hold_where_nobody_measured():
+def other_half(arm, seed: int) -> float:
+    """The part of positions within the radius in the half of a joint's range not measured."""
+    real = Real(arm, seed, gears=GEARS * (seed % 2))
+    joints, halved = real.postures(4 * HELD_BACK), seed % len(arm.joints)
+    upper = joints[:, halved] > np.median(joints[:, halved])
+    here, there = joints[~upper][:60], joints[upper][:HELD_BACK]
+    known = Observations(here, real.poses(here))
+    found = validate(arm, known, initial_frames(arm, known))
+    errors = distances(found.calibration, Observations(there, real.poses(there)))
+    return float(np.mean(errors <= found.radius))
+
+
+def test_intervals_hold_where_nobody_measured(ur10):
     """20 arms are measured in one half of a joint's range and judged in the other."""
-    arm = load_arm(*ARMS["UR10"])
-    within = [other_half(arm, seed) for seed in range(20)]
+    within = [other_half(ur10, seed) for seed in range(20)]
     assert 0.9 <= np.mean(within) <= 0.99
     assert np.min(within) > 0.75
 
 
-@pytest.mark.slow
-def test_intervals_hold_where_postures_are_few():
+def test_intervals_hold_where_postures_are_few(ur10):
     """By how far the parameters are known, with the noise found in so few, 70 % would be within."""
-    within = [few_poses(load_arm(*ARMS["UR10"]), seed) for seed in range(8)]
+    within = []
+    for seed in range(8):
+        real = Real(ur10, seed)
+        known = real.seen(16)
+        found = validate(ur10, known, initial_frames(ur10, known))
+        assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
+        within.append(distances(found.calibration, real.seen(HELD_BACK)) <= found.radius)
     assert 0.9 <= np.mean(within) <= 0.99
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("positions", [True, False], ids=["positions", "poses"])
 @pytest.mark.parametrize("on_a_path", [True, False], ids=["path", "random"])
-@pytest.mark.parametrize(("kind", "size"), [(LAG, 0.01), (LAG, 0.05), (JUMP, 1e-3), (DRIFT, 1e-3)])
-def test_a_fault_of_a_session_is_named_or_errors_are_honest(kind, size, on_a_path, positions):
-    arm = load_arm(*ARMS["UR10"])
+@pytest.mark.parametrize(("kind", "size"), [(LAG, 0.01), (DRIFT, 1e-3)])
+def test_a_fault_of_a_session_is_named_or_errors_are_honest(kind, size, on_a_path, positions, ur10):
     for seed in (1, 5):
-        session = Session(arm, seed, kind, size, positions, on_a_path)
+        session = Session(ur10, seed, kind, size, positions, on_a_path)
         assert [fault.kind for fault in session.named()][:1] == [kind] or session.honesty() > 0.8

@@ -10,7 +10,6 @@ from recalib.identification.estimation import identify
 from recalib.identification.frames import HELD
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Distance, Observations
-from recalib.nominal.arms import load_arm
 from tests.arms import GANTRY, SCARA, urdf
 from tests.identification.real import Real, aligned, geometry_of
 
@@ -43,27 +42,16 @@ def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):
         assert held["sine 1"].tolist() == held["cosine 1"].tolist() == [False, True]
 
 
-def test_an_offset_of_a_joint_that_slides_is_a_length(load):
-    model = ErrorModel(load(GANTRY), OFFSETS)
-    parameters = np.zeros_like(model.deviations)
-    parameters[model.offset_columns] = 0, 0, 0.01
-    moved = model.predict(parameters, np.zeros((1, 3))) - model.predict(
-        0 * parameters, np.zeros((1, 3))
-    )
-    assert np.allclose(moved[0, :3, 3], [0, 0.006, 0.008])
-
-
 @pytest.fixture(scope="module")
-def balls():
+def balls(panda):
     """Of a Panda: what joint angles alone tell, and before and after [m] with frames aligned."""
-    arm = load_arm("panda.urdf", "panda_link8")
-    real = Real(arm, 1)
+    real = Real(panda, 1)
     joints = np.concatenate([real.touching(BALL, socket, 40) for socket in SOCKETS])
     fresh = real.postures(100)
-    tool, true = arm.forward(fresh), real.ball(BALL, fresh)
+    tool, true = panda.forward(fresh), real.ball(BALL, fresh)
 
     def after(observations):
-        found = geometry_of(arm, observations)
+        found = geometry_of(panda, observations)
         return aligned(found.predict(fresh)[:, :3, 3], true), found
 
     before = aligned(tool[:, :3, 3] + tool[:, :3, :3] @ BALL, true)

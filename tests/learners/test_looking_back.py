@@ -1,8 +1,11 @@
 """Learners that look back: when they learn anew, from what, and what they keep."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
+from recalib.learners.experience import is_due
 from recalib.learners.gaussian_process import GaussianProcessLearner
 from recalib.learners.geometric import GeometricLearner
 from recalib.learners.hybrid import HybridLearner
@@ -19,6 +22,16 @@ def observed(learner, first, last):
     moves = slice(first, last)
     learner.observe(SENT[:, moves], ACHIEVED[:, moves], EXECUTED[:, moves])
     return learner
+
+
+def test_looking_back_gets_rarer_and_never_lacks_more_than_a_fifth():
+    due = [moves for moves in range(1, 1000) if is_due(moves - 1, moves)]
+    assert due[:16] == [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 32]
+    assert all(after <= 1.25 * before for before, after in pairwise(due[3:]))
+
+
+def test_many_moves_at_once_are_looked_at_once():
+    assert is_due(0, 1000) and not is_due(1000, 1001)
 
 
 def test_the_process_is_that_of_the_moves_that_were_carried_out():
@@ -54,7 +67,7 @@ def test_an_identified_arm_is_asked_for_angles_and_its_nominal_twin_for_the_comm
     executed = EXECUTED & targets.executed
     learner.observe(SENT, workspace.to_coordinates(poses), executed)
     commands = learner.command(SENT)
-    for run, calibration in enumerate(learner.calibrations):
+    for run, calibration in enumerate(learner.models):
         assert len(calibration.estimate.weights) == executed[run].sum()
         angles = controller.targets(commands[run][None]).angles[0]
         found = workspace.to_coordinates(calibration.forward(angles))

@@ -8,7 +8,7 @@ from recalib.learners.radial import RadialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
 from recalib.loop.interfaces import Outcome
-from tests.learners.test_hierarchical import SIZES, WIDTHS, strange_world
+from tests.learners.test_hierarchical import SIZES, WIDTHS, fallen, strange_world
 
 START, RATES, FIELD = 1.5, (0.9, 0.3), 0.4
 SWITCHES = [*product([False, True], repeat=3)]  # two maps, increments, equal visits
@@ -34,33 +34,20 @@ def blend(u, centres, theta):
     return u + sum(p * (theta[i] - centres[i]) for i, p in enumerate(phi)) / sum(phi)
 
 
-def written_out(centres, desired, separate, increments, visits):
+def written_out(rules, centres, desired):
     """Commands that the units of one run hold at the end, learned unit by unit."""
-    theta, parts = centres.copy(), [slice(0, 3), slice(3, 6)]
+    theta = centres.copy()
     for t, u in enumerate(desired):
-        f = t / len(desired)
-        rate = (
-            RATES[0] + (RATES[1] - RATES[0]) * f
-            if visits
-            else RATES[0] * (RATES[1] / RATES[0]) ** f
-        )
+        rate, widths = fallen(rules, t / len(desired), START, RATES)
         command = blend(u, centres, theta)
         e = u - strange_world(command[None, None]).achieved[0, 0]
         winner = int(np.argmin([np.linalg.norm(u - w) for w in centres]))
         won, w = theta[winner].copy(), centres[winner]
-        for outputs, ends in zip(
-            parts if separate else [slice(0, 6)], WIDTHS[separate].values(), strict=True
-        ):
-            sigma_k, sigma_kl = (
-                (START**-2 + (end**-2 - START**-2) * f) ** -0.5
-                if visits
-                else START * (end / START) ** f
-                for end in ends
-            )
+        for outputs, (sigma_k, sigma_kl) in zip(rules.maps.values(), widths, strict=True):
             for i, other in enumerate(centres):
                 d_k, d_kl = np.sum((other - w)[:3] ** 2), np.sum((other - w)[3:] ** 2)
                 g = np.exp(-d_k / (2 * sigma_k**2) - d_kl / (2 * sigma_kl**2))
-                step = e if increments else won + e - theta[i]
+                step = e if rules.theta_increments else won + e - theta[i]
                 theta[i, outputs] = theta[i, outputs] + rate * g * step[outputs]
     return theta
 
@@ -72,7 +59,7 @@ def test_radial_units_agree_with_their_rules_written_out_unit_by_unit(separate, 
     centres = learner.nets.centres.reshape(-1, 6)
     tests = poses(2, 5, 1)[:, :, 0]
     for run in range(2):
-        theta = written_out(centres, desired[run], separate, increments, visits)
+        theta = written_out(learner.rules, centres, desired[run])
         held = np.concatenate([cells.all[run] for cells in learner.theta.values()], axis=-1)
         assert np.allclose(held.reshape(-1, 6), theta, rtol=0, atol=1e-12)
         expected = [blend(u, centres, theta) for u in tests[run]]

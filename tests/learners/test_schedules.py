@@ -27,11 +27,6 @@ def test_laws_fall_from_start_to_end(law, start, end):
     assert (np.diff(values) < 0).all()
 
 
-@pytest.mark.parametrize("law", LAWS)
-def test_laws_stay_where_start_and_end_are_equal(law):
-    assert np.allclose(law(0.7, 0.7, np.linspace(0, 1, 5)), 0.7)
-
-
 @pytest.mark.parametrize("n", [3, 6])
 @pytest.mark.parametrize(("spread", "scale"), [("widths", np.asarray), ("logarithms", np.log)])
 @given(start=starts, end=ends)
@@ -46,11 +41,6 @@ def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(
     pace = 2 * step / (scale(after) - scale(before))
     learned = pace * schedules.expected_learning(width, n, 2.0**n)
     assert np.allclose(learned / learned.mean(), 1, rtol=1e-4)
-
-
-def test_the_exponential_law_has_a_constant_factor():
-    values = schedules.exponential(2.0, 0.1, np.linspace(0, 1, 20))
-    assert np.allclose(values[1:] / values[:-1], values[1] / values[0])
 
 
 @pytest.mark.parametrize("dimensions", [1, 3])

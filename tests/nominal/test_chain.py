@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from recalib.damaged.damage import BaseShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
@@ -73,14 +72,3 @@ def test_a_posture_does_not_depend_on_those_beside_it(arms):
             alone = chain.solve(poses[[index]], angles[[index]] + 0.1)
             for whole, part in zip(solved, alone, strict=True):
                 assert np.array_equal(whole[[index]], part)
-
-
-def test_arms_side_by_side_move_as_they_do_alone(controller, robot):
-    damaged = [apply(robot, some_damage(robot)[:count]) for count in range(3)]
-    commands = np.random.default_rng(1).uniform(-1, 1, (3, 5, 6))
-    together, _ = Plant(controller, damaged).achieve(commands)
-    alone = [
-        Plant(controller, arm).achieve(own[None])[0][0]
-        for arm, own in zip(damaged, commands, strict=True)
-    ]
-    assert np.array_equal(together, alone)

@@ -12,11 +12,16 @@ from tests.arms import panda
 from tests.conftest import changed
 
 
+@pytest.fixture(scope="module")
+def redundant() -> Controller:
+    """Of seven joints."""
+    return Controller(panda())
+
+
 @pytest.fixture(params=["ur10", "ur5", "ur3", "z1", "panda"])
-def some(request, plan) -> Controller:
-    """Of six joints, and of seven."""
+def some(request, plan, redundant) -> Controller:
     if request.param == "panda":
-        return Controller(panda())
+        return redundant
     return nominal_controller(plan.nominal(request.param))
 
 
@@ -108,3 +113,29 @@ def test_a_workspace_too_near_to_a_singularity_is_refused(robot, controller):
     Controller(robot, greatest_condition=condition * 1.0001)
     with pytest.raises(UnfitWorkspace, match=f"singularity.* reaches {condition:.3g}; "):
         Controller(robot, greatest_condition=condition * 0.9999)
+
+
+def test_the_posture_changes_smoothly_and_hardly_without_moving_the_tool(redundant):
+    path = np.linspace(-1, 1, 401)[:, None] * np.array([1, -1, 1, -1, 1, -1])
+    angles = redundant.targets(path[None]).angles[0]
+    steps = np.diff(angles, axis=0)
+    assert np.abs(np.diff(steps, axis=0)).max() < 2e-3
+    _, jacobians = redundant.robot.arm.forward_and_jacobian(angles[:-1])
+    idle = np.array([np.linalg.svd(jacobian)[2][-1] for jacobian in jacobians])
+    assert np.abs((idle * steps).sum(axis=1)).max() < 0.3 * np.linalg.norm(steps, axis=1).max()
+
+
+def test_commands_are_found_for_joint_angles_that_the_controller_would_not_choose(redundant):
+    desired = redundant.robot.workspace.sample(np.random.default_rng(3), 1, 30)
+    tilt = np.radians([1, -2, 4, 1, -3, 2, 1])  # what an arm with shifted encoders would need
+    poses = redundant.robot.workspace.to_poses(desired)[0]
+
+    def needed(angles):
+        found, residuals = redundant._chain.solve(poses, angles[0] + tilt)
+        assert residuals.max() < 1e-9
+        return (found - tilt)[None]
+
+    commands = redundant.commands_for(desired, needed)
+    standing = redundant.targets(commands).angles[0] + tilt
+    reached = redundant.robot.arm.forward(standing)
+    assert position_error(reached, poses).max() < 1e-7

@@ -6,19 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.nominal.arms import load_arm
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from recalib.study.scenarios.plants import nominal_robot
-
-# Universal Robots' own table of the UR5 (support article on DH parameters), standard: d, a, alpha.
-UR5 = (
-    (0.089159, 0.0, np.pi / 2),
-    (0.0, -0.425, 0.0),
-    (0.0, -0.39225, 0.0),
-    (0.10915, 0.0, np.pi / 2),
-    (0.09465, 0.0, -np.pi / 2),
-    (0.0823, 0.0, 0.0),
-)
 
 
 def turn(axis: int, angle: float) -> np.ndarray:
@@ -44,7 +33,6 @@ PUMA = (
     (0.05625, 0.0, 0.0),
 )
 
-
 NUMBERS = st.floats(-2, 2)
 ROWS = st.lists(
     st.builds(Row, st.just(""), NUMBERS, NUMBERS, NUMBERS, NUMBERS, st.booleans()),
@@ -68,17 +56,6 @@ def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle)
     assert np.allclose(arm.forward(np.full((1, len(rows)), angle))[0], expected, atol=1e-12)
     assert arm.joints == tuple(row.name for row in rows) and arm.massless
     assert arm.slides.tolist() == [row.slides for row in rows]
-
-
-def test_the_published_table_of_the_ur5_is_its_urdf_up_to_where_base_and_tool_are():
-    rows = [
-        Row(f"joint {i}", a=a, d=d, alpha=alpha) for i, (d, a, alpha) in enumerate(UR5, start=1)
-    ]
-    table, urdf = arm_of_table(rows), load_arm("ur5_robot.urdf", "tool0")
-    angles = np.random.default_rng(0).uniform(-np.pi, np.pi, (20, 6))
-    by_table, by_urdf = table.forward(angles), urdf.forward(angles)
-    # UR's base is turned by half a turn against ROS's; its tool's frame is the same.
-    np.testing.assert_allclose(turn(2, np.pi) @ by_table, by_urdf, rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -12,47 +12,11 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.meshes import mesh_files, with_own_meshes
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.robots import link_end, load_robot, shown
-from tests.arms import GANTRY, RAILED, SCARA, panda
+from tests.arms import SCARA, panda
 from tests.kept import plain
 
 HOME = np.radians([20, -75, 115, -130, -80, 15])
 UR10 = "ur10_robot.urdf"
-
-
-def of_arm(arm) -> dict:
-    """All that an arm says of itself, in joint coordinates about its middle."""
-    rng = np.random.default_rng(3)
-    angles = rng.uniform(-0.9, 0.9, (4, len(arm.joints)))
-    chain = Chain.of(arm)
-    return {
-        "joints": arm.joints,
-        "ends": [arm.base, arm.tool, arm.massless],
-        "limits": [arm.model.lowerPositionLimit, arm.model.upperPositionLimit],
-        "slides": arm.slides,
-        "axes": arm.axes,
-        "poses": arm.forward(angles),
-        "skeleton": arm.skeleton(angles),
-        "jacobians": arm.forward_and_jacobian(angles)[1],
-        "by placements": arm.forward_and_all_jacobians(angles)[2],
-        "torques": arm.gravity_torque(angles),
-        "chain": [*chain, chain.jacobians(angles)],
-        "side by side": Chain.side_by_side([chain, chain]).forward(
-            np.stack([angles, angles[::-1]])
-        ),
-    }
-
-
-@pytest.mark.parametrize(
-    "name",
-    [(UR10, "tool0"), (UR10, "wrist_1_link", "shoulder_link"), ("panda.urdf", "panda_link8")],
-)
-def test_an_arm_of_a_package_is_as_kept(name, data_regression):
-    data_regression.check(plain(of_arm(load_arm(*name))))
-
-
-@pytest.mark.parametrize("text", [SCARA, GANTRY, RAILED], ids=["scara", "gantry", "railed"])
-def test_an_arm_with_slides_is_as_kept(text, load, data_regression):
-    data_regression.check(plain(of_arm(load(text))))
 
 
 @pytest.fixture(scope="module")
@@ -170,8 +134,3 @@ def test_why_arms_are_refused_is_as_kept(load, data_regression):
     still = re.sub("revolute|continuous|prismatic", "fixed", SCARA)
     said["still"] = why(load, still, "link_5")
     data_regression.check(said)
-
-
-@pytest.mark.parametrize("links", [("link_4", "link_1"), ("link_5", "link_2"), ("link_3",)])
-def test_a_part_of_an_arm_is_as_kept(links, load, data_regression):
-    data_regression.check(plain(of_arm(load(SCARA, *links))))

@@ -14,6 +14,11 @@ ARMS = {
 }
 
 
+def standing(name):
+    tool, posture = ARMS[name]
+    return load_arm(name, tool), np.array([posture])
+
+
 def by_chain(arm, poses, start):
     return Chain.of(arm).solve(poses, start)
 
@@ -45,8 +50,7 @@ def test_what_an_arm_reaches_is_found_from_nearby(name, solve):
 
 def test_no_step_is_longer_than_the_longest():
     """Else Newton's method could leave the branch that it starts on."""
-    tool, posture = ARMS["panda.urdf"]
-    arm, start, seen = load_arm("panda.urdf", tool), np.array([posture]), []
+    (arm, start), seen = standing("panda.urdf"), []
 
     def look(_, angles):
         seen.append(angles[0, 0])
@@ -59,8 +63,7 @@ def test_no_step_is_longer_than_the_longest():
 
 
 def test_a_step_of_a_redundant_arm_is_the_shortest():
-    tool, posture = ARMS["panda.urdf"]
-    arm, start = load_arm("panda.urdf", tool), np.array([posture])
+    arm, start = standing("panda.urdf")
     pose, jacobian = arm.forward_and_jacobian(start)
     pose[0, :3, 3] += 1e-5
     angles, left = Chain.of(arm).solve(pose, start)
@@ -107,8 +110,7 @@ def test_of_a_pose_that_nothing_reaches_the_best_angles_are_kept(robot):
 
 
 def test_positions_alone_are_reached_by_the_shortest_steps():
-    tool, posture = ARMS["ur10_robot.urdf"]
-    arm, start = load_arm("ur10_robot.urdf", tool), np.array([posture])
+    arm, start = standing("ur10_robot.urdf")
     pose, jacobian = arm.forward_and_jacobian(start)
     goal = pose[:, :3, 3] + 1e-5
     angles, left = in_groups(arm, goal, start)
@@ -119,8 +121,7 @@ def test_positions_alone_are_reached_by_the_shortest_steps():
 
 
 def test_half_a_turn_is_not_taken_for_none():
-    tool, posture = ARMS["ur10_robot.urdf"]
-    arm, start = load_arm("ur10_robot.urdf", tool), np.array([posture])
+    arm, start = standing("ur10_robot.urdf")
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])  # with the hand turned over
     angles, left = in_groups(arm, goal, start, steps=1)
     assert left[0] > 2
@@ -131,8 +132,7 @@ def test_half_a_turn_is_not_taken_for_none():
 
 def test_half_a_turn_is_not_reached_without_a_move():
     """By the loops, which measure it by its sine: the controller refuses it."""
-    tool, posture = ARMS["ur10_robot.urdf"]
-    arm, start = load_arm("ur10_robot.urdf", tool), np.array([posture])
+    arm, start = standing("ur10_robot.urdf")
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])
     _, left = by_chain(arm, goal, start)
     assert left == np.inf

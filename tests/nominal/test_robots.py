@@ -5,6 +5,7 @@ from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.nominal.arms import load_arm
 from recalib.nominal.robots import load_robot
 from recalib.study.scenarios.plants import nominal_robot
+from tests.arms import SCARA
 from tests.conftest import changed
 
 SIDES = [0.5, 0.6, 0.5], np.radians([40, 40, 40])
@@ -21,17 +22,6 @@ def test_a_longer_tool_goes_on_outwards_along_the_axis_of_the_last_joint(name, p
     wrist = short.arm.skeleton(short.home[None])[0, -2]
     ends = [np.linalg.norm(tool.workspace.centre[:3, 3] - wrist) for tool in (short, long)]
     assert ends[1] - ends[0] == pytest.approx(0.12)
-
-
-def test_the_workspace_is_centred_on_home(robot):
-    assert np.allclose(robot.workspace.centre, robot.arm.forward(robot.home[None])[0])
-    assert np.allclose(2 * robot.workspace.half_ranges[:3], [0.5, 0.6, 0.5])
-    assert np.allclose(np.degrees(2 * robot.workspace.half_ranges[3:]), 40)
-
-
-def test_a_locked_gripper_leaves_six_joints(plan):
-    joints = nominal_robot(plan.nominal("z1")).joints
-    assert joints == tuple(f"joint{index}" for index in range(1, 7))
 
 
 @pytest.mark.parametrize(
@@ -75,3 +65,12 @@ def test_a_workspace_without_size_is_refused(robot):
     home = dict(zip(robot.joints, robot.home, strict=True))
     with pytest.raises(InvalidSetting, match="above zero"):
         load_robot(robot.urdf, "tool0", home, [0, 0.6, 0.5], SIDES[1])
+
+
+def test_a_workspace_needs_six_joints(tmp_path):
+    (path := tmp_path / "scara.urdf").write_text(SCARA)
+    home = dict.fromkeys(("shoulder", "elbow", "quill", "wrist"), 0.1)
+    with pytest.raises(
+        UnsuitableRobot, match="with 4 joints: shoulder, .*; expected: at least six"
+    ):
+        load_robot(path, "link_5", home, *SIDES)
