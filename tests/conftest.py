@@ -48,6 +48,14 @@ def loaded_with(statement: str, heavy: set[str]) -> set[str]:
     return set(ran.stdout.split())
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A process takes all tests of a file, or of what is marked as a group: fixtures are shared."""
+    for item in items:
+        if not item.get_closest_marker("xdist_group"):
+            item.add_marker(pytest.mark.xdist_group(name=item.location[0]))
+
+
 @pytest.fixture(scope="session")
 def study() -> Study:
     return read_study(ROOT / "config.yaml")
