@@ -6,7 +6,7 @@ of its prior. The parameters that can compensate for it are its partners.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from recalib.identification.error_model import ErrorModel
 from recalib.identification.frames import HELD
 from recalib.identification.linearisation import Linearisation
 from recalib.identification.observations import Observations
-from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.numerics.randomness import generator
 
@@ -106,19 +105,14 @@ def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> 
     """Balls in sockets, pairs (2, p), in postures near the given ones (n, joints) that reach."""
     targets, sockets = pairs[:, np.arange(len(joints)) % pairs.shape[1]]
     goals = calibration.frames.sockets[sockets]
-    found, errors = joints.copy(), np.empty(len(joints))
-    for target in np.unique(targets):
-        rows = np.flatnonzero(targets == target)
-        arm = calibration.model.arm(calibration.estimate.parameters, target)
+    parametric = replace(calibration, pattern=None)
 
-        def kinematics(
-            _: np.ndarray, postures: np.ndarray, arm: Arm = arm
-        ) -> tuple[np.ndarray, np.ndarray]:
-            poses, jacobians = arm.forward_and_jacobian(postures[:, 0])
-            return poses[:, None], jacobians[:, None]
+    def kinematics(rows: np.ndarray, postures: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        poses, jacobians = parametric.predict_and_jacobian(postures[:, 0], targets[rows])
+        return poses[:, None], jacobians[:, None]
 
-        its = solve_groups(kinematics, goals[rows, None], joints[rows, None], SEATED, STEPS)
-        found[rows], errors[rows] = its[0][:, 0], its[1][:, 0]
+    its = solve_groups(kinematics, goals[:, None], joints[:, None], SEATED, STEPS)
+    found, errors = its[0][:, 0], its[1][:, 0]
     reached = errors <= SEATED
     return Observations(found[reached], None, targets[reached], sockets[reached])
 
