@@ -50,6 +50,13 @@ def test_orientations_are_those_of_scipy(numbers, turn, vectors):
     np.testing.assert_allclose(again, poses[:, :3, :3], rtol=0, atol=1e-12)
 
 
+def test_a_turn_next_to_half_a_turn_is_read_to_the_last_digits():
+    workspace = Workspace(np.eye(4), np.ones(6), "rotation_vector")
+    turned = np.array([[0, 0, 0, 0.6, 0, 0.8]]) * (np.pi - 1e-12)
+    again = workspace.to_coordinates(workspace.to_poses(turned))
+    np.testing.assert_allclose(again, turned, rtol=0, atol=1e-11)
+
+
 def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
     assert np.allclose(WORKSPACE.to_poses(np.zeros((1, 6)))[0], CENTRE)
     pose = WORKSPACE.to_poses(

@@ -22,6 +22,12 @@ BOARDS = {
 }
 
 
+@pytest.mark.parametrize(("kind", "bits", "white"), [("charuco", 4, 2), ("apriltag", 6, 2)])
+def test_a_marker_has_a_border_and_enough_white_about_it(kind, bits, white):
+    modules = bits + 2
+    assert BOARDS[kind].marker / BOARDS[kind].square == modules / (modules + white)
+
+
 @pytest.mark.parametrize("board", BOARDS.values(), ids=BOARDS)
 def test_a_board_is_printed_at_true_size(board, tmp_path):
     pdf, svg, png = (tmp_path / f"board.{kind}" for kind in ("pdf", "svg", "png"))

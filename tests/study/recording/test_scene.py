@@ -229,3 +229,11 @@ def test_plots_reach_to_the_last_iteration_of_the_longest_training():
     for view in views:
         (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
         assert [shown["start"], shown["end"]] == [0, 220], "with room for the number of the last"
+
+
+def test_a_plot_of_no_error_reaches_as_far_as_one_can_read():
+    nothing = dict.fromkeys(TITLES, np.zeros(2))
+    history = SimpleNamespace(iterations=np.array([0, 200]), columns=nothing.copy)
+    for view in _plots(["intact"], {"intact": SimpleNamespace(history=history)}, {}):
+        (ends,) = view.properties["ScalarAxis"].range.as_arrow_array().to_pylist()
+        assert ends[1] >= 0.1
