@@ -126,7 +126,7 @@ def _miss(axes: Axes, tip: np.ndarray) -> None:
     axes.plot(*np.stack([tip + BASE, DESIRED + BASE]).T, color=FAILS, linestyle=":", linewidth=2)
 
 
-NETS = Nets((3, 3, 1), (3, 3, 1))  # one layer of each net
+NETS = Nets((3, 3, 1), (3, 3, 1), "boxes", (1.0,) * 6)  # one layer of each net
 WIDE = 0.9  # of all neighbourhoods, in workspace coordinates: which is wider is searched for
 
 
