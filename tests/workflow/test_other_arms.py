@@ -1,4 +1,4 @@
-"""An arm that config.yaml does not know, from its URDF to what came out."""
+"""Arms of example-robot-data that config.yaml does not know, from their URDF to what came out."""
 
 import pandas as pd
 import pytest
@@ -16,9 +16,10 @@ LESS = {
 
 
 @pytest.mark.slow
-def test_another_arm_is_damaged_trained_drawn_and_recorded(tmp_path):
-    """One of seven joints, with the paper's damage."""
-    row = next(row for row in ARMS if row["urdf"] == "xarm7.urdf")
+@pytest.mark.parametrize("urdf", ["kinova.urdf", "xarm7.urdf"])
+def test_another_arm_is_damaged_trained_drawn_and_recorded(urdf, tmp_path):
+    """One of six joints and one of seven, with the paper's damage."""
+    row = next(row for row in ARMS if row["urdf"] == urdf)
     mine = {"like": "quick", "robot": "mine", "robots": {"mine": entry_of(row)}} | LESS
     project = Project(tmp_path, *CORES, "--configfile", "mine.yaml", name="mine")
     (tmp_path / "mine.yaml").write_text(yaml.safe_dump(mine), encoding="utf-8")
