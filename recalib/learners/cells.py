@@ -102,14 +102,18 @@ def _read(
     return held
 
 
+@compiled
 def _outlast(weights: np.ndarray) -> np.ndarray:
-    """Turn the weights of updates (update, ...) into those that they keep under the later ones.
+    """Turn the weights of updates (update, K, L) into those that they keep under the later ones.
 
     Each later update towards a value leaves 1 - weight of what was there. In place; returns what
-    all together leave (...) of what was there before.
+    all together leave (K, L) of what was there before.
     """
-    remaining = 1 - weights
-    for update in reversed(range(len(weights) - 1)):
-        remaining[update] *= remaining[update + 1]
-    weights[:-1] *= remaining[1:]
-    return remaining[0]
+    remaining = np.ones(weights.shape[1:])
+    for update in range(len(weights) - 1, -1, -1):
+        for k in range(weights.shape[1]):
+            for l in range(weights.shape[2]):
+                weight = weights[update, k, l]
+                weights[update, k, l] = weight * remaining[k, l]
+                remaining[k, l] *= 1 - weight
+    return remaining
