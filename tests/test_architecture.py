@@ -21,17 +21,17 @@ STUDY = """
 """.split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
-    "laboratory/drawings.py": {"matplotlib"},
-    "laboratory/page.py": {"jinja2"},
-    "laboratory/live_view.py": {"rerun"},
-    "laboratory/watching.py": {"rerun"},
-    "laboratory/viewing.py": {"rerun"},
+    "laboratory/report/drawings.py": {"matplotlib"},
+    "laboratory/report/page.py": {"jinja2"},
+    "laboratory/live/view.py": {"rerun"},
+    "laboratory/report/recording.py": {"rerun"},
+    "laboratory/viewer/arms.py": {"rerun"},
 }
-PROGRAM = {"laboratory/viewer.py": {"rerun_cli"}}  # of the viewer, which comes with rerun
+PROGRAM = {"laboratory/viewer/program.py": {"rerun_cli"}}  # of the viewer, which comes with rerun
 # What needs the extra `vision`: modules that nothing imports at once but each other.
 PICTURES = {
-    "laboratory/observe.py": {"cv2"},
-    "laboratory/observed_page.py": {"cv2", "matplotlib"},
+    "laboratory/pictures/observe.py": {"cv2"},
+    "laboratory/report/observed_page.py": {"cv2", "matplotlib"},
     "station/pictures.py": {"cv2"},
     "vision/boards.py": {"cv2"},
     "vision/detection.py": {"cv2"},
@@ -73,7 +73,7 @@ ARMS = {"numba", "pinocchio", "scipy.spatial"}
 # What modules bring when they are imported: of the library, and those with a function for a rule.
 BRINGS = {
     "recalib recalib.laboratory.command_line recalib.damaged.kinds": set(),
-    "recalib.laboratory.files recalib.laboratory.page recalib.numerics.regression": {
+    "recalib.laboratory.report.files recalib.laboratory.report.page recalib.numerics.regression": {
         "jinja2",
         "matplotlib",
         "pinocchio",
@@ -194,8 +194,9 @@ def test_what_draws_a_calibration_is_not_needed_to_make_one(package):
     """Where a package of the extra `laboratory` is absent, a file to look at is, and says so."""
     text = (
         f"import sys; sys.modules[{package!r}] = None\n"
-        "from recalib.laboratory import calibrate, correct, propose, command_line\n"
-        "from recalib.laboratory.files import optional_outputs\n"
+        "from recalib.laboratory import calibrate, propose, command_line\n"
+        "from recalib.laboratory.correction import correct\n"
+        "from recalib.laboratory.report.files import optional_outputs\n"
         "written, missing = optional_outputs()\n"
         "print(len(written), missing)"
     )

@@ -19,7 +19,7 @@ from typing import Any
 from rerun.chunk import RrdReader
 
 from recalib.errors import RecalibError
-from recalib.laboratory.viewer import HERE
+from recalib.laboratory.viewer.program import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.evidence.report import layout
 from recalib.study.plan.recordings import TODAYS

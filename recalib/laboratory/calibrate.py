@@ -21,14 +21,14 @@ from recalib.identification.repeatability import weigh
 from recalib.identification.scales import Scale, scales
 from recalib.identification.sequence import Fault, faults
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
-from recalib.laboratory.correction import Correction
-from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.fault_words import in_words
-from recalib.laboratory.knowledge import check_distances, frames_by_sights
-from recalib.laboratory.measurements import OBSERVED, Measurements, read_measurements
-from recalib.laboratory.nominal_checks import check_nominal
+from recalib.laboratory.arms.urdf import corrected_urdf
+from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.places import INSTRUMENT, Place, found_places
-from recalib.laboratory.urdf import corrected_urdf
+from recalib.laboratory.tables.description import Description, read_description
+from recalib.laboratory.tables.fault_words import in_words
+from recalib.laboratory.tables.knowledge import check_distances, frames_by_sights
+from recalib.laboratory.tables.measurements import OBSERVED, Measurements, read_measurements
+from recalib.laboratory.tables.nominal_checks import check_nominal
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
@@ -213,7 +213,7 @@ def calibrate_arm(
     scaled: tuple[str, ...] = ("positions",)
     instruments, sights = INSTRUMENT, None
     if folders:  # OpenCV is imported only for these
-        from recalib.laboratory.observed import with_pixels
+        from recalib.laboratory.pictures.observed import with_pixels
 
         seen = with_pixels([rows for rows, *_ in read], folders)
         observations, instruments, targets, sights, scaled = seen

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from recalib.errors import RecalibError, UnknownName
+from recalib.files.outputs import check_new, is_taken, new
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parser_of
-from recalib.laboratory.outputs import check_new, is_taken, new
 
 CACHE = "MPLCONFIGDIR"  # the variable with the folder of Matplotlib's
 
@@ -68,7 +68,7 @@ def _no_cache_at_home() -> Iterator[None]:
 
 
 def _live(given: argparse.Namespace) -> int:
-    from recalib.laboratory.live_command import measure_live
+    from recalib.laboratory.live.command import measure_live
 
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
     given.measurements = [given.table]
@@ -77,8 +77,8 @@ def _live(given: argparse.Namespace) -> int:
 
 def _calibrate(given: argparse.Namespace) -> int:
     from recalib.laboratory.calibrate import calibrate_arm
-    from recalib.laboratory.files import optional_outputs, write_files
-    from recalib.laboratory.summary import summary
+    from recalib.laboratory.report.files import optional_outputs, write_files
+    from recalib.laboratory.report.summary import summary
 
     known = given.description, given.tool, given.base
     result = calibrate_arm(given.urdf, given.measurements, *known, _print_progress)
@@ -95,10 +95,10 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correct import correct, unidentifiable_ends
-    from recalib.laboratory.correction import load_correction
-    from recalib.laboratory.files import CORRECTION, write_postures
-    from recalib.laboratory.measurements import read_desired
+    from recalib.laboratory.correction.archive import load_correction
+    from recalib.laboratory.correction.correct import correct, unidentifiable_ends
+    from recalib.laboratory.report.files import CORRECTION, write_postures
+    from recalib.laboratory.tables.measurements import read_desired
 
     correction = load_correction(given.calibration / CORRECTION)
     in_instrument = given.frame == "instrument"
@@ -125,10 +125,10 @@ def _correct(given: argparse.Namespace) -> int:
 
 
 def _next(given: argparse.Namespace) -> int:
-    from recalib.laboratory.correction import load_correction
-    from recalib.laboratory.files import CORRECTION, write_postures
-    from recalib.laboratory.measurements import read_desired
+    from recalib.laboratory.correction.archive import load_correction
     from recalib.laboratory.propose import propose
+    from recalib.laboratory.report.files import CORRECTION, write_postures
+    from recalib.laboratory.tables.measurements import read_desired
 
     correction = load_correction(given.calibration / CORRECTION)
     candidates = given.candidates and read_desired(given.candidates, correction.arm)
@@ -146,7 +146,7 @@ def _next(given: argparse.Namespace) -> int:
 
 
 def _urdf(given: argparse.Namespace) -> int:
-    from recalib.laboratory.links import read_rows, urdf_of
+    from recalib.laboratory.arms.links import read_rows, urdf_of
     from recalib.nominal.denavit_hartenberg import arm_of_table
 
     arm = arm_of_table(read_rows(given.links), given.convention)
@@ -173,8 +173,8 @@ def _board(given: argparse.Namespace) -> int:
 
 
 def _observe(given: argparse.Namespace) -> int:
-    from recalib.laboratory.observe import IN_HAND, observe, write_observed
-    from recalib.laboratory.observed_page import write_observed_page
+    from recalib.laboratory.pictures.observe import IN_HAND, observe, write_observed
+    from recalib.laboratory.report.observed_page import write_observed_page
 
     files = given.pictures, given.joints, given.board, given.lens
     result = observe(*files, given.camera == IN_HAND, _print_progress, given.name)

@@ -11,9 +11,9 @@ import numpy as np
 
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.identification.design import most_informative
-from recalib.laboratory.correct import solve
-from recalib.laboratory.correction import Correction
-from recalib.laboratory.measurements import Measurements
+from recalib.laboratory.correction.archive import Correction
+from recalib.laboratory.correction.correct import solve
+from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 

@@ -6,12 +6,12 @@ import pytest
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
-from recalib.laboratory.correct import correct, unidentifiable_ends
-from recalib.laboratory.knowledge import WrongKnowledge
-from recalib.laboratory.measurements import Measurements
-from recalib.laboratory.parameters import described
+from recalib.laboratory.correction.correct import correct, unidentifiable_ends
 from recalib.laboratory.propose import propose
-from recalib.laboratory.summary import summary
+from recalib.laboratory.report.parameters import described
+from recalib.laboratory.report.summary import summary
+from recalib.laboratory.tables.knowledge import WrongKnowledge
+from recalib.laboratory.tables.measurements import Measurements
 from tests.laboratory.conftest import (
     NOISE,
     OFFSETS,

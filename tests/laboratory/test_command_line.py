@@ -12,7 +12,7 @@ import pytest
 
 from recalib.laboratory import command_line
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
-from recalib.laboratory.correction import load_correction
+from recalib.laboratory.correction.archive import load_correction
 from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import (
     ARM,

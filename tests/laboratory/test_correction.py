@@ -15,9 +15,9 @@ from recalib.identification.calibration import calibrate
 from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correct import NotReached, correct
-from recalib.laboratory.correction import Correction, load_correction
-from recalib.laboratory.measurements import Measurements
+from recalib.laboratory.correction.archive import Correction, load_correction
+from recalib.laboratory.correction.correct import NotReached, correct
+from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.arms import find_urdf, load_arm
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil

@@ -13,8 +13,8 @@ from recalib.identification.scales import Scale
 from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
-from recalib.laboratory.doubts import doubts
-from recalib.laboratory.summary import summary
+from recalib.laboratory.report.doubts import doubts
+from recalib.laboratory.report.summary import summary
 from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
 
 ROWS = 60

@@ -11,16 +11,16 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
-from recalib.laboratory import watching
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.correct import correct, solve, unidentifiable_ends
-from recalib.laboratory.correction import load_correction
-from recalib.laboratory.description import Description
-from recalib.laboratory.files import optional_outputs, write_files
-from recalib.laboratory.measurements import Measurements
-from recalib.laboratory.parameters import unidentifiable_directions
+from recalib.laboratory.correction.archive import load_correction
+from recalib.laboratory.correction.correct import correct, solve, unidentifiable_ends
 from recalib.laboratory.propose import propose
-from recalib.laboratory.summary import errors_table, notes, verdict
+from recalib.laboratory.report import recording
+from recalib.laboratory.report.files import optional_outputs, write_files
+from recalib.laboratory.report.parameters import unidentifiable_directions
+from recalib.laboratory.report.summary import errors_table, notes, verdict
+from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.arms import load_arm
 from tests.arms import urdf
 from tests.identification.real import Real
@@ -183,13 +183,13 @@ def test_the_files_of_a_calibration_are_as_kept(name, made, tmp_path, data_regre
 
 
 def test_the_recording_of_a_calibration_is_as_kept(made, tmp_path, data_regression):
-    watching.write_recording(tmp_path / "its.rrd", made("poses"))
+    recording.write_recording(tmp_path / "its.rrd", made("poses"))
     found = {
         key: [coarse(one, 3) if isinstance(one, np.ndarray) else one for one in its]
         for key, its in logged(tmp_path / "its.rrd").items()
         if "/__properties" not in key
     }
-    data_regression.check(plain([found, arranged(watching._blueprint(20.0))]))
+    data_regression.check(plain([found, arranged(recording._blueprint(20.0))]))
 
 
 @pytest.mark.parametrize("name", ["poses", "targets"])

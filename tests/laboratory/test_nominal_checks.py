@@ -2,7 +2,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from recalib.laboratory.nominal_checks import WrongNominal, check_nominal
+from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal
 from recalib.nominal.arms import load_arm
 
 TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m

@@ -15,10 +15,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from recalib.errors import InvalidFile
-from recalib.laboratory import calibrate, files
+from recalib.files.outputs import MARK, new
+from recalib.laboratory import calibrate
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.files import NAMES
-from recalib.laboratory.outputs import MARK, new
+from recalib.laboratory.report import files
+from recalib.laboratory.report.files import NAMES
 
 LINKS = "joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,0,-90,412,0\nboom,300,0,0,0\n"
 INPUTS = "arm.urdf", "rows.csv", "links.csv"

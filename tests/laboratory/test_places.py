@@ -16,10 +16,10 @@ from recalib.identification.linearisation import displacements
 from recalib.identification.observations import Observations
 from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.files import write_files
-from recalib.laboratory.measurements import POSITION
 from recalib.laboratory.places import found_places
-from recalib.laboratory.summary import summary
+from recalib.laboratory.report.files import write_files
+from recalib.laboratory.report.summary import summary
+from recalib.laboratory.tables.measurements import POSITION
 from recalib.nominal.arms import load_arm
 from tests.identification.real import ARMS, Real
 from tests.laboratory.conftest import write

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.observations import Observations
-from recalib.laboratory.description import read_description
-from recalib.laboratory.measurements import read_measurements
+from recalib.laboratory.tables.description import read_description
+from recalib.laboratory.tables.measurements import read_measurements
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.kinematics import Arm

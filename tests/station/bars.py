@@ -20,11 +20,11 @@ import pinocchio as pin
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances, Noise
-from recalib.laboratory.allowed import AllowedPostures
-from recalib.laboratory.description import Description
-from recalib.laboratory.live import LiveSettings, calibrate_live
-from recalib.laboratory.record import Record
-from recalib.laboratory.running import RunningCalibration
+from recalib.laboratory.live.allowed import AllowedPostures
+from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
+from recalib.laboratory.live.record import Record
+from recalib.laboratory.live.running import RunningCalibration
+from recalib.laboratory.tables.description import Description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station

@@ -16,11 +16,11 @@ from recalib.identification.calibration import calibrate
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.observations import Observations
 from recalib.identification.validation import CANDIDATES, HYBRID
-from recalib.laboratory.allowed import AllowedPostures
-from recalib.laboratory.correction import Correction
-from recalib.laboratory.corrector import Corrector
-from recalib.laboratory.description import Description
-from recalib.laboratory.running import RunningCalibration
+from recalib.laboratory.correction.archive import Correction
+from recalib.laboratory.correction.corrector import Corrector
+from recalib.laboratory.live.allowed import AllowedPostures
+from recalib.laboratory.live.running import RunningCalibration
+from recalib.laboratory.tables.description import Description
 from tests.identification.real import ARMS, Real
 from tests.station.bars import FINE, GEARS
 from tests.station.simulated import Simulated

@@ -15,13 +15,13 @@ import pytest
 import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
-from recalib.laboratory.allowed import AllowedPostures, Box
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correct import NotReached
-from recalib.laboratory.corrector import Corrector
-from recalib.laboratory.live import Interrupted, LiveSettings, calibrate_live
-from recalib.laboratory.live_view import LiveView
+from recalib.laboratory.correction.correct import NotReached
+from recalib.laboratory.correction.corrector import Corrector
+from recalib.laboratory.live.allowed import AllowedPostures, Box
+from recalib.laboratory.live.calibration import Interrupted, LiveSettings, calibrate_live
+from recalib.laboratory.live.view import LiveView
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed

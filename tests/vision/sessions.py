@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.laboratory.columns import read_table
-from recalib.laboratory.observe import Observed, Picture, write_observed
+from recalib.laboratory.pictures.observe import Observed, Picture, write_observed
+from recalib.laboratory.tables.columns import read_table
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens

@@ -14,9 +14,9 @@ from recalib.errors import RecalibError
 from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.hand_eye import hand_eye
-from recalib.laboratory.observe import observe
-from recalib.laboratory.summary import verdict
+from recalib.laboratory.pictures.observe import observe
+from recalib.laboratory.report.hand_eye import hand_eye
+from recalib.laboratory.report.summary import verdict
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import read_lens
@@ -192,7 +192,8 @@ def taken(tmp_path, monkeypatch):
         (tmp_path / "board.toml").write_text(cell.board.described())
         (tmp_path / "lens.yaml").write_text(LENS.as_ros())
         monkeypatch.setattr(
-            "recalib.laboratory.observe.find_corners", lambda board, grey: views[grey[0, 0]]
+            "recalib.laboratory.pictures.observe.find_corners",
+            lambda board, grey: views[grey[0, 0]],
         )
         files = (tmp_path / name for name in ("joints.csv", "board.toml", "lens.yaml"))
         return cell, views, (tmp_path, *files)

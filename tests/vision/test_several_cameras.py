@@ -13,9 +13,9 @@ from recalib.errors import RecalibError
 from recalib.identification.linearisation import displacements
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.hand_eye import pixel_error
-from recalib.laboratory.observed import fitted_lenses
-from recalib.laboratory.summary import summary, verdict
+from recalib.laboratory.pictures.observed import fitted_lenses
+from recalib.laboratory.report.hand_eye import pixel_error
+from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
 from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell, frame

@@ -6,7 +6,7 @@ import pytest
 
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.live import LiveSettings, calibrate_live
+from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
 from recalib.station.interface import StationFailed
 from recalib.station.pictures import PicturesOfABoard
 from tests.vision.rendering import Cell

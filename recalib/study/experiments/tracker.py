@@ -1,6 +1,6 @@
 """Laser tracker data of a real arm: tables of positions, fetched from their public address.
 
-A description has their columns and frames (`recalib.laboratory.description`).
+A description has their columns and frames (`recalib.laboratory.tables.description`).
 """
 
 import hashlib
@@ -13,9 +13,9 @@ import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
 from recalib.files.storage import whole
-from recalib.laboratory.description import Description, read_description
-from recalib.laboratory.measurements import NOMINAL, read_measurements
-from recalib.laboratory.nominal_checks import check_nominal
+from recalib.laboratory.tables.description import Description, read_description
+from recalib.laboratory.tables.measurements import NOMINAL, read_measurements
+from recalib.laboratory.tables.nominal_checks import check_nominal
 from recalib.nominal.kinematics import Arm
 from recalib.study.configuration.study import Source
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from recalib.laboratory.viewer import PROGRAM, quiet
+from recalib.laboratory.viewer.program import PROGRAM, quiet
 from recalib.study.recording import pictures
 from recalib.study.recording.phases import ARM, BEFORE
 from recalib.study.recording.pictures import ViewerUnavailable, ends, take_pictures
@@ -36,7 +36,7 @@ def test_nothing_else_starts_it():
         path for part in ("recalib", "workflow", "tests") for path in (ROOT / part).rglob("*.py")
     ]
     starting = {path for path in files if "rerun_cli" in imported(path)}
-    assert starting == {Path(ROOT, "recalib", "laboratory", "viewer.py")}
+    assert starting == {Path(ROOT, "recalib", "laboratory", "viewer", "program.py")}
 
 
 @pytest.mark.slow

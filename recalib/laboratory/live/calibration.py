@@ -9,10 +9,10 @@ import numpy as np
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
 from recalib.identification.diagnostics import FEWEST
 from recalib.identification.observations import Observations
-from recalib.laboratory.allowed import AllowedPostures, Box
-from recalib.laboratory.description import Description
-from recalib.laboratory.record import Record
-from recalib.laboratory.running import AHEAD, RunningCalibration
+from recalib.laboratory.live.allowed import AllowedPostures, Box
+from recalib.laboratory.live.record import Record
+from recalib.laboratory.live.running import AHEAD, RunningCalibration
+from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED, Guarded
 from recalib.station.interface import Station, StationFailed

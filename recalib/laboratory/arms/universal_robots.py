@@ -11,7 +11,7 @@ import numpy as np
 import pinocchio as pin
 
 from recalib.identification.calibration import Calibration
-from recalib.laboratory.urdf import angles_of, offset_poses
+from recalib.laboratory.arms.urdf import angles_of, offset_poses
 from recalib.nominal.kinematics import Arm
 
 JOINTS = "shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3"

@@ -11,9 +11,9 @@ from typing import Any
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME
 from recalib.files.storage import read_file
-from recalib.laboratory.allowed import Box
-from recalib.laboratory.description import read_description
-from recalib.laboratory.live import LiveSettings, calibrate_live
+from recalib.laboratory.live.allowed import Box
+from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
+from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import MOST, find_urdf
 from recalib.station.interface import Station
@@ -36,7 +36,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     ask = partial(_ask_to_move, arm.joints, arm.slides.tolist())
     watch: dict[str, Any] = {}
     if given.view:
-        from recalib.laboratory.live_view import LiveView
+        from recalib.laboratory.live.view import LiveView
 
         urdf = find_urdf(given.urdf)
         watch["on_row"] = LiveView(arm, read_file(urdf, MOST), urdf).show
@@ -65,7 +65,7 @@ def _settings(given: argparse.Namespace) -> LiveSettings:
 
 def _with_board(opening: Callable[[], Station], given: argparse.Namespace) -> Callable[[], Station]:
     """What opens a station that takes pictures, as one that measures the board in them."""
-    from recalib.laboratory.observe import IN_HAND
+    from recalib.laboratory.pictures.observe import IN_HAND
     from recalib.station.pictures import PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.validation import NOTHING, WAYS
+from recalib.laboratory.arms.urdf import angles_of
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.places import Place
-from recalib.laboratory.urdf import angles_of
 
 
 def pixel_error(result: Calibrated, way: str, kind: str, sight: int | None = None) -> float:

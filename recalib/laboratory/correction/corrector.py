@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from recalib.laboratory.correct import reach
-from recalib.laboratory.correction import Correction
-from recalib.laboratory.measurements import Measurements
+from recalib.laboratory.correction.archive import Correction
+from recalib.laboratory.correction.correct import reach
+from recalib.laboratory.tables.measurements import Measurements
 
 
 class Corrector:

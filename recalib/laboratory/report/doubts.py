@@ -6,7 +6,7 @@ import numpy as np
 
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.fault_words import in_words
+from recalib.laboratory.tables.fault_words import in_words
 
 RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
 TOGETHER = 0.3  # the part of residuals that may remain, were all links longer by one factor

@@ -7,8 +7,8 @@ import pinocchio as pin
 
 from recalib.errors import InvalidFile
 from recalib.files.quantities import ANGLE, LENGTH
-from recalib.laboratory.columns import read_table
-from recalib.laboratory.urdf import angles_of, written
+from recalib.laboratory.arms.urdf import angles_of, written
+from recalib.laboratory.tables.columns import read_table
 from recalib.nominal.arms import UNBOUNDED
 from recalib.nominal.denavit_hartenberg import BASE, TOOL, Row
 from recalib.nominal.kinematics import Arm, tool_frame

@@ -7,7 +7,7 @@ import rerun as rr
 import rerun.blueprint as rrb
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.viewing import ARM, GREY, ROW, THICK, log_meshes, send_arm
+from recalib.laboratory.viewer.arms import ARM, GREY, ROW, THICK, log_meshes, send_arm
 
 COLOURS = {"before": (213, 94, 0), "after": (0, 114, 178)}
 LONGEST = 0.12  # m: so long is the largest error shown

@@ -16,8 +16,8 @@ from recalib.files.quantities import Quantity
 from recalib.files.storage import read_file
 from recalib.identification.observations import Observations
 from recalib.identification.optics import BOARD, OPTICS, Optics
-from recalib.laboratory.columns import NUMBER, Table, read_table
-from recalib.laboratory.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
+from recalib.laboratory.pictures.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
+from recalib.laboratory.tables.columns import NUMBER, Table, read_table
 from recalib.vision.boards import MOST, Board, read_board
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.lenses import Lens, read_lens

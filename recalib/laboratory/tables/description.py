@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_file
-from recalib.laboratory.columns import FARTHEST
+from recalib.laboratory.tables.columns import FARTHEST
 
 PARTS = "columns", "instrument", "target", "distance"
 MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them

@@ -9,9 +9,9 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import InvalidSetting
 from recalib.identification.observations import Observations
-from recalib.laboratory.running import RunningCalibration
-from recalib.laboratory.viewer import HERE, answer, free_port, start
-from recalib.laboratory.viewing import ARM, GREY, ROW, THICK, log_meshes, send_arm
+from recalib.laboratory.live.running import RunningCalibration
+from recalib.laboratory.viewer.arms import ARM, GREY, ROW, THICK, log_meshes, send_arm
+from recalib.laboratory.viewer.program import HERE, answer, free_port, start
 from recalib.nominal.kinematics import Arm
 
 SURE, UNSURE = np.array([0, 114, 178]), np.array([213, 94, 0])

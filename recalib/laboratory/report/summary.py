@@ -14,11 +14,11 @@ from recalib.identification.validation import (
     RANDOM,
     WAYS,
 )
+from recalib.laboratory.arms.urdf import angles_of
 from recalib.laboratory.calibrate import Calibrated, rows_of
-from recalib.laboratory.doubts import doubts
-from recalib.laboratory.hand_eye import pixel_error
-from recalib.laboratory.parameters import unidentifiable_directions
-from recalib.laboratory.urdf import angles_of
+from recalib.laboratory.report.doubts import doubts
+from recalib.laboratory.report.hand_eye import pixel_error
+from recalib.laboratory.report.parameters import unidentifiable_directions
 from recalib.nominal.meshes import with_own_meshes
 
 DOING = {

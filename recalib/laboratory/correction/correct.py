@@ -14,8 +14,8 @@ from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
 from recalib.identification.error_model import by_sight
 from recalib.identification.linearisation import LEVER
-from recalib.laboratory.correction import Correction
-from recalib.laboratory.measurements import Measurements
+from recalib.laboratory.correction.archive import Correction
+from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.poses import orientation_error, position_error

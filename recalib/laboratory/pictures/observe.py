@@ -12,10 +12,10 @@ import cv2
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
+from recalib.files.outputs import new
 from recalib.files.quantities import ANGLE, LENGTH
-from recalib.laboratory.columns import POSE, Table, read_table, write_table
-from recalib.laboratory.measurements import OBSERVED, PICTURE, VECTORS
-from recalib.laboratory.outputs import new
+from recalib.laboratory.tables.columns import POSE, Table, read_table, write_table
+from recalib.laboratory.tables.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Corners, Unusable, find_corners

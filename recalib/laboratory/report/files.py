@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from recalib.files.outputs import new
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
+from recalib.laboratory.arms.universal_robots import kinematics_yaml
+from recalib.laboratory.arms.urdf import angles_of
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.columns import POSE, write_table
-from recalib.laboratory.hand_eye import hand_eye
-from recalib.laboratory.outputs import new
-from recalib.laboratory.parameters import described
-from recalib.laboratory.summary import DOING, errors_table, summary, verdict
-from recalib.laboratory.universal_robots import kinematics_yaml
-from recalib.laboratory.urdf import angles_of
+from recalib.laboratory.report.hand_eye import hand_eye
+from recalib.laboratory.report.parameters import described
+from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
+from recalib.laboratory.tables.columns import POSE, write_table
 from recalib.nominal.kinematics import Arm
 
 CORRECTION, HAND_EYE = "correction.npz", "hand_eye.toml"
@@ -66,8 +66,8 @@ def optional_outputs() -> tuple[list[tuple[str, Callable[[Path, Calibrated], Non
     """What writes the files to look at, and a sentence for each that cannot be written here."""
     writers, missing = [], []
     for name, module, function in (
-        ("page.html", "recalib.laboratory.page", "write_page"),
-        ("recording.rrd", "recalib.laboratory.watching", "write_recording"),
+        ("page.html", "recalib.laboratory.report.page", "write_page"),
+        ("recording.rrd", "recalib.laboratory.report.recording", "write_recording"),
     ):
         try:
             writers.append((name, getattr(import_module(module), function)))
@@ -123,7 +123,7 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
 
 def _write_hand_eye(folder: Path, result: Calibrated) -> None:
     """Where cameras and boards are, and the lenses that go with it."""
-    from recalib.laboratory.observed import fitted_lenses  # OpenCV is there for pictures
+    from recalib.laboratory.pictures.observed import fitted_lenses  # OpenCV is there for pictures
 
     (folder / HAND_EYE).write_text(hand_eye(result), encoding="utf-8")
     calibration = result.geometry if result.worthwhile else result.calibration

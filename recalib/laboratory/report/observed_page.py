@@ -7,9 +7,9 @@ import cv2
 import numpy as np
 from matplotlib import rc_context
 
-from recalib.laboratory.drawings import COLOURS, STYLE, figure_of, svg_of
-from recalib.laboratory.observe import WIDE, Observed, Picture
-from recalib.laboratory.page import write_html
+from recalib.laboratory.pictures.observe import WIDE, Observed, Picture
+from recalib.laboratory.report.drawings import COLOURS, STYLE, figure_of, svg_of
+from recalib.laboratory.report.page import write_html
 
 DOT, COLOUR = 2, (178, 114, 0)  # px, and blue as OpenCV has it
 QUALITY = 70  # of JPEG

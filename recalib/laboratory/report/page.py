@@ -6,9 +6,9 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.drawings import COLOURS, draw_arm, draw_errors, draw_over_joints
-from recalib.laboratory.parameters import described
-from recalib.laboratory.summary import errors_table, notes, verdict
+from recalib.laboratory.report.drawings import COLOURS, draw_arm, draw_errors, draw_over_joints
+from recalib.laboratory.report.parameters import described
+from recalib.laboratory.report.summary import errors_table, notes, verdict
 
 LISTED = 15  # parameters, the surest first
 
@@ -16,7 +16,7 @@ LISTED = 15  # parameters, the surest first
 def write_html(path: Path, template: str, **values: Any) -> None:
     """Write a page from a template and the values in it."""
     environment = Environment(
-        loader=PackageLoader("recalib.laboratory", "."),
+        loader=PackageLoader("recalib.laboratory.report", "."),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

@@ -13,9 +13,9 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.observations import Observations
 from recalib.laboratory.calibrate import observations_of
-from recalib.laboratory.columns import MOST
-from recalib.laboratory.description import Description
-from recalib.laboratory.measurements import measurements_so_far
+from recalib.laboratory.tables.columns import MOST
+from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.measurements import measurements_so_far
 from recalib.nominal.kinematics import Arm
 
 

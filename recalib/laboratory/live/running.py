@@ -18,10 +18,10 @@ from recalib.identification.initial_estimate import SPARE, fewest
 from recalib.identification.linearisation import LEVER
 from recalib.identification.observations import Observations
 from recalib.identification.validation import OUTLYING
-from recalib.laboratory.allowed import AllowedPostures
-from recalib.laboratory.description import Description
-from recalib.laboratory.knowledge import checked_frames
+from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.propose import PROBES, variances
+from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.knowledge import checked_frames
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.summary import UNITS
+from recalib.laboratory.report.summary import UNITS
 
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
 WIDTH = 9.6  # inches

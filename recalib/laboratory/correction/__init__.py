@@ -1,0 +1,1 @@
+"""Corrected commands for an unchanged controller."""

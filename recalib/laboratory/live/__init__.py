@@ -1,0 +1,1 @@
+"""An arm that moves, measures and calibrates itself."""

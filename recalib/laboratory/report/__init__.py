@@ -1,0 +1,1 @@
+"""What a calibration says: in words, on a page, in files."""

@@ -1,0 +1,1 @@
+"""Tables of measurements: how they are read, and checked before the fit."""
