@@ -26,12 +26,12 @@ from recalib.errors import UnsuitableRobot as UnsuitableRobot
 from recalib.identification.calibration import Calibration as Calibration
 from recalib.identification.calibration import calibrate as calibrate
 from recalib.identification.design import information_gains as information_gains
-from recalib.identification.error_model import JOINT_ERRORS as JOINT_ERRORS
-from recalib.identification.error_model import JOINT_WAVES as JOINT_WAVES
-from recalib.identification.error_model import OFFSETS as OFFSETS
 from recalib.identification.initial_estimate import initial_frames as initial_frames
-from recalib.identification.observations import Distance as Distance
-from recalib.identification.observations import Observations as Observations
+from recalib.identification.model.error_model import JOINT_ERRORS as JOINT_ERRORS
+from recalib.identification.model.error_model import JOINT_WAVES as JOINT_WAVES
+from recalib.identification.model.error_model import OFFSETS as OFFSETS
+from recalib.identification.model.observations import Distance as Distance
+from recalib.identification.model.observations import Observations as Observations
 from recalib.laboratory.calibrate import calibrate_arm as calibrate_arm
 from recalib.laboratory.correction.archive import load_correction as load_correction
 from recalib.laboratory.correction.correct import correct as correct

@@ -34,9 +34,9 @@ from recalib.study.configuration.switches import SWITCHES
 from recalib.study.evidence import effects
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
-from recalib.study.evidence.findings import COUNTED
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.real_arm import real_errors
+from recalib.study.evidence.pages.findings import COUNTED
+from recalib.study.evidence.pages.real_arm import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
 from recalib.study.experiments.samples import sample_of, sought

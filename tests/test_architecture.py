@@ -19,6 +19,17 @@ STUDY = """
     inference configuration scenarios plan mapping experiments evidence checks multiverse plots
     recording studies
 """.split()  # noqa: SIM905
+IDENTIFICATION = """
+    model closed_forms initial_estimate estimation parameters calibration consensus design checks
+    held_out validation
+""".split()  # noqa: SIM905
+LABORATORY = """
+    tables arms correction pictures places calibrate propose viewer live report options command_line
+""".split()  # noqa: SIM905
+EVIDENCE = """
+    effects checks summary results verdicts speedup benchmark needs factor claims reference
+    factor_in_setups pages
+""".split()  # noqa: SIM905
 # What the library draws with, in modules that nothing else of it imports, by what they need.
 LOOKS = {
     "laboratory/report/drawings.py": {"matplotlib"},
@@ -81,8 +92,8 @@ BRINGS = {
         "scipy.spatial",
     },
     "recalib.study.multiverse.universe": set(),  # the workflow, whenever it starts
-    "evidence.article evidence.claims evidence.outcome evidence.pages evidence.real_arm"
-    " evidence.report"
+    "evidence.claims evidence.pages.article evidence.pages.outcome evidence.pages.real_arm"
+    " evidence.pages.rendering evidence.pages.report"
     " experiments.joining experiments.samples multiverse.design plots.registry": set(),
     "evidence.benchmark evidence.checks evidence.summary mapping.visits multiverse.power": {
         "pandas"
@@ -161,7 +172,14 @@ def test_what_is_imported_first_waits_for_nothing(name):
 
 
 @pytest.mark.parametrize(
-    ("root", "order"), [("recalib", LIBRARY), ("recalib.study", STUDY)], ids=["library", "study"]
+    ("root", "order"),
+    [
+        ("recalib", LIBRARY),
+        ("recalib.identification", IDENTIFICATION),
+        ("recalib.laboratory", LABORATORY),
+        ("recalib.study", STUDY),
+        ("recalib.study.evidence", EVIDENCE),
+    ],
 )
 def test_imports_point_one_way(root, order):
     folder, seen = ROOT.joinpath(*root.split(".")), set()

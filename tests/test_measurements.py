@@ -9,9 +9,9 @@ import pytest
 from recalib.damaged.plant import Plant
 from recalib.errors import BadMeasurement
 from recalib.identification.calibration import calibrate
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.learners.kinds import KINDS
 from recalib.loop.external import ExternalRobot
 from recalib.loop.interfaces import Outcome

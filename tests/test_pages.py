@@ -7,10 +7,10 @@ from functools import cache
 import pandas as pd
 import pytest
 
-from recalib.study.evidence import words
 from recalib.study.evidence.checks import expect
-from recalib.study.evidence.pages import PAGES, render
-from recalib.study.evidence.readme import in_a_sentence
+from recalib.study.evidence.pages import words
+from recalib.study.evidence.pages.readme import in_a_sentence
+from recalib.study.evidence.pages.rendering import PAGES, render
 from tests.conftest import ROOT
 from tests.made_up import MadeUp, few_resamples, unread
 

@@ -21,7 +21,7 @@ from rerun.chunk import RrdReader
 from recalib.errors import RecalibError
 from recalib.laboratory.viewer.program import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
-from recalib.study.evidence.report import layout
+from recalib.study.evidence.pages.report import layout
 from recalib.study.plan.recordings import TODAYS
 from recalib.study.recording.naming import in_words
 from recalib.study.recording.web_viewer import copy_viewer

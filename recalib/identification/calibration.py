@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
-from recalib.identification.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
-from recalib.identification.frames import HELD, Frames
-from recalib.identification.linearisation import displacements
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
+from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.observations import Observations
 from recalib.identification.parameters import Parameter, parameters_of, table_of
 from recalib.loop.interfaces import State
 from recalib.nominal.kinematics import Arm

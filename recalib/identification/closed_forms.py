@@ -19,9 +19,9 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.frames import BASE, HELD, LINK, UNKNOWN, Frames, nearest_rotation
-from recalib.identification.linearisation import LEVER
-from recalib.identification.observations import Observations
+from recalib.identification.model.frames import BASE, HELD, LINK, UNKNOWN, Frames, nearest_rotation
+from recalib.identification.model.linearisation import LEVER
+from recalib.identification.model.observations import Observations
 
 OPEN = 1e-2  # a singular value so small, over the largest, leaves a direction open
 # The second singular value over the first: where the tool turns about one axis alone they are equal

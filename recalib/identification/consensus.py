@@ -9,10 +9,10 @@ chance.
 
 import numpy as np
 
-from recalib.identification.error_model import ErrorModel
 from recalib.identification.estimation import DOUBTFUL, Estimate, identify
-from recalib.identification.linearisation import LEVER, Linearisation
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.linearisation import LEVER, Linearisation
+from recalib.identification.model.observations import Observations
 from recalib.numerics.randomness import generator
 
 SUSPICIOUS = 1e-3  # m along an axis: few instruments are so bad

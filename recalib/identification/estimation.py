@@ -22,11 +22,11 @@ import scipy.linalg
 from scipy.special import chdtri
 
 from recalib.errors import BadMeasurement
-from recalib.identification.error_model import ErrorModel
-from recalib.identification.input_checks import check_observations
-from recalib.identification.linearisation import Linearisation
-from recalib.identification.observations import Observations
-from recalib.identification.optics import Optics
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.input_checks import check_observations
+from recalib.identification.model.linearisation import Linearisation
+from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import Optics
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority

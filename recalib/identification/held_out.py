@@ -12,9 +12,9 @@ import numpy as np
 from scipy.cluster.vq import kmeans, vq
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.linearisation import LEVER
-from recalib.identification.observations import Observations
-from recalib.identification.postures import Postures
+from recalib.identification.checks.postures import Postures
+from recalib.identification.model.linearisation import LEVER
+from recalib.identification.model.observations import Observations
 from recalib.numerics.randomness import generator
 
 FOLDS = 5

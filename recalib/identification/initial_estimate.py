@@ -13,10 +13,10 @@ from scipy.optimize import least_squares
 
 from recalib.errors import RecalibError
 from recalib.identification.closed_forms import solutions, turns_by_poses
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.frames import HELD, Frames
-from recalib.identification.linearisation import LEVER, Linearisation, displacements
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.linearisation import LEVER, Linearisation, displacements
+from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 

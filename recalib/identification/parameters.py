@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.identification.error_model import ErrorModel
 from recalib.identification.estimation import Estimate
-from recalib.identification.optics import OPTICS
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.optics import OPTICS
 
 MOTIONS = "shift x", "shift y", "shift z", "turn x", "turn y", "turn z"
 CLEAR = 2.0  # standard errors: a parameter that is so far from zero is listed

@@ -10,9 +10,12 @@ from functools import partial
 import numpy as np
 
 from recalib.identification.calibration import Calibration, calibrate, calibrate_again
+from recalib.identification.checks.diagnostics import check_estimate, check_links, check_postures
+from recalib.identification.checks.postures import Postures, find_postures
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.diagnostics import check_estimate, check_links, check_postures
-from recalib.identification.error_model import (
+from recalib.identification.estimation import identify
+from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
+from recalib.identification.model.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
     NO_ERRORS,
@@ -20,11 +23,8 @@ from recalib.identification.error_model import (
     ErrorModel,
     held,
 )
-from recalib.identification.estimation import identify
-from recalib.identification.frames import Frames
-from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
-from recalib.identification.observations import Observations
-from recalib.identification.postures import Postures, find_postures
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first

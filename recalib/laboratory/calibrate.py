@@ -11,15 +11,15 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.calibration import Calibration, turned
-from recalib.identification.diagnostics import Untrustworthy
-from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.checks.diagnostics import Untrustworthy
+from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
+from recalib.identification.checks.repeatability import weigh
+from recalib.identification.checks.scales import Scale, scales
+from recalib.identification.checks.sequence import Fault, faults
 from recalib.identification.estimation import DOUBTFUL
-from recalib.identification.frames import Frames
-from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.observations import Distance, Observations
-from recalib.identification.repeatability import weigh
-from recalib.identification.scales import Scale, scales
-from recalib.identification.sequence import Fault, faults
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Distance, Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.arms.urdf import corrected_urdf
 from recalib.laboratory.correction.archive import Correction

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import ErrorModel
-from recalib.identification.frames import HELD, Frames
-from recalib.identification.identifiability import Unidentifiable
-from recalib.identification.linearisation import displacements
+from recalib.identification.checks.identifiability import Unidentifiable
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.linearisation import displacements
 
 INSTRUMENT: tuple[str, ...] = ("the instrument",)
 STEP = 1e-4  # of a parameter's prior deviation, to either side

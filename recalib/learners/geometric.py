@@ -12,8 +12,8 @@ from typing import Any, Self
 import numpy as np
 
 from recalib.identification.calibration import Calibration, angles_for, most_probable
-from recalib.identification.error_model import OFFSETS
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS
+from recalib.identification.model.observations import Observations
 from recalib.learners.experience import Refitting
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm

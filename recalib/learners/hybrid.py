@@ -1,8 +1,8 @@
 """Geometry, joint errors and a Gaussian process: as much of them as the measurements show."""
 
 from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS
+from recalib.identification.model.observations import Observations
 from recalib.learners.geometric import GeometricLearner
 from recalib.nominal.kinematics import Arm
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
-from recalib.identification.optics import BOARD, OPTICS, Optics
+from recalib.identification.model.optics import BOARD, OPTICS, Optics
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens

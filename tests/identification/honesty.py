@@ -4,11 +4,11 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from recalib.identification.calibration import Calibration
+from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, Fault, faults
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Observations
-from recalib.identification.sequence import DRIFT, JUMP, LAG, Fault, faults
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE, OUTLYING, validate
 from tests.identification.real import Real
 

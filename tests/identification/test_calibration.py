@@ -5,8 +5,8 @@ from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.identification import calibration as module
 from recalib.identification.calibration import angles_for, calibrate, calibrate_again
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.model.observations import Observations
 from tests.identification.test_estimation import noisy, postures
 
 

@@ -5,9 +5,9 @@ import pytest
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.design import information_gains, most_informative
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from tests.identification.test_estimation import postures
 
 

@@ -4,7 +4,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import BaseShift, EncoderShift, apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.identification.error_model import (
+from recalib.identification.model.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
     ErrorModel,

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from recalib.damaged.disturbances import Disturbances, Noise
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.linearisation import displacements
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.observations import Observations
 from recalib.nominal.poses import orientation_error, position_error
 from tests import reference
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from recalib.identification.checks.sequence import DRIFT, LAG
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Observations
-from recalib.identification.sequence import DRIFT, LAG
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM, validate
 from recalib.nominal.arms import load_arm
 from tests.identification.honesty import Session, distances, with_targets

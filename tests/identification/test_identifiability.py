@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.identification.identifiability import Unidentifiable, unidentifiable_parameters
-from recalib.identification.observations import Distance, Observations
+from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
+from recalib.identification.model.observations import Distance, Observations
 from tests.identification.real import Real, geometry_of
 
 BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters

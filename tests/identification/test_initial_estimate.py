@@ -6,10 +6,10 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import BadMeasurement
 from recalib.identification.closed_forms import turns_by_poses
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.nominal.arms import load_arm
 from tests.arms import SCARA
 from tests.identification.real import ARMS, Real, geometry_of

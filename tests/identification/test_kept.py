@@ -16,11 +16,16 @@ from recalib.identification.calibration import (
     calibrate,
     calibrate_again,
 )
+from recalib.identification.checks.diagnostics import check_estimate, check_postures
+from recalib.identification.checks.identifiability import unidentifiable_parameters
+from recalib.identification.checks.postures import find_postures
+from recalib.identification.checks.sequence import DRIFT, JUMP, LAG
 from recalib.identification.closed_forms import solutions
 from recalib.identification.consensus import _by_chance, identify_by_consensus
 from recalib.identification.design import information_gains, most_informative
-from recalib.identification.diagnostics import check_estimate, check_postures
-from recalib.identification.error_model import (
+from recalib.identification.estimation import identify
+from recalib.identification.initial_estimate import fewest, initial_frames, median_error
+from recalib.identification.model.error_model import (
     JOINT_ERRORS,
     JOINT_WAVES,
     NO_ERRORS,
@@ -28,15 +33,10 @@ from recalib.identification.error_model import (
     ErrorModel,
     held,
 )
-from recalib.identification.estimation import identify
-from recalib.identification.frames import Frames
-from recalib.identification.identifiability import unidentifiable_parameters
-from recalib.identification.initial_estimate import fewest, initial_frames, median_error
-from recalib.identification.linearisation import Linearisation
-from recalib.identification.observations import Distance, Observations
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.linearisation import Linearisation
+from recalib.identification.model.observations import Distance, Observations
 from recalib.identification.parameters import parameters_of
-from recalib.identification.postures import find_postures
-from recalib.identification.sequence import DRIFT, JUMP, LAG
 from recalib.identification.validation import KINDS, WAYS, validate
 from recalib.nominal.arms import load_arm
 from recalib.numerics.randomness import generator

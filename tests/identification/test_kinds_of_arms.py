@@ -5,11 +5,11 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.identification.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.frames import HELD
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Distance, Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.model.frames import HELD
+from recalib.identification.model.observations import Distance, Observations
 from tests.arms import GANTRY, SCARA, urdf
 from tests.identification.real import Real, aligned, geometry_of
 

@@ -7,9 +7,9 @@ import pinocchio as pin
 import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.diagnostics import Untrustworthy, check_links
-from recalib.identification.error_model import OFFSETS, ErrorModel
-from recalib.identification.link_lengths import link_lengths
+from recalib.identification.checks.diagnostics import Untrustworthy, check_links
+from recalib.identification.checks.link_lengths import link_lengths
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from tests.arms import RAILED, SCARA
 
 

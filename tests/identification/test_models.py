@@ -7,8 +7,8 @@ from recalib.damaged.damage import apply
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.nongeometric import EccentricGear, Sag
 from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, JOINT_WAVES, OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.nominal.poses import orientation_error, position_error
 from tests.identification.test_estimation import noisy, postures
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from recalib.identification.optics import _whitening
+from recalib.identification.model.optics import _whitening
 
 
 def test_a_picture_far_off_does_not_change_what_a_typical_one_weighs():

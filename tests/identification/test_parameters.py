@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.identification.estimation import Estimate
-from recalib.identification.frames import Frames
+from recalib.identification.model.error_model import JOINT_WAVES, OFFSETS, ErrorModel
+from recalib.identification.model.frames import Frames
 from recalib.identification.parameters import parameters_of
 
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from recalib.identification.checks.scales import scales
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Observations
-from recalib.identification.scales import scales
+from recalib.identification.model.observations import Observations
 from tests.identification.real import Real
 
 TOGETHER = 0.3  # of the noise, as where links grew by one factor

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from recalib.identification.sequence import DRIFT, JUMP, LAG, faults
+from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, faults
 from tests.identification.honesty import ROWS, Session, with_targets
 from tests.identification.real import Real, geometry_of
 

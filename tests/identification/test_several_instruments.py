@@ -7,12 +7,12 @@ import pytest
 
 from recalib.errors import BadMeasurement
 from recalib.identification.calibration import Calibration, calibrate
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import initial_frames, joined_frames
-from recalib.identification.linearisation import displacements
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.observations import Observations
 from recalib.identification.parameters import parameters_of
 from recalib.nominal.kinematics import Arm
 from tests.identification.real import Real, anywhere

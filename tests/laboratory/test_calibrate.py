@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recalib.errors import InvalidFile, InvalidSetting
-from recalib.identification.diagnostics import Untrustworthy
+from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.correction.correct import correct, unidentifiable_ends
 from recalib.laboratory.propose import propose

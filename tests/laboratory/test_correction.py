@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.archives import write_archive
 from recalib.identification.calibration import calibrate
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correction.archive import Correction, load_correction
 from recalib.laboratory.correction.correct import NotReached, correct

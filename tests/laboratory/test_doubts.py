@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from recalib.identification.diagnostics import Untrustworthy
-from recalib.identification.frames import Frames
-from recalib.identification.observations import Observations
-from recalib.identification.scales import Scale
-from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+from recalib.identification.checks.diagnostics import Untrustworthy
+from recalib.identification.checks.scales import Scale
+from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.report.doubts import doubts

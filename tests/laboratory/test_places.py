@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.estimation import identify
-from recalib.identification.identifiability import unidentifiable_parameters
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.linearisation import displacements
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.linearisation import Linearisation
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.linearisation import Linearisation
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import GEOMETRIC, validate
 from tests.identification.real import NOISE
 from tests.peers.tasks import Task

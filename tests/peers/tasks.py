@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.description import read_description
 from recalib.laboratory.tables.measurements import read_measurements
 from recalib.nominal.arms import load_arm

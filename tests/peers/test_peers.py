@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 import scipy.linalg
 
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from tests.identification.real import ARMS, Real, anywhere

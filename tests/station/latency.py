@@ -14,7 +14,7 @@ import numpy as np
 
 from recalib.identification.calibration import calibrate
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import CANDIDATES, HYBRID
 from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.correction.corrector import Corrector

@@ -22,8 +22,8 @@ from recalib.damaged.damage import DamagedArm, apply
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import calibrate
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.loop.training import History, train
 from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from recalib.identification.closed_forms import solutions
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.correction.archive import load_correction
 from recalib.laboratory.tables.columns import read_table
 from recalib.nominal.arms import load_arm

@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from recalib.identification.calibration import Calibration
+from recalib.identification.checks.identifiability import unidentifiable_parameters
+from recalib.identification.checks.repeatability import weigh
 from recalib.identification.closed_forms import solutions
-from recalib.identification.error_model import OFFSETS, ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.identifiability import unidentifiable_parameters
 from recalib.identification.initial_estimate import initial_frames
-from recalib.identification.linearisation import displacements
-from recalib.identification.observations import Observations
-from recalib.identification.repeatability import weigh
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.linearisation import displacements
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.places import found_places
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.views import find_lens, optics_of

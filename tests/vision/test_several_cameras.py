@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from recalib.errors import RecalibError
-from recalib.identification.linearisation import displacements
+from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, main
 from recalib.laboratory.pictures.observed import fitted_lenses

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from recalib.identification.linearisation import displacements
+from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
     MISPLACED,

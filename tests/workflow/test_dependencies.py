@@ -74,7 +74,9 @@ def test_a_source_counts_by_what_stands_in_it_whatever_its_date(tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     template, seen = tmp_path / "page.md.j2", []
     reads = [template.name, "not_there.csv"]
-    digest = dependencies.calls("recalib.study.evidence.pages.page", reads=lambda w: reads)["code"]
+    digest = dependencies.calls(
+        "recalib.study.evidence.pages.rendering.page", reads=lambda w: reads
+    )["code"]
     for written in ("as it was", "edited", "as it was"):
         template.write_text(written)
         os.utime(template, (0, 0))

@@ -166,7 +166,7 @@ rule real_table:
         "{root}/logs/real_table.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.real_arm.put_together"),
+        **calls("recalib.study.evidence.pages.real_arm.put_together"),
         arguments=lambda w: as_text(seed=study(w).seed),
         digits=5,
     message:

@@ -4,8 +4,8 @@ from functools import partial
 
 from recalib.study.evidence.claims import judging
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.outcome import NEEDS as NEEDS_OF_OUTCOME
-from recalib.study.evidence.pages import PAGES as PAGES_OF_EVIDENCE
+from recalib.study.evidence.pages.outcome import NEEDS as NEEDS_OF_OUTCOME
+from recalib.study.evidence.pages.rendering import PAGES as PAGES_OF_EVIDENCE
 
 
 def request(root):
@@ -80,7 +80,7 @@ rule outcome:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.outcome.outcome",
+            "recalib.study.evidence.pages.outcome.outcome",
             reads=lambda w: outcome_evidence(w).inputs,
         ),
         arguments=lambda w: as_text(evidence=outcome_evidence(w)),
@@ -107,7 +107,7 @@ rule page:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.pages.page",
+            "recalib.study.evidence.pages.rendering.page",
             reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_evidence(w).inputs],
         ),
         arguments=lambda w: as_text(name=w.page, evidence=page_evidence(w)),
@@ -134,7 +134,7 @@ rule article:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.article.typeset",
+            "recalib.study.evidence.pages.article.typeset",
             reads=lambda w: ["workflow/article/references.bib", *COMMITTED],
         ),
     message:

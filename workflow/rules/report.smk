@@ -3,7 +3,7 @@
 import hashlib
 import re
 
-from recalib.study.evidence import report as report_
+from recalib.study.evidence.pages import report as report_
 
 TEXTS = Path(report_.TEXTS)
 PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
@@ -110,7 +110,7 @@ for root_ in STUDIES:
         localrule: True
         params:
             **calls(
-                "recalib.study.evidence.report.write",
+                "recalib.study.evidence.pages.report.write",
                 reads=lambda w, root=root_: read_by_report(root),
             ),
             kept=kept_in(root_),

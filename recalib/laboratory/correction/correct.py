@@ -12,8 +12,8 @@ from scipy.spatial import KDTree
 
 from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import by_sight
-from recalib.identification.linearisation import LEVER
+from recalib.identification.model.error_model import by_sight
+from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm

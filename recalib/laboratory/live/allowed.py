@@ -7,7 +7,7 @@ import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import LENGTH
-from recalib.identification.linearisation import LEVER
+from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.propose import joint_limits
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator

@@ -7,8 +7,8 @@ from os import PathLike
 import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError
-from recalib.identification.diagnostics import FEWEST
-from recalib.identification.observations import Observations
+from recalib.identification.checks.diagnostics import FEWEST
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.record import Record
 from recalib.laboratory.live.running import AHEAD, RunningCalibration

@@ -11,7 +11,7 @@ import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.calibrate import observations_of
 from recalib.laboratory.tables.columns import MOST
 from recalib.laboratory.tables.description import Description

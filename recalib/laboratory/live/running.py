@@ -10,13 +10,13 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from recalib.identification.calibration import Calibration, most_probable
+from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.design import most_informative
-from recalib.identification.diagnostics import FEWEST
-from recalib.identification.error_model import JOINT_ERRORS, OFFSETS
-from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import SPARE, fewest
-from recalib.identification.linearisation import LEVER
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.linearisation import LEVER
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import OUTLYING
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.propose import PROBES, variances

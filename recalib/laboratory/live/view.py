@@ -8,7 +8,7 @@ import rerun.blueprint as rrb
 from rerun.experimental import ViewerClient
 
 from recalib.errors import InvalidSetting
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.viewer.arms import ARM, GREY, ROW, THICK, log_meshes, send_arm
 from recalib.laboratory.viewer.program import HERE, answer, free_port, start

@@ -14,8 +14,8 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.quantities import Quantity
 from recalib.files.storage import read_file
-from recalib.identification.observations import Observations
-from recalib.identification.optics import BOARD, OPTICS, Optics
+from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import BOARD, OPTICS, Optics
 from recalib.laboratory.pictures.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
 from recalib.laboratory.tables.columns import NUMBER, Table, read_table
 from recalib.vision.boards import MOST, Board, read_board

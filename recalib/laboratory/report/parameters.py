@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.identification.frames import HELD
+from recalib.identification.model.frames import HELD
 from recalib.identification.parameters import Parameter, parameters_of
 from recalib.laboratory.calibrate import Calibrated
 from recalib.spelling import listed

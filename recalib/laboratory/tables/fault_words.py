@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.identification.frames import Frames
-from recalib.identification.observations import Observations
-from recalib.identification.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
 
 
 def in_words(

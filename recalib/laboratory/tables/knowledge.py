@@ -13,7 +13,6 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
-from recalib.identification.frames import Frames
 from recalib.identification.initial_estimate import (
     FARTHEST,
     NoInitialEstimate,
@@ -21,7 +20,8 @@ from recalib.identification.initial_estimate import (
     joined_frames,
     median_error,
 )
-from recalib.identification.observations import Observations
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 2.0  # times the least error: as good an explanation

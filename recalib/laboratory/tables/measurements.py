@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
-from recalib.identification.diagnostics import FEWEST
+from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.tables.columns import NUMBER, Table, read_table, table_of
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm

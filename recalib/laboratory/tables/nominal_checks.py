@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 from recalib.identification.closed_forms import solutions
-from recalib.identification.frames import Frames
-from recalib.identification.observations import Observations
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm

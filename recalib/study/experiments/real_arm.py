@@ -10,7 +10,7 @@ import pinocchio as pin
 
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import Calibration
-from recalib.identification.observations import Observations
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.description import Description
 from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.nominal.controller import Controller

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from recalib.study.evidence.real_arm import ERROR
+from recalib.study.evidence.pages.real_arm import ERROR
 from recalib.study.evidence.results import Evidence
 from recalib.study.plots.palette import BORDER, BOTH, styles_of
 from recalib.study.plots.style import band, finish, logarithmic, note, title, words

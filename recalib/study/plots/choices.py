@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from recalib.spelling import listed
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.pages.words import level_in_words, short
 from recalib.study.evidence.results import Evidence, Words
-from recalib.study.evidence.words import level_in_words, short
 from recalib.study.plots.palette import BORDER, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
 from recalib.study.plots.style import logarithmic, plain

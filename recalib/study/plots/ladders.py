@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 
 from recalib.study.configuration.switches import IMPROVED
 from recalib.study.evidence.factor import CELLS, DOUBLE, PUBLISHED, leading
+from recalib.study.evidence.pages.words import ranged
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
-from recalib.study.evidence.words import ranged
 from recalib.study.inference.intervals import estimate
 from recalib.study.plots.palette import BORDER, BOTH, Style, styles_of
 from recalib.study.plots.style import INTERVALS, finish, logarithmic

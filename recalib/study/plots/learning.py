@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.factor import CELLS
+from recalib.study.evidence.pages.words import amounts
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts
 from recalib.study.inference.intervals import first_within, typical
 from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plots.palette import BOTH, ErrorStyle, Style, styles_of

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 
 from recalib.study.evidence.claims import coupling, expected_learning
 from recalib.study.evidence.claims.reasons import integral_ratios
+from recalib.study.evidence.pages.words import percent
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import percent
 from recalib.study.inference.measured import ERRORS, KINDS, UNITS
 from recalib.study.plots.palette import BORDER, BOTH, DASHED, NEUTRAL
 from recalib.study.plots.style import (

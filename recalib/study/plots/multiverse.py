@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from recalib.study.evidence.claims import figure_1
+from recalib.study.evidence.pages.words import level_in_words
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import level_in_words
 from recalib.study.plots.palette import FAILS, HOLDS
 from recalib.study.plots.style import title
 

@@ -11,9 +11,9 @@ from scipy.special import ndtri
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.claims.across import Setups, rounded
+from recalib.study.evidence.pages.words import headline, judged_by_setups, ranged, short
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
-from recalib.study.evidence.words import headline, judged_by_setups, ranged, short
 from recalib.study.inference.intervals import LEVEL, Estimate
 from recalib.study.plots.palette import BORDER, HOLDS, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from recalib.study.evidence.article import typeset
-from recalib.study.evidence.pages import PAGES, render
+from recalib.study.evidence.pages.article import typeset
+from recalib.study.evidence.pages.rendering import PAGES, render
 from tests.conftest import ROOT
 
 TEMPLATE = ROOT / "workflow" / "templates" / "article.typ.j2"

@@ -12,9 +12,9 @@ import pytest
 
 from recalib.study.configuration.shipped import DESIGN, DEVIATIONS
 from recalib.study.configuration.values import from_file
-from recalib.study.evidence import deviations
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.deviations import (
+from recalib.study.evidence.pages import deviations
+from recalib.study.evidence.pages.deviations import (
     NEEDS,
     REGISTERED,
     REMOVED,
@@ -22,7 +22,7 @@ from recalib.study.evidence.deviations import (
     digests,
     unnamed,
 )
-from recalib.study.evidence.pages import render
+from recalib.study.evidence.pages.rendering import render
 from tests.conftest import ROOT
 
 FILE = ROOT / "workflow" / "deviations.yaml"
@@ -47,7 +47,7 @@ def test_each_criterion_choice_and_design_is_the_one_named_last(told):
         f"{', '.join(changed)}: not as workflow/deviations.yaml names it last. Try: add an entry to"
         " `deviations` there that says what changed, why, what it did to the verdicts and which"
         " results had been seen; below its `digests`, put what"
-        " `python -m recalib.study.evidence.deviations` prints."
+        " `python -m recalib.study.evidence.pages.deviations` prints."
     )
 
 
@@ -96,7 +96,7 @@ def test_the_command_prints_what_an_entry_has_to_name(project):
     told = "registered: {gone: it}\ndeviations: []\nreread: []\n"
     (project / DEVIATIONS).write_text(told)
     ran = subprocess.run(
-        [sys.executable, "-m", "recalib.study.evidence.deviations"],
+        [sys.executable, "-m", "recalib.study.evidence.pages.deviations"],
         cwd=project,
         env={"PYTHONPATH": str(ROOT)},
         text=True,

@@ -6,8 +6,8 @@ import pandas as pd
 import pytest
 
 from recalib.study.configuration.shipped import DESIGN, POWER
-from recalib.study.evidence.all_results import _on_its_way
-from recalib.study.evidence.findings import _campaign, _refused
+from recalib.study.evidence.pages.all_results import _on_its_way
+from recalib.study.evidence.pages.findings import _campaign, _refused
 from recalib.study.inference.measured import ERRORS
 
 

@@ -6,10 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.study.evidence import checks, findings, report
+from recalib.study.evidence import checks
 from recalib.study.evidence.benchmark import put_together, seconds
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.pages import PAGES
+from recalib.study.evidence.pages import findings, report
+from recalib.study.evidence.pages.rendering import PAGES
 from recalib.study.inference import hierarchy, intervals
 from recalib.study.multiverse import power
 from tests.conftest import ROOT

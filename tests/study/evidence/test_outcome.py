@@ -5,7 +5,7 @@ import pytest
 from recalib.study.configuration.reading import read_study
 from recalib.study.evidence.claims import CLAIMS, judging
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.outcome import NEEDS, outcome
+from recalib.study.evidence.pages.outcome import NEEDS, outcome
 from recalib.study.plan.trainings import Trainings
 from recalib.study.studies import CONFIGURATION, OTHERS, layers_of
 from tests.conftest import ROOT

@@ -2,7 +2,7 @@
 
 import pytest
 
-from recalib.study.evidence import report
+from recalib.study.evidence.pages import report
 from recalib.study.plots.registry import FIGURES, drawn
 from tests.conftest import ROOT
 from tests.made_up import unread

@@ -6,8 +6,8 @@ import pytest
 
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.effects import effects
-from recalib.study.evidence.guidance import moves_text
-from recalib.study.evidence.real_arm import ERROR, real_errors
+from recalib.study.evidence.pages.guidance import moves_text
+from recalib.study.evidence.pages.real_arm import ERROR, real_errors
 from recalib.study.inference.measured import ERRORS
 
 SEEDS = 21

@@ -7,7 +7,7 @@ import pytest
 
 from recalib.study.configuration.shipped import FACTORS
 from recalib.study.configuration.values import from_file
-from recalib.study.evidence import words
+from recalib.study.evidence.pages import words
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
 from tests.conftest import ROOT

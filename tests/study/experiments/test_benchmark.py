@@ -4,7 +4,7 @@ import pytest
 
 from recalib.loop.interfaces import Outcome
 from recalib.study.evidence.benchmark import moves_to_reach
-from recalib.study.evidence.guidance import where_worse
+from recalib.study.evidence.pages.guidance import where_worse
 from recalib.study.experiments.benchmark import Timed, compete, measured_at
 from recalib.study.inference.measured import ERRORS
 from workflow.scripts.call import write

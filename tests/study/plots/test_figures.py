@@ -6,7 +6,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from recalib.study.evidence.findings import figures as figures_of_findings
+from recalib.study.evidence.pages.findings import figures as figures_of_findings
 from recalib.study.evidence.results import Undeclared
 from recalib.study.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
 from recalib.study.plots.registry import FIGURES, draw, drawn

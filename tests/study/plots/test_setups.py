@@ -16,7 +16,7 @@ from recalib.study.configuration.shipped import DESIGN, FACTORS, REFERENCE
 from recalib.study.configuration.universes import Factors
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.words import headline, level_in_words
+from recalib.study.evidence.pages.words import headline, level_in_words
 from recalib.study.plots.palette import BORDER, BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN
 from recalib.study.plots.registry import FIGURES, draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from recalib.identification.optics import Optics
+from recalib.identification.model.optics import Optics
 
 # Standard deviations of the parameters before anything is known: what wear and mounting plausibly
 # do to the base of an arm and to a link.

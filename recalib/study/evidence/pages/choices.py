@@ -1,7 +1,7 @@
 """What the page of choices says: what the paper leaves open, and what this study took."""
 
+from recalib.study.evidence.pages.words import amounts
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts
 
 NEEDS = """
     assignments/{robot}.parquet search/{improved}.csv short_searches searches_long setups

@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from recalib.identification.error_model import ErrorModel
 from recalib.identification.estimation import identify
-from recalib.identification.linearisation import LEVER
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.linearisation import LEVER
+from recalib.identification.model.observations import Observations
 
 # Of displacements [m, rad], for a rad by which joints do not return.
 COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)

@@ -4,9 +4,16 @@ from collections.abc import Mapping
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
+from recalib.study.evidence.pages.words import (
+    headline,
+    of_others,
+    one,
+    percent,
+    short,
+    typical_errors,
+)
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.words import headline, of_others, one, percent, short, typical_errors
 from recalib.study.inference.intervals import Estimate
 
 NEEDS = "summary.csv claims.json improved scenario"

@@ -7,7 +7,7 @@ The parameters are small and zero for the nominal arm. In their order:
   the whole arm; the last link carries the targets, each with a twist of its own. The tool itself
   is the only target where frames are known. Further instruments have further twists of the base.
 - centres (socket, 3): displacements [m] of the sockets from their initial estimate.
-- optics (o,): of the cameras that measured; see `recalib.identification.optics`.
+- optics (o,): of the cameras that measured; see `recalib.identification.model.optics`.
 - joint terms (term, joints): coefficients of functions of the joint coordinates that add up to the
   joints' errors [rad, m]. The first term is constant, so its coefficients are the joint offsets.
 
@@ -24,7 +24,7 @@ from operator import or_
 import numpy as np
 import pinocchio as pin
 
-from recalib.identification.frames import HELD, LINK, UNKNOWN, Frames
+from recalib.identification.model.frames import HELD, LINK, UNKNOWN, Frames
 from recalib.nominal.kinematics import Arm, tool_frame
 
 # By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value

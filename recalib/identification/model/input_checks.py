@@ -3,8 +3,8 @@
 import numpy as np
 
 from recalib.errors import BadMeasurement
-from recalib.identification.error_model import ErrorModel
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.observations import Observations
 from recalib.loop.measurements import FARTHEST
 
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians

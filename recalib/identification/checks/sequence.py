@@ -16,11 +16,11 @@ import scipy.linalg
 from scipy.special import fdtrc
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import JOINT_ERRORS, ErrorModel
+from recalib.identification.checks.postures import find_postures
 from recalib.identification.estimation import identify
-from recalib.identification.linearisation import Linearisation, displacements
-from recalib.identification.observations import Observations
-from recalib.identification.postures import find_postures
+from recalib.identification.model.error_model import JOINT_ERRORS, ErrorModel
+from recalib.identification.model.linearisation import Linearisation, displacements
+from recalib.identification.model.observations import Observations
 
 LAG, DRIFT, JUMP, SLIP = "lag", "drift", "jump", "slip"
 CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise

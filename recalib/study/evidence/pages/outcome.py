@@ -2,8 +2,8 @@
 
 from tabulate import tabulate
 
+from recalib.study.evidence.pages.words import amounts, headline, pair, verdicts
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import amounts, headline, pair, verdicts
 
 NEEDS = "summary.csv claims.json scenarios/{scenario}.json"
 WIDE = 60  # characters of a column

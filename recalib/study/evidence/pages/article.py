@@ -5,7 +5,7 @@ from pathlib import Path
 
 from recalib.files.storage import whole
 from recalib.spelling import listed
-from recalib.study.evidence import all_results, choices, deviations, findings, readme
+from recalib.study.evidence.pages import all_results, choices, deviations, findings, readme
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
 
-from recalib.study.evidence import (
+from recalib.study.evidence.pages import (
     all_results,
     article,
     choices,

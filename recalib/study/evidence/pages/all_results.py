@@ -4,8 +4,8 @@ import numpy as np
 
 from recalib.study.configuration.switches import RITTER
 from recalib.study.evidence.factor import CELLS
+from recalib.study.evidence.pages.words import one, typical_errors
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import one, typical_errors
 from recalib.study.inference.intervals import first_within
 from recalib.study.inference.measured import ERRORS, UNITS
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from recalib.errors import RecalibError
 from recalib.identification.calibration import Calibration
-from recalib.identification.link_lengths import link_lengths
-from recalib.identification.observations import Observations
-from recalib.identification.postures import Postures
-from recalib.identification.sequence import Fault, faults
+from recalib.identification.checks.link_lengths import link_lengths
+from recalib.identification.checks.postures import Postures
+from recalib.identification.checks.sequence import Fault, faults
+from recalib.identification.model.observations import Observations
 
 FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.identification.optics import Optics
+from recalib.identification.model.optics import Optics
 
 
 class Distance(NamedTuple):

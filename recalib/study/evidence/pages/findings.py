@@ -8,6 +8,7 @@ from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import PUBLISHED, factor_table
 from recalib.study.evidence.factor_in_setups import in_setups
+from recalib.study.evidence.pages.words import depends
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -17,7 +18,6 @@ from recalib.study.evidence.reference import (
 )
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.words import depends
 from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.error_model import ErrorModel
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.observations import Observations
 
 LEVER = 0.5  # m: what a turn of one rad counts as, where both are one number
 BLOCK = 1000  # rows at once: more would take memory, and no less time

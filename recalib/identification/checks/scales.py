@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from recalib.identification.error_model import OFFSETS, ErrorModel
+from recalib.identification.checks.repeatability import COVARIANCE
 from recalib.identification.estimation import identify
-from recalib.identification.frames import HELD, Frames
-from recalib.identification.observations import Observations
-from recalib.identification.optics import BOARD, Optics
-from recalib.identification.repeatability import COVARIANCE
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import BOARD, Optics
 from recalib.nominal.kinematics import Arm
 
 ANY = 0.5  # standard deviation of a scale that may be anything

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.error_model import ErrorModel
-from recalib.identification.frames import HELD
-from recalib.identification.linearisation import Linearisation
-from recalib.identification.observations import Observations
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.frames import HELD
+from recalib.identification.model.linearisation import Linearisation
+from recalib.identification.model.observations import Observations
 from recalib.nominal.newton import solve_groups
 from recalib.numerics.randomness import generator
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from recalib.identification.linearisation import LEVER
+from recalib.identification.model.linearisation import LEVER
 
 ALIKE = 3.0  # standard deviations of the noise: less moves no target noticeably
 

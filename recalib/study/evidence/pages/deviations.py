@@ -1,6 +1,6 @@
 """What the page of deviations says: all that changed after a result had been seen.
 
-`python -m recalib.study.evidence.deviations` prints the digests that a new entry has to name.
+`python -m recalib.study.evidence.pages.deviations` prints the digests that a new entry has to name.
 """
 
 import hashlib
@@ -11,8 +11,8 @@ from pathlib import Path
 from recalib.study.configuration.shipped import DESIGN, DEVIATIONS, FIRST
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.pages.words import verdicts
 from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.words import verdicts
 
 # Beside claims and choices: the designs, the rules and what tells how they are applied.
 REGISTERED = (

@@ -1,0 +1,1 @@
+"""Pages: what each says of the results, in words."""
