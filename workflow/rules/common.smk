@@ -12,6 +12,7 @@ prepare(ROOT)  # before NumPy is imported
 
 
 from pydantic_core import to_json
+from snakemake.logging import logger
 
 from recalib.errors import RecalibError
 from recalib.study.scenarios.nominal import nominal
@@ -20,6 +21,7 @@ from recalib.study.studies import ask_robots, read_studies
 from recalib.study.plan.trainings import Trainings, measuring, searches, seeds
 from recalib.study.plan.trainings import rules as rules_of
 from workflow.dependencies import calls
+from workflow.time_left import TimeLeft
 
 try:
     # by the folder of their results: the shipped one, those of workflow/studies, and this call's
@@ -29,6 +31,9 @@ try:
     )
 except RecalibError as error:
     sys.exit(str(error))  # an exception would be told with this file and line, where no mistake is
+
+if workflow.is_main_process:
+    logger.addHandler(TimeLeft())
 
 TRAININGS = {root: Trainings(each) for root, each in STUDIES.items()}
 
