@@ -253,3 +253,14 @@ def test_what_is_made_once_cannot_be_changed_afterwards():
             if made and "frozen=True" not in made[0]:
                 changing.add(node.name)
     assert changing == CHANGES
+
+
+def test_a_class_has_a_name_of_its_own():
+    names = [
+        node.name
+        for folder in ("recalib", "workflow")
+        for path in (ROOT / folder).rglob("*.py")
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ClassDef)
+    ]
+    assert len(names) == len({*names})

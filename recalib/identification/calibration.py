@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
-from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Estimate, identify
+from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Identification, identify
 from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.model.linearisation import displacements
@@ -40,7 +40,7 @@ class Calibration:
     """
 
     model: ErrorModel
-    estimate: Estimate
+    estimate: Identification
     pattern: Process | None = None
 
     def forward(self, joints: np.ndarray) -> np.ndarray:
@@ -181,7 +181,7 @@ class Calibration:
     def restore(cls, arm: Arm, state: State) -> "Calibration":
         """What `state` returned, for the same nominal arm; ValueError where parts do not fit."""
         terms = {name: JOINT_WAVES[name] for name in state["terms"].tolist()}
-        estimate, pattern = Estimate(**state["estimate"]), state.get("residual")
+        estimate, pattern = Identification(**state["estimate"]), state.get("residual")
         model = ErrorModel(arm, terms, Frames(**state["frames"]))
         shape = model.deviations.shape
         if estimate.parameters.shape != shape or estimate.covariance.shape != 2 * shape:
@@ -277,7 +277,7 @@ def most_probable(
     candidates: Sequence[JointTerms],
     observations: Observations,
     frames: Frames | None = None,
-    start: Estimate | None = None,
+    start: Identification | None = None,
     weights: np.ndarray | None = None,
 ) -> Calibration:
     """The calibration of the error model that is chosen, without a process; see `calibrate`."""

@@ -9,7 +9,7 @@ chance.
 
 import numpy as np
 
-from recalib.identification.estimation import DOUBTFUL, Estimate, identify
+from recalib.identification.estimation import DOUBTFUL, Identification, identify
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.linearisation import LEVER, Linearisation
 from recalib.identification.model.observations import Observations
@@ -24,7 +24,7 @@ AMPLE = 1.5  # times the numbers that can be fitted by chance
 CLEARLY = 0.3  # of the noise that was found before
 
 
-def identify_by_consensus(model: ErrorModel, observations: Observations) -> Estimate:
+def identify_by_consensus(model: ErrorModel, observations: Observations) -> Identification:
     """As `identify`; see above.
 
     Raises BadMeasurement, as `identify`.

@@ -49,7 +49,7 @@ CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and o
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Identification:
     """What is known of an arm.
 
     Attributes:
@@ -73,9 +73,9 @@ class Estimate:
 def identify(
     model: ErrorModel,
     observations: Observations,
-    start: Estimate | None = None,
+    start: Identification | None = None,
     weights: np.ndarray | None = None,
-) -> Estimate:
+) -> Identification:
     """The parameters of the model that explain the observations.
 
     Args:
@@ -137,7 +137,7 @@ def identify(
         + _log_prior(parameters, variances, sparse, common)
         + volume
     )
-    return Estimate(
+    return Identification(
         parameters * scale,
         covariance * np.outer(scale, scale),
         noise,
@@ -167,7 +167,7 @@ def _posterior(
     return step, step_norm, covariance, volume
 
 
-def _initial(model: ErrorModel, start: Estimate | None) -> tuple[np.ndarray, np.ndarray]:
+def _initial(model: ErrorModel, start: Identification | None) -> tuple[np.ndarray, np.ndarray]:
     """Parameters (P,) over their deviations and their variances, to start from."""
     scale = model.deviations
     parameters, variances = np.zeros_like(scale), np.ones_like(scale)

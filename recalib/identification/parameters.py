@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.identification.estimation import Estimate
+from recalib.identification.estimation import Identification
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.optics import OPTICS
 
@@ -33,7 +33,7 @@ class Parameter:
 
 def parameters_of(
     model: ErrorModel,
-    estimate: Estimate,
+    estimate: Identification,
     targets: Sequence[str] = (),
     sockets: Sequence[str] = (),
     instruments: Sequence[str] = (),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.estimation import Estimate
+from recalib.identification.estimation import Identification
 from recalib.identification.model.error_model import JOINT_WAVES, OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.parameters import parameters_of
@@ -17,7 +17,7 @@ def calibration(robot) -> Calibration:
     parameters = np.full(len(model.deviations), 1e-5)
     parameters[0], parameters[model.offset_columns][2] = 4e-3, np.radians(3)
     deviations = np.full(len(parameters), 1e-4)
-    estimate = Estimate(
+    estimate = Identification(
         parameters, np.diag(deviations**2), np.array([2e-4]), np.array([1.0, 1.0, 0.0]), 0.0, True
     )
     return Calibration(model, estimate)
@@ -56,7 +56,7 @@ def test_every_parameter_has_a_name_of_its_own(robot):
     frames = Frames(targets=np.tile(np.eye(4), (2, 1, 1)), sockets=np.zeros((2, 3)))
     model = ErrorModel(robot.arm, JOINT_WAVES, frames)
     size = len(model.deviations)
-    estimate = Estimate(np.zeros(size), np.eye(size), np.ones(1), np.ones(1), 0.0, True)
+    estimate = Identification(np.zeros(size), np.eye(size), np.ones(1), np.ones(1), 0.0, True)
     named = parameters_of(model, estimate, ("red", "blue"))
     assert len({its.name for its in named}) == size
     by_name = {its.name: its.unit for its in named}

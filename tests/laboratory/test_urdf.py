@@ -4,7 +4,7 @@ import pytest
 import yourdfpy
 
 from recalib.identification.calibration import Calibration
-from recalib.identification.estimation import Estimate
+from recalib.identification.estimation import Identification
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.laboratory.arms.urdf import angles_of, corrected_urdf, with_origins
 from recalib.nominal.arms import find_urdf, load_arm
@@ -18,7 +18,7 @@ def random_calibration(arm, seed: int = 1) -> Calibration:
     model = ErrorModel(arm, OFFSETS)
     size = len(model.deviations)
     parameters = model.deviations * np.random.default_rng(seed).standard_normal(size)
-    estimate = Estimate(parameters, np.eye(size), np.ones(1), np.ones(1), 0.0, True)
+    estimate = Identification(parameters, np.eye(size), np.ones(1), np.ones(1), 0.0, True)
     return Calibration(model, estimate)
 
 

@@ -10,7 +10,7 @@ from recalib.learners.polynomial import PolynomialLearner
 from recalib.study.checks.consistency import check
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.real_arm import remaining_errors
-from recalib.study.experiments.tracker import Measurements
+from recalib.study.experiments.tracker import TrackerMeasurements
 from recalib.study.plan.competitors import homes_of, label_of, make_peer, needs_of, peers
 from recalib.study.plots.palette import STYLES, styles_of
 from workflow.scripts.call import write
@@ -68,7 +68,7 @@ def test_a_new_kind_competes_and_its_file_is_read(new, plan, robot, tmp_path):
 def test_a_new_kind_learns_from_recorded_poses(new, robot, damaged):
     angles = robot.home + 0.1 * np.random.default_rng(1).standard_normal((60, 6))
     there, nominal = (its.forward(angles)[:, :3, 3] for its in (damaged, robot.arm))
-    recorded = Measurements(angles, nominal, there)
+    recorded = TrackerMeasurements(angles, nominal, there)
     before, after = (
         remaining_errors(name, robot, recorded[:40], recorded[40:]).mean()
         for name in ("uncorrected", "by_taylor")

@@ -45,7 +45,7 @@ from recalib.study.configuration.universes import Universes
 Filled = Field(min_length=1)
 
 
-class Workspace(Part):
+class WorkspaceSettings(Part):
     """Full size of the workspace."""
 
     position: tuple[Side, Side, Side]
@@ -60,7 +60,7 @@ class Workspace(Part):
         return round((math.prod(self.position) / math.prod(other.position)) ** (1 / 3), 4)
 
 
-class Robot(Part):
+class RobotSettings(Part):
     """A nominal robot."""
 
     urdf: Text
@@ -73,13 +73,13 @@ class Robot(Part):
     """Joint angles at the centre of the workspace."""
     limits: dict[str, Ordered[Angle]] = Field(default={})
     """Joint limits that replace those of the URDF."""
-    workspace: Workspace
+    workspace: WorkspaceSettings
     """Full size of the workspace."""
     links: SomeDistinct[Text]
     """Links to which the paper's damage may be assigned."""
 
 
-class Controller(Part):
+class ControllerSettings(Part):
     """The nominal controller."""
 
     greatest_condition: Annotated[Number, Field(gt=1, le=1e9)]
@@ -112,7 +112,7 @@ Cells = Annotated[int, Field(strict=True, ge=1, le=20)]
 Grid = tuple[Cells, Cells, Cells]
 
 
-class Learner(Part):
+class LearnerSettings(Part):
     """A learner of the paper: four switches, the sizes of its nets, and how long it is trained."""
 
     maps: Literal["single", "separate"]
@@ -245,7 +245,7 @@ class Mapping(Part):
     """Factors of the damage."""
 
 
-class Training(Part):
+class TrainingSettings(Part):
     """How trainings are run and measured."""
 
     seeds: Several
@@ -294,7 +294,7 @@ class Budget(Part):
     """The errors before learning, as the score has them."""
 
 
-class Search(Budget):
+class SearchSettings(Budget):
     """The search for widths and rates."""
 
     short: Count
@@ -322,15 +322,15 @@ class Study(Part):
     """Widths and rates: those searched for the shipped study, where there are any, or its own."""
     expected: Text | None
     """File with the bands in which final errors are expected; null: no check."""
-    robots: Annotated[dict[Name, Robot], Filled]
+    robots: Annotated[dict[Name, RobotSettings], Filled]
     """Robots by name."""
-    controller: Controller
+    controller: ControllerSettings
     """The nominal controller."""
     paper_damage: PaperDamage
     """The damage of section 7."""
     scenarios: Annotated[dict[Name, tuple[Entry, ...]], Filled]
     """Lists of damages by name."""
-    learners: Annotated[dict[Name, Learner], Filled]
+    learners: Annotated[dict[Name, LearnerSettings], Filled]
     """Learners of the paper by name."""
     experiments: Experiments
     """Which learners are trained on which scenarios."""
@@ -340,15 +340,15 @@ class Study(Part):
     """A real arm."""
     mapping: Mapping
     """Measurements of the true mapping."""
-    training: Training
+    training: TrainingSettings
     """How trainings are run and measured."""
-    search: Search
+    search: SearchSettings
     """The search for widths and rates."""
     universes: Universes
     """Other readings of the paper, in which all is repeated."""
 
     @cached_property
-    def every_learner(self) -> AnyMapping[str, Learner]:
+    def every_learner(self) -> AnyMapping[str, LearnerSettings]:
         """Every learner by name: the configured ones, and those with one switch changed."""
         named = dict(self.learners)
         if IMPROVED in named and RITTER in named:

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.loop import interfaces
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import MOVES, make_peer
@@ -51,7 +51,7 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
 def compete(
     scenarios: list[Path],
     name: str,
-    rules: Learner | None,
+    rules: LearnerSettings | None,
     seeds: int,
     moves: tuple[int, ...],
     longer: tuple[int, ...],

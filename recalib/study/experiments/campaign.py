@@ -7,7 +7,7 @@ import numpy as np
 
 from recalib.learners.learned import save
 from recalib.loop.training import measuring_grid
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.trainings import Measuring
@@ -23,7 +23,7 @@ def train_seeds(
     scenario: Path,
     sample: Path,
     learned: Path,
-    rules: Learner,
+    rules: LearnerSettings,
     seeds: int,
     first: int,
     last: int,

@@ -11,7 +11,7 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.measured import ERRORS
@@ -44,7 +44,7 @@ def train_draws(
     scales: tuple[float, ...],
     first: int,
     last: int,
-    rules: Learner,
+    rules: LearnerSettings,
     tests: int,
     seed: int,
 ) -> pd.DataFrame:

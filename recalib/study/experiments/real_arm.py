@@ -18,10 +18,10 @@ from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.experiments.tracker import Measurements, read_of, read_whole_description
+from recalib.study.experiments.tracker import TrackerMeasurements, read_of, read_whole_description
 from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
@@ -52,13 +52,15 @@ def _described(description: Path, nominal: Nominal) -> tuple[Description, Robot]
     return said, with_tool_point(nominal_robot(nominal), said.target[:3, 3])
 
 
-def identified(kind: str, arm: Arm, measurements: Measurements) -> Calibration:
+def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibration:
     """The arm as a learner of a kind that knows the nominal one identifies it."""
     identifying = cast("type[GeometricLearner]", class_of(kind))
     return identifying.identify(arm, Observations(measurements.angles, measurements.measured))
 
 
-def _black_box(its: Peer, robot: Robot, known: Measurements, unknown: Measurements) -> np.ndarray:
+def _black_box(
+    its: Peer, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
+) -> np.ndarray:
     """Asked for the pose that was measured, the learner should command the one that was."""
     arm, commanded = robot.arm, robot.arm.forward(known.angles)
     centre = commanded[
@@ -74,7 +76,7 @@ def _black_box(its: Peer, robot: Robot, known: Measurements, unknown: Measuremen
 
 
 def _coordinates(
-    arm: Arm, workspace: Workspace, measurements: Measurements
+    arm: Arm, workspace: Workspace, measurements: TrackerMeasurements
 ) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates (1, n, 6) commanded and achieved.
 
@@ -87,7 +89,7 @@ def _coordinates(
 
 
 def remaining_errors(
-    learner: str, robot: Robot, known: Measurements, unknown: Measurements
+    learner: str, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
 ) -> np.ndarray:
     """Distances (m,) [m] that a peer leaves at poses it has not learned from.
 
@@ -147,7 +149,7 @@ def learn_on_twin(
     sample: Path,
     nominal: Nominal,
     name: str,
-    rules: Learner,
+    rules: LearnerSettings,
     poses: tuple[int, ...],
     subsets: int,
     tests: int,

@@ -6,13 +6,13 @@ import numpy as np
 import pandas as pd
 
 from recalib.files.archives import flat
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.scenarios.plants import Resolved
 
 
-def replay(scenario: Path, sample: Path, rules: Learner, seed: int) -> pd.DataFrame:
+def replay(scenario: Path, sample: Path, rules: LearnerSettings, seed: int) -> pd.DataFrame:
     """For each array that the learner holds, the largest difference between both teachers."""
     resolved, iterations = Resolved.read(scenario), rules.iterations
     plant = resolved.plant(resolved.controller(), seed, [0])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from recalib.errors import RecalibError
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.configuration.study import Budget, LearnerSettings, Study
 from recalib.study.plan.trainings import budget, rules, searches
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ COMMENT = "# "
 class Sought(Frozen):
     """What was searched for, how often, with how much, and on what: the head of a sample."""
 
-    learner: Learner
+    learner: LearnerSettings
     searches: int
     budget: Budget
     robot: str

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments import search
 from recalib.study.experiments.samples import winners
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def rules_of(learner: Learner) -> Rules:
+def rules_of(learner: LearnerSettings) -> Rules:
     """The rules that a learner's settings in the configuration describe."""
     return Rules(
         separate_maps=learner.maps == "separate",
@@ -31,14 +31,16 @@ def best(trials: "pd.DataFrame") -> "pd.DataFrame":
     return trials.loc[trials.groupby("search")["score"].idxmin()]
 
 
-def build(learner: Learner, trials: Sequence[Mapping]) -> HierarchicalLearner:
+def build(learner: LearnerSettings, trials: Sequence[Mapping]) -> HierarchicalLearner:
     """An untrained learner, each run with the widths and rates of a trial."""
     rules = rules_of(learner)
     columns = {name: [trial[name] for trial in trials] for name in search.columns(rules)}
     return HierarchicalLearner(rules, search.schedule(columns, rules), runs=len(trials))
 
 
-def build_tuned(learner: Learner, path: str | Path, searches: Iterable[int]) -> HierarchicalLearner:
+def build_tuned(
+    learner: LearnerSettings, path: str | Path, searches: Iterable[int]
+) -> HierarchicalLearner:
     """An untrained learner, each run with the widths and rates that a search in a file found.
 
     Args:

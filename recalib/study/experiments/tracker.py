@@ -27,7 +27,7 @@ class WrongData(RecalibError):
 
 
 @dataclass(frozen=True)
-class Measurements:
+class TrackerMeasurements:
     """What the tracker saw, in the conventions of the URDF.
 
     Attributes:
@@ -43,8 +43,8 @@ class Measurements:
     def __len__(self) -> int:
         return len(self.angles)
 
-    def __getitem__(self, rows) -> "Measurements":
-        return Measurements(self.angles[rows], self.nominal[rows], self.measured[rows])
+    def __getitem__(self, rows) -> "TrackerMeasurements":
+        return TrackerMeasurements(self.angles[rows], self.nominal[rows], self.measured[rows])
 
 
 def read_whole_description(path: str | PathLike) -> Description:
@@ -58,7 +58,7 @@ def read_whole_description(path: str | PathLike) -> Description:
     return description
 
 
-def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measurements:
+def read_of(arm: Arm, path: str | PathLike, description: Description) -> TrackerMeasurements:
     """The measurements in the table at `path`, of this arm and no other.
 
     Args:
@@ -77,7 +77,7 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Measure
     assert instrument is not None  # `read_whole_description` has both frames
     check_nominal(arm, rows.coordinates, rows.nominal, np.linalg.inv(instrument), np.eye(4))
     turn, place = instrument[:3, :3], instrument[:3, 3]
-    return Measurements(
+    return TrackerMeasurements(
         rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
     )
 

@@ -12,7 +12,7 @@ from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import Rules
 from recalib.loop.interfaces import Commandable
 from recalib.numerics.randomness import generator
-from recalib.study.configuration.study import Budget, Learner
+from recalib.study.configuration.study import Budget, LearnerSettings
 from recalib.study.experiments import search
 from recalib.study.experiments.poses import SearchPoses, Stream, train_on
 from recalib.study.experiments.settings import rules_of
@@ -27,7 +27,7 @@ DIGITS = 4  # of errors and scores
 def search_for(
     scenario: Path,
     training: str,
-    learner: Learner,
+    learner: LearnerSettings,
     budget: Budget,
     first: int,
     last: int,

@@ -17,7 +17,7 @@ from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import PaperDamage
 from recalib.study.configuration.universes import Universes
 from recalib.study.multiverse.design import Designed
-from recalib.study.multiverse.factors import Row, rows
+from recalib.study.multiverse.factors import SobolRow, rows
 from recalib.study.multiverse.homes import random_home
 from recalib.study.multiverse.universe import DIGITS, robot_in
 from recalib.study.scenarios.assignments import Ways, compare
@@ -57,7 +57,7 @@ def design(setting: Setting) -> list[dict[str, Any]]:
     raise RecalibError(f"only {len(drawn)} of {setting.plan.count} universes are possible")
 
 
-def draw(setting: Setting, universe: int, row: Row) -> Designed:
+def draw(setting: Setting, universe: int, row: SobolRow) -> Designed:
     """A universe of a row. Raises RecalibError: its robot cannot do it."""
     plan, levels = setting.plan, row.levels
     random = generator(plan.seed, "universe", row.number)
@@ -122,7 +122,7 @@ def moved(
 
 
 def _controller(
-    nominal: Nominal, row: Row, spread: float, random: np.random.Generator
+    nominal: Nominal, row: SobolRow, spread: float, random: np.random.Generator
 ) -> tuple[Controller, int]:
     """The controller at its home, and how many homes it refused before."""
     robot = nominal_robot(nominal)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.study.configuration.lengths import LONG
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.samples import read_sample
 from recalib.study.experiments.settings import best, build
@@ -24,7 +24,7 @@ def efforts(
     scenario: Path,
     sample: Path,
     training: str,
-    learner: Learner,
+    learner: LearnerSettings,
     rough_trials: int,
     seeds: int,
     tests: int,
@@ -59,7 +59,12 @@ def rough(trials: pd.DataFrame, size: int) -> pd.DataFrame:
 
 
 def _trained(
-    resolved: Resolved, learner: Learner, winners: pd.DataFrame, each: int, tests: int, seed: int
+    resolved: Resolved,
+    learner: LearnerSettings,
+    winners: pd.DataFrame,
+    each: int,
+    tests: int,
+    seed: int,
 ) -> pd.DataFrame:
     """Winners (a row each) trained with `each` seeds each; all see the same poses by seed."""
     iterations, seeds = learner.iterations, list(range(each)) * len(winners)

@@ -9,7 +9,7 @@ import numpy as np
 from recalib.study.configuration.universes import Factors, Universes
 
 
-class Row(NamedTuple):
+class SobolRow(NamedTuple):
     """A row of the quasi-random sequence.
 
     Attributes:
@@ -23,7 +23,7 @@ class Row(NamedTuple):
     share: float
 
 
-def rows(plan: Universes) -> Iterator[Row]:
+def rows(plan: Universes) -> Iterator[SobolRow]:
     """The rows of the design, and as many again to replace those that a robot refuses.
 
     A Sobol sequence: of a power of two of rows, the levels of each factor have equal shares, and so
@@ -37,4 +37,4 @@ def rows(plan: Universes) -> Iterator[Row]:
     for number, (*numbers, share) in enumerate(sequence.random_base2(power).tolist()):
         valid = [getattr(plan.factors, name) for name in names]
         chosen = (levels[int(u * len(levels))] for levels, u in zip(valid, numbers, strict=True))
-        yield Row(number, dict(zip(names, chosen, strict=True)), share)
+        yield SobolRow(number, dict(zip(names, chosen, strict=True)), share)

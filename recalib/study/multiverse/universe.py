@@ -6,7 +6,13 @@ from typing import Any
 
 from recalib.study.configuration.damages import Entry
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, Learner, Ranges, Study, Workspace
+from recalib.study.configuration.study import (
+    Budget,
+    LearnerSettings,
+    Ranges,
+    Study,
+    WorkspaceSettings,
+)
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.inference.measured import MOVED
 from recalib.study.multiverse.design import Designed
@@ -52,7 +58,7 @@ class Universe(Frozen):
     number: int
     nominal: Nominal
     scenarios: Mapping[str, tuple[Entry, ...]]
-    learners: Mapping[str, Learner]
+    learners: Mapping[str, LearnerSettings]
     conventions: Conventions
     rate_of_visits: str
     ritters_rate: str
@@ -120,7 +126,9 @@ def universe(study: Study, designed: Designed) -> Universe:
     )
 
 
-def robot_in(nominal: Nominal, levels: Mapping[str, Any], own: Workspace, longer: float) -> Nominal:
+def robot_in(
+    nominal: Nominal, levels: Mapping[str, Any], own: WorkspaceSettings, longer: float
+) -> Nominal:
     """The robot with the pose coordinates and the tool of its levels.
 
     Args:
@@ -133,7 +141,7 @@ def robot_in(nominal: Nominal, levels: Mapping[str, Any], own: Workspace, longer
     return nominal.model_copy(update={"robot": entry.model_copy(update=update)})
 
 
-def width_units(widths: str, own: Workspace) -> tuple[float, ...]:
+def width_units(widths: str, own: WorkspaceSettings) -> tuple[float, ...]:
     """Six factors that turn workspace coordinates into the units of widths.
 
     One width is as many cm as degrees on the study's own robot, whose workspace is given: on
@@ -146,7 +154,7 @@ def width_units(widths: str, own: Workspace) -> tuple[float, ...]:
     return tuple(factor / (sum(factors[:3]) / 3) for factor in factors)
 
 
-def metric(norm: str, workspace: Workspace) -> tuple[float, ...]:
+def metric(norm: str, workspace: WorkspaceSettings) -> tuple[float, ...]:
     """Six factors that turn workspace coordinates into the units of the norm in (3) and (8)."""
     lengths = [side / 2 for side in workspace.position]
     angles = [side / 2 for side in workspace.orientation]
@@ -158,7 +166,9 @@ def metric(norm: str, workspace: Workspace) -> tuple[float, ...]:
     return (1.0,) * 6
 
 
-def _with_cells(learner: Learner, cells: str, workspace: Workspace) -> Learner:
+def _with_cells(
+    learner: LearnerSettings, cells: str, workspace: WorkspaceSettings
+) -> LearnerSettings:
     """A learner with its nets; as a whole, a single map has the cells of two, doubled along the
     longest side of the workspace.
     """

@@ -2,7 +2,7 @@
 
 from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Learner, Study
+from recalib.study.configuration.study import LearnerSettings, Study
 from recalib.study.plan.trainings import Measuring, measuring, rules, scenario_of, training
 from recalib.study.scenarios.nominal import digest_of
 
@@ -13,7 +13,7 @@ class Recording(Frozen):
     """Learners that are recorded side by side, by name: today's have no settings, and few moves."""
 
     scenario: str
-    learners: dict[str, Learner | None]
+    learners: dict[str, LearnerSettings | None]
     moves: int
     measuring: Measuring
     seed: int

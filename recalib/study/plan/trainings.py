@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from recalib.errors import UnknownName
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, Learner, Study
+from recalib.study.configuration.study import Budget, LearnerSettings, Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 
 
@@ -34,13 +34,13 @@ def training(study: Study, learner: str) -> Training:
     return Training(match[1], int(match[2]))
 
 
-def rules(study: Study, learner: str) -> Learner:
+def rules(study: Study, learner: str) -> LearnerSettings:
     """A learner's settings, with the iterations that its name asks for. Raises UnknownName."""
     which = training(study, learner)
     return study.every_learner[which.name].model_copy(update={"iterations": which.iterations})
 
 
-def rules_unless_peer(study: Study, learner: str) -> Learner | None:
+def rules_unless_peer(study: Study, learner: str) -> LearnerSettings | None:
     """A learner's settings; None for one of today's, which have none."""
     try:
         return rules(study, learner)

@@ -33,7 +33,7 @@ SCALES: Mapping[str, tuple[str, tuple[float, ...]]] = {  # names and ticks of ax
 REACH = ndtri((1 + LEVEL) / 2)  # standard deviations
 
 
-class Row(NamedTuple):
+class ClaimRow(NamedTuple):
     """A claim on one of its systems."""
 
     statement: str
@@ -68,7 +68,7 @@ class Row(NamedTuple):
         return np.exp(values - self.setups.across.limit())
 
 
-def rows(evidence: Evidence) -> list[Row]:
+def rows(evidence: Evidence) -> list[ClaimRow]:
     """All claims that choices reach, on each of their systems."""
     judged, found = {claim["id"]: claim for claim in evidence.claims()}, []
     for claim in CLAIMS:
@@ -77,7 +77,7 @@ def rows(evidence: Evidence) -> list[Row]:
         reference = "" if judged_by_setups(its) else headline(its)
         for place, (system, setups) in enumerate(claim.setups(evidence).items()):
             verdict = Verdict(systems[system]["verdict"])
-            found.append(Row(its["statement"], system, verdict, setups, place == 0, reference))
+            found.append(ClaimRow(its["statement"], system, verdict, setups, place == 0, reference))
     return found
 
 
@@ -99,7 +99,7 @@ def figure14(evidence: Evidence) -> Figure:
     return sheet.figure
 
 
-def _heading(shown: Sequence[Row]) -> str:
+def _heading(shown: Sequence[ClaimRow]) -> str:
     leading = [row for row in shown if row.leads]
     right = sum(row.right for row in leading)
     counts = {verdict: sum(row.verdict == verdict for row in leading) for verdict in Verdict}
@@ -109,7 +109,7 @@ def _heading(shown: Sequence[Row]) -> str:
     )
 
 
-def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
+def _explained(evidence: Evidence, shown: Sequence[ClaimRow]) -> str:
     choices, outcomes = evidence.levels().shape[1], evidence.setups("outcomes")
     replicates = 0 if outcomes is None else outcomes["replicate"].nunique()
     return (
@@ -120,7 +120,7 @@ def _explained(evidence: Evidence, shown: Sequence[Row]) -> str:
     )
 
 
-def _draw_row(axes: Axes, row: Row, middle: float, limits: tuple[float, float]) -> None:
+def _draw_row(axes: Axes, row: ClaimRow, middle: float, limits: tuple[float, float]) -> None:
     model, style = row.setups.model, DARK if row.leads else PALE
     comparison, ends = row.setups.across.comparison, np.array(limits)
     (limit,) = row.placed([row.setups.across.limit()])
@@ -175,7 +175,7 @@ def _dots(
             )
 
 
-def _write(axes: Axes, row: Row, middle: float) -> None:
+def _write(axes: Axes, row: ClaimRow, middle: float) -> None:
     limit = row.setups.across.comparison
     against = "" if limit.bounds else f", limit {limit.limit:g}"
     lines = [*textwrap.wrap(row.statement, 46)] if row.leads else []
@@ -187,7 +187,7 @@ def _write(axes: Axes, row: Row, middle: float) -> None:
     write(axes, 1.32, middle, "\n".join(_numbers(row)), color=color)
 
 
-def _numbers(row: Row) -> list[str]:
+def _numbers(row: ClaimRow) -> list[str]:
     setups = row.setups
     across, measured = setups.across, len(setups.model.numbers)
     mean, *ends = map(rounded, setups.mean)  # as pages have them

@@ -10,7 +10,7 @@ from recalib.damaged.damage import EncoderShift, LinkShortening
 from recalib.nominal.chain import Chain
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.damages import damages_among
-from recalib.study.configuration.study import Learner
+from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
@@ -22,7 +22,12 @@ DIGITS = 12  # of placements: machines differ in how they round sines
 
 
 def script(
-    scenario: Path, sample: Path, history: Path, learner: Learner, measuring: Measuring, seed: int
+    scenario: Path,
+    sample: Path,
+    history: Path,
+    learner: LearnerSettings,
+    measuring: Measuring,
+    seed: int,
 ) -> str:
     """A script that defines STUDY: robot, damage, learner and poses; lengths in m, angles in rad.
 

@@ -8,7 +8,7 @@ import rerun as rr
 from recalib.study.inference.measured import ERRORS, UNITS
 from recalib.study.recording.colours import BELIEVED, GREY, MEASURED, MISSED
 from recalib.study.recording.scene import AXIS, Scene, axes_of, unit_of
-from recalib.study.recording.watched import Cells, Watched
+from recalib.study.recording.watched import MapCells, Watched
 
 PUBLISHED = "paper"  # the entity's name beside those of the learners
 VISIBLE = 0.01  # m: measurements that scatter less are drawn enlarged
@@ -79,7 +79,7 @@ def enlarged(watched: Watched) -> int:
     return times
 
 
-def send_map(scene: Scene, cells: Cells) -> None:
+def send_map(scene: Scene, cells: MapCells) -> None:
     """The supernet's cells, larger the more they learned last.
 
     Their corrections are true to scale.

@@ -18,7 +18,7 @@ REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
 
 @dataclass(frozen=True)
-class Cells:
+class MapCells:
     """The supernet's cells of the map that gives positions.
 
     Attributes:
@@ -53,7 +53,7 @@ class Watched:
     achieved: np.ndarray
     angles: np.ndarray
     scatter: np.ndarray
-    cells: Cells | None
+    cells: MapCells | None
 
 
 def visiting_order(poses: np.ndarray) -> np.ndarray:
@@ -99,7 +99,7 @@ def watch(
     cells = None
     if maps:
         half_ranges = workspace.half_ranges[POSITION]
-        cells = Cells(
+        cells = MapCells(
             centres=workspace.centre[:3, 3] + maps.nets.w_k * half_ranges,
             weights=np.stack(weights),
             corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,

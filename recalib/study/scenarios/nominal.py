@@ -5,15 +5,15 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Controller, Robot, Study
+from recalib.study.configuration.study import ControllerSettings, RobotSettings, Study
 
 
 class Nominal(Frozen):
     """A robot and its controller."""
 
     name: str
-    robot: Robot
-    controller: Controller
+    robot: RobotSettings
+    controller: ControllerSettings
     urdf_sha256: str
     """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
 
