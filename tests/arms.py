@@ -40,6 +40,15 @@ GANTRY = urdf(
     ("y", "prismatic", "0 1 0", "0 0 0"),
     ("z", "prismatic", "0 0.6 0.8", "0 0 0"),  # leans
 )
+# Axes as most makers of industrial arms draw them: the last one lies along x of the link before it.
+INDUSTRIAL = urdf(
+    ("joint_1", "revolute", "0 0 1", "0 0 0.35"),
+    ("joint_2", "revolute", "0 1 0", "0.1 0 0.1"),
+    ("joint_3", "revolute", "0 1 0", "0 0 0.36"),
+    ("joint_4", "revolute", "1 0 0", "0.2 0 0.07"),
+    ("joint_5", "revolute", "0 1 0", "0.2 0 0"),
+    ("joint_6", "revolute", "1 0 0", "0.08 0 0"),
+)
 # Six joints that turn, on a rail.
 RAILED = urdf(
     ("rail", "prismatic", "0 1 0", "0 0 0.1"),

@@ -26,6 +26,9 @@ REFINED = 6  # so many of the best estimates are refined
 ROBUST, STEPS = 5e-3, 30  # m that count as gross, and evaluations, of a refinement
 FARTHEST = 0.15  # m: an arm with a larger median error is not the one that is described
 THIN = 5e-3  # m: the standard deviation across a line of points that are on it
+# m or m/rad of residual by a parameter over its deviation: what rows leave open, such as how high
+# an arm with parallel axes stands, stays as in closed form, and rounding does not move it
+KEPT = 1e-6
 
 
 class NoInitialEstimate(RecalibError):
@@ -143,6 +146,7 @@ def _refined(arm: Arm, frames: Frames, observations: Observations) -> Frames:
         return frames
     terms = model.terms(observations.joints)
     units = np.array([1.0, LEVER])[: observations.kinds, None, None]
+    kept = KEPT * np.eye(len(varied))
 
     @lru_cache(maxsize=1)  # residuals and slopes are asked for one after the other
     def linearised(numbers: bytes) -> tuple[np.ndarray, np.ndarray]:
@@ -150,7 +154,11 @@ def _refined(arm: Arm, frames: Frames, observations: Observations) -> Frames:
         parameters[varied] = np.frombuffer(numbers)
         linearisation = Linearisation(model, parameters, observations, terms)
         slopes = linearisation.jacobians[..., varied] * units[..., None]
-        return (linearisation.residuals * units).ravel(), -slopes.reshape(-1, len(varied))
+        residuals = (linearisation.residuals * units).ravel()
+        return (
+            np.concatenate([residuals, kept @ parameters[varied]]),
+            np.concatenate([-slopes.reshape(-1, len(varied)), kept]),
+        )
 
     found = least_squares(
         lambda numbers: linearised(numbers.tobytes())[0],

@@ -95,12 +95,11 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correction.archive import load_correction
     from recalib.laboratory.correction.correct import correct, unidentifiable_ends
-    from recalib.laboratory.report.files import CORRECTION, write_postures
+    from recalib.laboratory.report.files import read_correction, write_postures
     from recalib.laboratory.tables.measurements import read_desired
 
-    correction = load_correction(given.calibration / CORRECTION)
+    correction = read_correction(given.calibration)
     in_instrument = given.frame == "instrument"
     desired = read_desired(given.desired, correction.arm, in_instrument)
     commands = correct(correction, desired, in_instrument)
@@ -109,8 +108,8 @@ def _correct(given: argparse.Namespace) -> int:
     if ends and not in_instrument:
         _warn(
             f"errors of {ends} are not identifiable from the measurements, so commands in the base"
-            " have them. In the instrument's frame commands are right. Try: --frame instrument, or"
-            " a description with [instrument] and [target]"
+            " have them. In the instrument's frame commands are right. Try: --frame instrument, a"
+            " description with [instrument] and [target], or measured rotations"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):
@@ -125,12 +124,11 @@ def _correct(given: argparse.Namespace) -> int:
 
 
 def _next(given: argparse.Namespace) -> int:
-    from recalib.laboratory.correction.archive import load_correction
     from recalib.laboratory.propose import propose
-    from recalib.laboratory.report.files import CORRECTION, write_postures
+    from recalib.laboratory.report.files import read_correction, write_postures
     from recalib.laboratory.tables.measurements import read_desired
 
-    correction = load_correction(given.calibration / CORRECTION)
+    correction = read_correction(given.calibration)
     candidates = given.candidates and read_desired(given.candidates, correction.arm)
     proposal = propose(correction, given.count, candidates)
     write_postures(

@@ -72,7 +72,7 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
     add_arm(own)
 
     own = add("correct", "compute commands that reach the desired poses")
-    own.add_argument("calibration", type=_path, help="folder that calibrate wrote")
+    own.add_argument("calibration", type=_path, help="folder of calibrate, or its correction.npz")
     own.add_argument("desired", type=_path, help="desired poses or joint coordinates (CSV)")
     own.add_argument(
         "--frame",
@@ -87,7 +87,7 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
         "next",
         "propose the most informative postures, and say whether more are worth measuring",
     )
-    own.add_argument("calibration", type=_path, help="folder that calibrate wrote")
+    own.add_argument("calibration", type=_path, help="folder of calibrate, or its correction.npz")
     own.add_argument(
         "candidates",
         type=_path,

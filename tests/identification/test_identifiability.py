@@ -3,6 +3,7 @@ import pytest
 
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.model.observations import Distance, Observations
+from tests.arms import INDUSTRIAL, RAILED
 from tests.identification.real import Real, geometry_of
 
 BASE, OFFSET, TARGET = range(6), 48, 42  # numbers of the Panda's parameters
@@ -24,6 +25,16 @@ def test_an_arm_of_turning_joints_has_four_parameters_a_joint_and_six_at_its_end
     # without orientations three are held, of how the target is turned, and three are not told
     assert len(open_ones) == 8 * 6 + 7 - (4 * 7 + 6)
     assert all(one.lasting for one in open_ones)
+
+
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+@pytest.mark.parametrize("text", [INDUSTRIAL, RAILED], ids=["industrial", "on a rail"])
+def test_what_goes_along_an_axis_no_posture_tells_however_links_are_bent(load, text, positions):
+    open_ones = found(load(text), positions=positions)
+    assert all(one.lasting for one in open_ones)
+    slides = text.count("prismatic")  # of which an axis has a direction and no place
+    turns = text.count("revolute")
+    assert len(open_ones) == (turns + slides) * 7 + 6 - (4 * turns + 2 * slides + 6)
 
 
 def test_the_offset_of_the_last_joint_is_a_turn_of_the_target(panda):

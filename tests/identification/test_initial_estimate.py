@@ -30,9 +30,14 @@ def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(posit
     assert real.missed(geometry_of(arm, observations).predict) < 5e-4
 
 
-def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(load):
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+def test_an_arm_that_turns_its_tool_about_one_axis_is_placed(load, positions):
+    """How high it stands and where the target sits are one: neither goes far for nothing."""
     real = Real(nominal := load(SCARA), 7)
-    assert real.missed(geometry_of(nominal, real.seen(30)).predict) < 5e-4
+    geometry = geometry_of(nominal, observations := real.seen(30, positions))
+    assert real.missed(geometry.predict) < 5e-4
+    target = initial_frames(nominal, observations).targets[0, :3, 3]
+    assert np.abs(target - real.targets[0, :3, 3]).max() < 1.2
 
 
 def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):

@@ -68,6 +68,7 @@ def by_ball(text: str, table) -> Calibrated:
 def test_frames_that_are_known_leave_base_and_tool_to_the_arm(arm, table):
     result = calibrated_with(INSTRUMENT + TARGET, table)
     assert not result.frames.base_unknown and not result.frames.targets_unknown
+    assert unidentifiable_ends(result.correction) == "how the tool link is turned"
     assert result.worthwhile
     tests = postures(14, 20, part=0.8)
     gap = (result.calibration.forward(tests) - arm.forward(tests + OFFSETS)) @ POINT

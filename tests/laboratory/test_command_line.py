@@ -88,7 +88,7 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     goals = to_instrument(true_positions(arm, joints))
     write(folder / "seen.csv", in_millimetres(goals))
     desired, out = str(folder / "seen.csv"), folder / "seen_commands.csv"
-    arguments = ["correct", str(calibrated), desired, f"--out={out}"]
+    arguments = ["correct", str(calibrated / "correction.npz"), desired, f"--out={out}"]
     assert main([*arguments, "--frame=instrument"]) == DONE
     sent = read(out)
     commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T

@@ -2,8 +2,12 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+from recalib.identification.initial_estimate import NoInitialEstimate
+from recalib.identification.model.observations import Observations
+from recalib.laboratory.tables.knowledge import checked_frames
 from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal
 from recalib.nominal.arms import load_arm
+from tests.identification.real import Real
 
 TOOL_POINT = pin.SE3(np.eye(3), np.array([0.0, 0.02, 0.12])).homogeneous  # m
 
@@ -71,6 +75,10 @@ MISTAKES = {
     "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
     "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres that say cm"),
     "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres that say m"),
+    "a left-handed frame": (
+        lambda q, p: (q, p * [1, -1, 1]),
+        "positions of which an axis points the other way",
+    ),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
@@ -84,6 +92,38 @@ def test_the_likely_mistake_is_named(spoil, words, arm, joints, nominal):
     with pytest.raises(WrongNominal) as refused:
         check_nominal(arm, *spoil(joints, nominal), np.eye(4), TOOL_POINT)
     assert f"likely: {words}" in str(refused.value)
+
+
+@pytest.mark.parametrize("name", [*[*MISTAKES][:6], "a left-handed frame"])
+def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
+    spoil, words = MISTAKES[name]
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    seen = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
+    with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
+        checked_frames(arm, seen)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda poses: np.linalg.inv(poses), "poses of the instrument in the target's frame"),
+        (lambda poses: with_turns(poses, poses.swapaxes(1, 2)), "rotations of something else"),
+    ],
+    ids=["inverse", "transposed"],
+)
+def test_so_are_poses_of_something_else(spoil, words, arm):
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
+        checked_frames(arm, Observations(joints, spoil(real.poses(joints))))
+
+
+def with_turns(poses: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Poses (n, 4, 4) with the rotations of others."""
+    changed = poses.copy()
+    changed[:, :3, :3] = others[:, :3, :3]
+    return changed
 
 
 def test_a_tool_that_was_forgotten_is_named(arm, joints, nominal):

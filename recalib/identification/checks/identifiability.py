@@ -1,8 +1,9 @@
 """Parameters of the geometry that are not identifiable from the measurements.
 
-Parameters are added one by one to the identifiable ones: frames, then joint offsets, then links.
-One is not identifiable if the data's information on it, with all before it free, is less than that
-of its prior. The parameters that can compensate for it are its partners.
+Parameters are added one by one to the identifiable ones: frames, then joint offsets, then links,
+and last those of which others leave next to nothing. One is not identifiable if the data's
+information on it, with all before it free, is less than that of its prior. The parameters that can
+compensate for it are its partners.
 """
 
 from collections.abc import Iterator
@@ -21,7 +22,9 @@ from recalib.numerics.randomness import generator
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
 POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
 SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's steps to there
-ROUNDING = 1e-8  # of a parameter's own information
+# Of a parameter's own information: what others leave of it where links are bent by two degrees, and
+# where they are not bent at all.
+WEAK, ROUNDING = 1e-3, 1e-8
 PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
 
 
@@ -47,15 +50,28 @@ def unidentifiable_parameters(
     """The parameters of geometry that observations leave open, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
-    root = _root(calibration, observations, estimate.weights)[:, order]
+    root = _root(calibration, observations, estimate.weights)
     anywhere = _anywhere(calibration, observations)
-    more = _root(calibration, anywhere, np.ones(len(anywhere)))[:, order]
+    more = _root(calibration, anywhere, np.ones(len(anywhere)))
+    # What goes along an axis is the same before and behind it. By a bent link alone the first of
+    # two such parameters looks told, and then the second by nothing: so the first comes last.
+    its = root[:, order]
+    order = _last(order, [one for one, _ in _dependent(its, WEAK * np.sum(its**2, axis=0))])
+    found = dict(_dependent(root[:, order], np.full(len(order), TOLD)))
+    # Whatever could make up for what is open is free where other measurements are asked for it.
+    again = _last(np.arange(len(order)), [*found])
+    more = more[:, order[again]]
     least = ROUNDING * np.maximum(np.sum(more**2, axis=0), TOLD)
-    lasting = {number for number, _ in _dependent(more, least)}
+    lasting = {int(again[number]) for number, _ in _dependent(more, least)}
     return [
         Unidentifiable(int(order[number]), tuple(order[partners].tolist()), number in lasting)
-        for number, partners in _dependent(root, np.full(len(order), TOLD))
+        for number, partners in found.items()
     ]
+
+
+def _last(order: np.ndarray, some: list[int]) -> np.ndarray:
+    """The same order (p,), but what stands at some places comes last."""
+    return np.concatenate([np.delete(order, some), order[some]])
 
 
 def _order(model: ErrorModel) -> np.ndarray:

@@ -92,9 +92,11 @@ def reach(correction: Correction, desired: Measurements, in_instrument: bool) ->
 def unidentifiable_ends(correction: Correction) -> str | None:
     """The ends of the arm whose errors are unknown, in words: commands in the base have these."""
     frames = correction.calibration.frames
+    positions_alone = len(correction.calibration.estimate.noise) == 1
     ends = {
         "the arm's base": frames.base_unknown or len(frames.sockets),
         "the tool link": frames.targets_unknown,
+        "how the tool link is turned": positions_alone and not frames.targets_unknown,
     }
     return " and ".join(end for end, unknown in ends.items() if unknown) or None
 

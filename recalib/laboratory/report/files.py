@@ -15,6 +15,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING
 from recalib.laboratory.arms.universal_robots import kinematics_yaml
 from recalib.laboratory.arms.urdf import angles_of
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.correction.archive import Correction, load_correction
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.parameters import described
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
@@ -75,6 +76,11 @@ def optional_outputs() -> tuple[list[tuple[str, Callable[[Path, Calibrated], Non
             package = (error.name or module).partition(".")[0]
             missing.append(f"No {name}: {package} is missing; pip install 'recalib[laboratory]'")
     return writers, missing
+
+
+def read_correction(calibration: Path) -> Correction:
+    """That of a calibration: of its folder, or the file alone. Raises InvalidFile."""
+    return load_correction(calibration if calibration.is_file() else calibration / CORRECTION)
 
 
 def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) -> None:

@@ -22,6 +22,7 @@ from recalib.identification.initial_estimate import (
 )
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.laboratory.tables.nominal_checks import likely_mistake
 from recalib.nominal.kinematics import Arm
 
 ALIKE = 2.0  # times the least error: as good an explanation
@@ -45,7 +46,7 @@ def checked_frames(
         target: (4, 4) m in the tool link's frame, where it is known, the same for all targets.
 
     Raises WrongKnowledge: without one of them that is given, the measurements are explained.
-    NoInitialEstimate: nothing explains them.
+    NoInitialEstimate: nothing explains them; with the likely mistake, if there is one.
     """
     described = {"base": instrument, "target": target}
     stated = {name: pose for name, pose in described.items() if pose is not None}
@@ -61,7 +62,8 @@ def checked_frames(
             without[wrong] = initial_frames(arm, observations, **right)
             errors[wrong] = median_error(without[wrong], tool, observations)
     if not without:
-        raise problem
+        mistake = _mistake(arm, observations)
+        raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
     found = without[wrong]
@@ -71,6 +73,25 @@ def checked_frames(
     raise WrongKnowledge(
         f"the description's {parts} {where}; try: a description without it, for it to be estimated"
     )
+
+
+def _mistake(arm: Arm, observations: Observations) -> str | None:
+    """What may be wrong with rows that nothing explains, in words; None where nothing is likely."""
+    measured = observations.measured
+    if measured is None or observations.targets.any():
+        return None
+    if observations.kinds == 2:
+        others = {
+            "rotations of something else, or a quaternion in another order: positions alone are"
+            " explained": observations.positions,
+            "poses of the instrument in the target's frame; expected: of the target in the"
+            " instrument's": np.linalg.inv(measured),
+        }
+        for words, other in others.items():
+            with suppress(NoInitialEstimate):
+                initial_frames(arm, replace(observations, measured=other))
+                return words
+    return likely_mistake(arm, observations.joints, observations.positions, FARTHEST, most_steps=1)
 
 
 def frames_by_sights(

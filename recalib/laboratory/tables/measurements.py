@@ -1,13 +1,13 @@
 """What was measured of an arm, read from a table; docs/own_arm.md describes its columns."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile, InvalidSetting
+from recalib.errors import InvalidFile, InvalidSetting, UnsuitableRobot
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.tables.columns import NUMBER, Table, read_table, table_of
@@ -26,6 +26,7 @@ OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wr
 PICTURE = "picture"  # the column with the names of files, which says nothing of an arm
 TARGET, TIMES = "target", "time"
 LABELS = TARGET, "socket"
+MEASURED = [*(name for group in VECTORS for name in group), *LABELS, TIMES, PICTURE]
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
@@ -82,8 +83,9 @@ def read_measurements(
 
     Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, there
     twice or useless; a cell that is no number or too large for an arm; too few rows; nothing
-    measured.
+    measured. UnsuitableRobot: a joint that is called as a column of measurements.
     """
+    _check_names(arm)
     read = _read(read_table(path, description.columns if description else None), arm)
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
@@ -107,10 +109,12 @@ def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = Fals
     Raises InvalidFile as `read_measurements` does, but one row is enough; and where a column says
     nothing of what is desired.
     """
+    _check_names(arm)
     table = read_table(path)
     if TARGET in table and not in_instrument:
         raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
-    table.check_columns([*_names(arm, DESIRED), *[TARGET] * in_instrument, PICTURE])
+    desired = [name for group in DESIRED for name in group]
+    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE])
     read = _read(table, arm)
     if read.coordinates is None and read.positions is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
@@ -124,6 +128,7 @@ def measurements_so_far(
 
     Raises InvalidFile as `read_measurements` does, and where a row has no position.
     """
+    _check_names(arm)
     read = _read(table_of(content, path, description.columns), arm)
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
@@ -132,9 +137,19 @@ def measurements_so_far(
     return read
 
 
+def _check_names(arm: Arm) -> None:
+    """Raise UnsuitableRobot where a joint's column would be that of a measurement, too."""
+    for joint in arm.joints:
+        if joint in MEASURED:
+            raise UnsuitableRobot(
+                f"the joint {joint!r} has the name of a measured column; try: another name for it"
+                " in the URDF"
+            )
+
+
 def _read(table: Table, arm: Arm) -> Measurements:
     path = table.path
-    table.check_columns([*_names(arm, VECTORS), *LABELS, TIMES, PICTURE])
+    table.check_columns([*arm.joints, *MEASURED])
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -159,11 +174,6 @@ def _read(table: Table, arm: Arm) -> Measurements:
         sockets,
         _times(table),
     )
-
-
-def _names(arm: Arm, vectors: Iterable[tuple[str, ...]]) -> list[str]:
-    """The columns of joints, and those of the components of vectors."""
-    return [*arm.joints, *(name for group in vectors for name in group)]
 
 
 def _times(table: Table) -> np.ndarray | None:

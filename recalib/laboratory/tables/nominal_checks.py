@@ -84,17 +84,34 @@ def check_nominal(
         point = frames.targets[0, :3, 3] - place[:3, 3]
         words = _words(frames.base @ np.linalg.inv(known), point)
         raise WrongNominal(gaps.max(), f"{words}, which the description does not say")
-    raise WrongNominal(gaps.max(), _mistake(arm, coordinates[rows], positions, _rms(remaining)))
+    raise WrongNominal(gaps.max(), likely_mistake(arm, coordinates, nominal))
 
 
-def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: float) -> str | None:
-    """The mistake that explains the most of a difference [m], of one step and then of two.
+def likely_mistake(
+    arm: Arm,
+    coordinates: np.ndarray,
+    positions: np.ndarray,
+    alike: float = ALIKE,
+    most_steps: int = 2,
+) -> str | None:
+    """The mistake in data that explains the most of a difference, of one step and then of more.
 
     What it leaves is a part of how far the positions are spread without it: where arm and positions
     shrink to a point, nothing is explained.
+
+    Args:
+        coordinates: (n, joints) rad, or m where a joint slides.
+        positions: (n, 3) m, of a point somewhere on the tool, from somewhere.
+        alike: m that the mistake may leave.
+        most_steps: mistakes at once.
+
+    Returns it in words; None where nothing explains it.
     """
+    rows = np.unique(np.linspace(0, len(positions) - 1, ENOUGH).astype(int))
+    coordinates, nominal = coordinates[rows], positions[rows]
+    plain = _rms(_fit(arm.forward(coordinates), nominal)[1])
     steps = list(_steps(arm))
-    for count in (1, 2):
+    for count in range(1, most_steps + 1):
         fits = []
         for chosen in combinations(steps, count):
             joints, positions = coordinates, nominal
@@ -106,7 +123,7 @@ def _mistake(arm: Arm, coordinates: np.ndarray, nominal: np.ndarray, plain: floa
             part = _rms(gaps) / spread if spread > 0 else np.inf
             fits.append((part, _rms(gaps), gaps.max(), words))
         part, rms, largest, words = min(fits)
-        if largest <= ALIKE and part < EXPLAINED and rms < EXPLAINED * plain:
+        if largest <= alike and part < EXPLAINED and rms < EXPLAINED * plain:
             return words
     return None
 
@@ -118,6 +135,7 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
     yield "joint columns in radians that say deg", np.degrees, np.asarray
     for factor, words in UNITS.items():
         yield f"positions {words}", np.asarray, partial(np.multiply, factor)
+    yield "positions of which an axis points the other way", np.asarray, np.negative
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
         yield f"the sign of {name}", partial(np.multiply, signs), np.asarray
