@@ -114,6 +114,14 @@ def test_a_verdict_that_holds_of_one_system_alone_names_it():
     }
 
 
+@pytest.mark.parametrize(("holds", "more"), [(43, "; holds in 43 of 64"), (64, "")])
+def test_a_mean_says_in_how_many_setups_the_claim_holds_unless_it_does_in_all(holds, more):
+    its = {"status": "measured", "mean": 0.9, "mean_interval": [0.8, 0.95], "setups": 64}
+    claim = {"id": "schedule", "verdict": "supported", "systems": {}, "universes": its}
+    said = in_a_sentence({"schedule": claim | {"universes": its | {"holds": holds}}})
+    assert said == {"schedule": f"error x 0.9 (0.8 to 0.95){more}"}
+
+
 def test_readers_are_told_which_number_is_which(made_up):
     section = (
         rendered("results.md", made_up).split("### Which number is which\n")[1].split("\n##")[0]

@@ -135,6 +135,12 @@ def test_other_errors_change_the_verdict(few, tmp_path, claim, final, verdict):
     assert MadeUp(tmp_path, few, final).verdict(claim) == verdict
 
 
+def test_of_a_moved_robot_the_largest_share_that_remains_is_said_first(few, tmp_path):
+    judged = MadeUp(tmp_path, few, {("improved", "rotation"): [4.0, 4.0]}).judged("rigid")
+    shares = [judged["measured"][label] for label in judged["interval"]]
+    assert shares == sorted(shares, reverse=True) and shares[0] > 0.1
+
+
 def test_an_error_that_was_none_at_first_decides_nothing(few, tmp_path, monkeypatch):
     """As of a single link that is short: the rest that remains of rounding says nothing."""
     monkeypatch.setitem(AT_FIRST, few.scenario, INITIAL * [1, 0])

@@ -33,7 +33,7 @@ CLAIM = Claim(
     quotation="we can directly place the centers of the cells in a regular grid covering it, in"
     " order to minimize the quantization error. These centers do not need to move",
     statement="A regular grid of cells covers the workspace best.",
-    short="quantisation error x {number} against cells placed by Kohonen's rule",
+    short="quantisation error x {number} against Kohonen's rule",
     limits={"worse": Limit(1.1)},
     criterion="The quantisation error of the regular grid is below that of cells placed by"
     " Kohonen's rule, and at most {worse} times the least that k-means finds.",

@@ -27,7 +27,8 @@ def integral_ratios(table: "pd.DataFrame") -> "pd.Series":
 
 def found(evidence: Evidence, limits: Mapping[str, Limit], kind: str) -> Finding:
     """In how many balls that meet the condition the new update is better."""
-    table = evidence.table("mapping/propagation.parquet").dropna().query("kind == @kind")
+    tried = evidence.table("mapping/propagation.parquet").query("kind == @kind")
+    table = tried.dropna()
     meets = table["to_original"] < EQUAL * table["to_constant"]
     better = table["updated"] < EQUAL * table["classic"]
     numbers, verdict = {}, Verdict.UNDECIDED
@@ -41,12 +42,17 @@ def found(evidence: Evidence, limits: Mapping[str, Limit], kind: str) -> Finding
         numbers["share in which it is better where it does not"] = float(better[~meets].mean())
     neutral = table.query("start == 'intact'")
     equal = (neutral["to_original"] >= EQUAL * neutral["to_constant"]).all()
+    balls = tried.groupby(["start", "scale"]).size().max()
     note = (
-        "From the intact robot the Jacobian of the mapping is constant, so both updates are equal"
-        " there."
-        if kind == "jacobian" and equal
-        else ""
+        f"The same {balls} centres serve all {tried['scale'].nunique()} scales and both starts, so"
+        f" the shares have no interval. {len(tried) - len(table)} of {len(tried)} balls are left"
+        " out, since some pose in them has no command."
     )
+    if kind == "jacobian" and equal:
+        note += (
+            " From the intact robot the Jacobian of the mapping is constant, so both updates are"
+            " equal there."
+        )
     return Finding(verdict=verdict, numbers=numbers, note=note)
 
 
@@ -73,7 +79,7 @@ THETA = claim(
     quotation="this kind of cooperation works better than Ritter et al.'s when the new function"
     " is more similar to the original one than to a constant function",
     statement="Changes are better if the new mapping is nearer to the old one than to a constant.",
-    short="true in {percent} of the regions tried",
+    short="in {percent} of regions tried",
 )
 JACOBIAN = claim(
     "jacobian",
@@ -81,5 +87,5 @@ JACOBIAN = claim(
     quotation="The new update version is better than the classical one when the Jacobian function"
     " of f' is more similar to df/dw than to a constant matrix.",
     statement="The same holds for Jacobians.",
-    short="true in {percent} of the regions tried",
+    short="in {percent} of regions tried",
 )

@@ -16,8 +16,9 @@ def measure(evidence, limits):
                 largest[f"{label} at most"] = max(worst, NONE)
             else:
                 estimates[label] = remaining(evidence, improved, kind, scenario)
+    most_first = sorted(estimates.items(), key=lambda its: its[1].mean, reverse=True)
     return Finding(
-        estimates,
+        dict(most_first),
         Verdict.UNDECIDED,
         largest,
         "The numbers say how much of the initial errors remains in simulation. What the real robot"
@@ -31,7 +32,7 @@ CLAIM = Claim(
     quotation="The results were in complete agreement with the simulation results for the same"
     " situation",
     statement="A real robot, moved and turned as a whole, agreed with the simulation.",
-    short="no real robot here; {percent} of the error remains in simulation",
+    short="no real robot here; at most {percent} remains in simulation",
     criterion="A real robot, moved and turned as a whole, learns as the simulation does.",
     reason="That is what the paper says. The technical report has the numbers.",
     needs=" ".join(["seed", *(f"runs/{scenario}/{{improved}}.parquet" for scenario in RIGID)]),

@@ -12,7 +12,7 @@ CLAIM = Claim(
     section="7",
     quotation="The parameters were selected after a very rough search",
     statement="A very rough search finds the parameters.",
-    short="{percent} of the error remains after the best of 16 random trials",
+    short="{percent} remains after the best of 16 random trials",
     limits={"left": LEFT},
     criterion="With the best of {rough_trials} quasi-random trials, both errors end below"
     " a {left:word} of the initial ones.",

@@ -9,6 +9,7 @@ from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import PUBLISHED, factor_table
 from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.pages.words import depends
+from recalib.study.evidence.parts import otherwise, parts
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -16,8 +17,9 @@ from recalib.study.evidence.reference import (
     two_maps,
     width_order,
 )
-from recalib.study.evidence.results import Evidence
+from recalib.study.evidence.results import Evidence, Words
 from recalib.study.evidence.verdicts import Verdict
+from recalib.study.evidence.pages.words import depends, level_in_words
 from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:
@@ -112,6 +114,11 @@ def _said(claim: dict) -> dict:
     }
 
 
+def _where(factors: Words, row: dict) -> dict:
+    words = factors[row["factor"]]
+    return row | {"where": f"{words['asks']} {level_in_words(words, row['level'])}"}
+
+
 def figures() -> list[str]:
     """The figures that show the claims, without those that all results show."""
     named = {figure for claim in CLAIMS for figure in claim.figures} - ELSEWHERE
@@ -129,13 +136,15 @@ def context(evidence: Evidence) -> dict:
         evidence.table(f"ensemble/assignments.{learner}.parquet") for learner in (IMPROVED, RITTER)
     ]
     ritter = summary.loc[summary["learner"] == RITTER, "iterations"]
-    improved = evidence.facts["improved"]
+    improved, by_level = evidence.facts["improved"], parts(evidence)
     sample, searched_for = evidence.sample(improved), evidence.sought(improved)
     return {
         "depends": partial(depends, evidence.words()),
         "campaign": _campaign(evidence),
         "claims": [_said(claim) for claim in evidence.claims()],
         "groups": [str(verdict) for verdict in ORDER],
+        "parts": [_where(evidence.words(), row) for row in by_level],
+        "otherwise": otherwise(by_level),
         "factors": factor_table(evidence),
         "in_setups": in_setups(evidence),
         "published": PUBLISHED,

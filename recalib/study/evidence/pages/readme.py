@@ -12,11 +12,12 @@ from recalib.study.evidence.pages.words import (
     short,
     typical_errors,
 )
+from recalib.study.evidence.parts import otherwise, parts
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 
-NEEDS = "summary.csv claims.json improved scenario"
+NEEDS = "summary.csv claims.json improved scenario outcomes?"
 ORDINARY = {
     Verdict.SUPPORTED: f"which agrees with {PUBLISHED}",
     Verdict.CONTRADICTED: "which does not agree",
@@ -35,6 +36,9 @@ def in_a_sentence(claims: Mapping[str, Mapping]) -> dict[str, str]:
 
 def _of_its_system(claim: Mapping, sentence: str) -> str:
     said = sentence.format(number=headline(claim, short), percent=headline(claim, percent))
+    its = claim["universes"]
+    if "holds" in its and its["holds"] < its["setups"]:
+        said += f"; holds in {its['holds']} of {its['setups']}"
     if others := of_others(claim):
         return "; ".join([f"{next(iter(claim['systems']))}: {said}", *others])
     return said
@@ -64,6 +68,7 @@ def context(evidence: Evidence) -> dict:
         "sentences": in_a_sentence(claims),
         "verdicts": [str(verdict) for verdict in Verdict],
         "setups": max((its.get("setups", 0) for its in measured), default=0),
+        "otherwise": otherwise(parts(evidence)),
         "published": PUBLISHED,
         "readings": _readings(claims["speed-up"]),
     }
