@@ -9,12 +9,14 @@ import sys
 import threading
 import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
+from recalib.laboratory import live
 from recalib.laboratory.allowed import AllowedPostures, Box
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
@@ -22,6 +24,7 @@ from recalib.laboratory.correct import NotReached
 from recalib.laboratory.corrector import Corrector
 from recalib.laboratory.live import Interrupted, LiveSettings, calibrate_live
 from recalib.laboratory.live_view import LiveView
+from recalib.laboratory.running import PredictedError
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
@@ -70,6 +73,13 @@ def test_it_ends_where_more_is_of_no_use(tmp_path):
 def test_it_ends_where_it_is_told_to(tmp_path):
     expected = "the predicted error is not known yet; 10 rows are as many as allowed"
     assert run(Simulated(), tmp_path, most=10) == expected
+
+
+def test_errors_are_said_in_millimetres():
+    running, told = SimpleNamespace(is_ready=bool, is_settled=lambda rows: False), []
+    running.error = lambda rows: PredictedError(by_model=0.999, by_rows=0.888, ahead=0.5)
+    assert live._enough([1], running, LiveSettings(), told.append) is None
+    assert told == ["row 1: predicted error by the model 999 mm, by the last rows 888 mm"]
 
 
 @pytest.mark.parametrize("error", [0.0, -1e-3, np.inf, np.nan])
