@@ -40,7 +40,7 @@ from recalib.study.evidence.pages.real_arm import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
 from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.inference import intervals
+from recalib.study.inference import hierarchy, intervals
 from recalib.study.inference.measured import ERRORS
 from recalib.study.mapping.quantisation import ITERATIONS
 from recalib.study.plan.trainings import Trainings, searches, training
@@ -105,6 +105,7 @@ def few_resamples() -> Iterator[None]:
     """A tenth of them: where intervals have to be there, and that is all."""
     with (
         mock.patch.object(intervals, "RESAMPLES", 2000),
+        mock.patch.object(hierarchy, "DRAWS", 128),
         mock.patch.object(effects, "RESAMPLES", 200),
     ):
         yield

@@ -188,6 +188,15 @@ def test_a_file_that_was_tampered_with_is_refused_or_of_use(written, robot, data
             assert learner.command(TESTS[:1].repeat(runs, axis=0)).shape == (runs, *TESTS.shape[1:])
 
 
+def test_a_file_of_which_one_run_commands_no_number_is_refused(robot, tmp_path, monkeypatch):
+    """As where its coefficients are huge."""
+    save(tmp_path / "a.npz", PolynomialLearner(1, runs=2), robot)
+    commands = np.array([np.zeros((1, 6)), np.full((1, 6), np.inf)])
+    monkeypatch.setattr(PolynomialLearner, "command", lambda learner, desired: commands)
+    with pytest.raises(InvalidFile):
+        load(tmp_path / "a.npz", robot)
+
+
 def test_what_cannot_be_loaded_is_not_saved(robot, tmp_path):
     with pytest.raises(UnknownName, match="UncorrectedLearner.*expected: gaussian_process"):
         save(tmp_path / "a.npz", UncorrectedLearner(), robot)

@@ -87,12 +87,10 @@ def _shown(recording: Path, root: Path, shipped: bool) -> dict[str, Any]:
 
 def _is_own(recording: Path) -> bool:
     """Whether it is that of its study's own scenario: one of today's learners is in it alone."""
-    for chunk in RrdReader(recording).store().stream().to_chunks():
-        if chunk.entity_path == "/__properties/run":
-            batch = chunk.to_record_batch()
-            if "job" in batch.schema.names:
-                ((job,),) = batch["job"].to_pylist()
-                return TODAYS in json.loads(job)["learners"]
+    its = RrdReader(recording).store().stream()  # of which only what is asked for is read
+    for chunk in its.filter(content="/__properties/run", components="job"):
+        ((job,),) = chunk.to_record_batch()["job"].to_pylist()
+        return TODAYS in json.loads(job)["learners"]
     return False
 
 

@@ -65,7 +65,7 @@ def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
 
 
 def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
-    """Where the link behind `joint` ends, (3,) in m in that joint's frame: a writable view."""
+    """Where the link after `joint` ends, (3,) in m in that joint's frame: a writable view."""
     if joint < model.njoints - 1:
         return model.jointPlacements[joint + 1].translation
     return model.frames[tool_frame(model, tool)].placement.translation

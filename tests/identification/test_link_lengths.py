@@ -41,7 +41,7 @@ def test_axes_that_are_nearly_parallel_explain_no_length(load):
 
 
 def changed(arm, link: int, parts) -> Calibration:
-    """The arm whose link behind a joint has grown by so many m along x, y and z."""
+    """The arm whose link after a joint has grown by so many m along x, y and z."""
     parameters = np.zeros_like((model := ErrorModel(arm, OFFSETS)).deviations)
     model.twists(parameters)[link, :3] = parts
     return Calibration(model, SimpleNamespace(parameters=parameters))
@@ -55,6 +55,7 @@ def test_the_damage_of_the_paper_is_an_arm(ur10):
 
 def test_another_arm_is_refused(ur10):
     with pytest.raises(
-        Untrustworthy, match=r"behind elbow_joint 4\d\d mm long; expected: about 572 mm"
+        Untrustworthy,
+        match=r"between elbow_joint and wrist_1_joint 4\d\d mm long; expected: about 572 mm",
     ):
         check_links(changed(ur10, 3, -0.15 * ur10.model.jointPlacements[4].translation / 0.572))

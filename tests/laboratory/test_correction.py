@@ -103,8 +103,15 @@ def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correctio
         ("calibration/terms", lambda its: its[:-1]),
         ("calibration/estimate/noise", lambda its: np.nan * its),
         ("learned", lambda its: its > 0),
+        ("calibration/frames/sights", lambda its: its[:0]),
+        ("calibration/frames/sights", lambda its: its + 1),
+        ("calibration/frames/sights", lambda its: its - 1),
+        ("calibration/frames/sights", lambda its: 1.0 * its),
     ],
-    ids=["another error model", "no number", "no angles"],
+    ids=[
+        *("another error model", "no number", "no angles", "no sight", "another target"),
+        *("a target below zero", "a target without a number"),
+    ],
 )
 def test_parts_that_do_not_belong_together_are_refused(name, change, small, tmp_path):
     path = tmp_path / "correction.npz"

@@ -79,8 +79,9 @@ def check_links(geometry: Calibration) -> None:
     if (beyond > 0).any():
         worst = int(beyond.argmax())
         names = ", or other names of sockets" if geometry.model.frames.sockets.size else ""
+        ends = " and ".join(nominal.joints[worst : worst + 2])
         raise Untrustworthy(
-            f"the measurements make the link behind {nominal.joints[worst]}"
+            f"the measurements make the link between {ends}"
             f" {1e3 * found[worst]:.0f} mm long; expected: about {1e3 * right[worst]:.0f} mm, as"
             f" the arm's description has it; try: other units{names}"
         )

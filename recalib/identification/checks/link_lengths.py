@@ -14,7 +14,7 @@ PARALLEL = 0.02
 
 
 def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]:
-    """Lengths (joints - 1,) [m] of the links behind all joints but the last, of both arms."""
+    """Lengths (joints - 1,) [m] of the links from each joint to the next, of both arms."""
     placements = [list(arm.model.jointPlacements)[2:] for arm in (nominal, identified)]
     right, found = (np.array([its.translation for its in arm]).reshape(-1, 3) for arm in placements)
     free = [  # directions in which each origin may be moved, in the frame of its joint

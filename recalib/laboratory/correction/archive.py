@@ -70,7 +70,10 @@ def load_correction(path: str | PathLike[str]) -> Correction:
 def _fits(correction: Correction) -> bool:
     """Whether the parts belong to one another; where they do not, it may raise anything."""
     calibration, learned = correction.calibration, correction.learned
-    estimate = calibration.estimate
+    estimate, frames = calibration.estimate, calibration.model.frames
+    sights, ends = frames.sights, (len(frames.bases), len(frames.targets))
+    if not len(sights) or sights.dtype != int or ((sights < 0) | (sights >= ends)).any():
+        return False
     unknown = estimate.parameters @ estimate.covariance @ estimate.parameters
     estimated = unknown, estimate.parameters, estimate.covariance, estimate.noise, estimate.weights
     numbers = learned, *calibration.forward_and_jacobian(learned[:1]), *estimated

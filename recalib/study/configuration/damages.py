@@ -12,21 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_origin
 from pydantic import Discriminator, Field, PlainSerializer, Tag, WrapValidator, create_model
 
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Disturbances
+from recalib.damaged.disturbances import Disturbances, Noise, Repeatability
 from recalib.damaged.kinds import DAMAGES, DISTURBANCES
 from recalib.damaged.words import Described, words
 from recalib.files.quantities import ANGLE, COMPLIANCE, LENGTH
 from recalib.spelling import listed, nearest
+from recalib.study.configuration import units
 from recalib.study.configuration.part import Frozen, Part
-from recalib.study.configuration.units import (
-    Amount,
-    Compliance,
-    Length,
-    Share,
-    SignedTurn,
-    Text,
-    Turn,
-)
 
 
 class Assigned(Part):
@@ -42,24 +34,26 @@ class Assigned(Part):
 
 
 _TYPES = {
-    (LENGTH, True): Length,
-    (LENGTH, False): Amount,
-    (ANGLE, True): SignedTurn,
-    (ANGLE, False): Turn,
-    (COMPLIANCE, False): Compliance,
+    (LENGTH, True): units.Length,
+    (LENGTH, False): units.Amount,
+    (ANGLE, True): units.SignedTurn,
+    (ANGLE, False): units.Turn,
+    (COMPLIANCE, False): units.Compliance,
 }
+_RANDOM = {(LENGTH, False): units.Noise, (ANGLE, False): units.NoiseOfTurn}
 
 
 def _model(kind: type[Described]) -> type[Frozen]:
     """The words of a damage or a disturbance as a part of the configuration."""
     said: dict[str, Any] = {}
+    types = _TYPES | (_RANDOM if kind in (Noise, Repeatability) else {})
     for field in dataclasses.fields(kind):
         word = words(kind)[field.name]
         its_type: Any
-        number = _TYPES[word.quantity, word.signed] if word.quantity else Share
+        number = types[word.quantity, word.signed] if word.quantity else units.Share
         match get_origin(field.type):
             case None:
-                its_type = Text if field.type is str else number
+                its_type = units.Text if field.type is str else number
             case builtins.tuple:
                 its_type = GenericAlias(tuple, (number,) * 3)
             case _:  # a choice

@@ -67,6 +67,9 @@ Amount = _quantity(LENGTH, "from 0 to 100 m", "0.2 mm", Ge(0.0), Le(100.0))
 Angle = _quantity(ANGLE, "from -100 to 100 rad", "-3 deg", Ge(-100.0), Le(100.0))
 Turn = _quantity(ANGLE, "from 0 to 180 deg", "0.02 deg", Ge(0.0), Le(3.15))
 SignedTurn = _quantity(ANGLE, "from -180 to 180 deg", "-3 deg", Ge(-3.15), Le(3.15))
+# of what is random: in more no arm and no instrument would be of use
+Noise = _quantity(LENGTH, "from 0 to 10 cm", "0.2 mm", Ge(0.0), Le(0.1))
+NoiseOfTurn = _quantity(ANGLE, "from 0 to 10 deg", "0.02 deg", Ge(0.0), Le(0.175))
 # of a workspace: in units of a smaller one, damages would be out of all proportion
 Side = _quantity(LENGTH, "from 1 mm to 100 m", "40 cm", Ge(1e-3), Le(100.0))
 Range = _quantity(ANGLE, "from 0.1 to 180 deg", "40 deg", Ge(1e-3), Lt(3.15))

@@ -1,5 +1,6 @@
 """The factor of 70, asked in twelve ways: cells of Ritter's net, effort, definition."""
 
+from functools import cache, partial
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -34,13 +35,14 @@ ANEW, ON_THE_WAY = "tuned anew for each length", "on the way of one long trainin
 
 def factor_table(evidence: Evidence) -> list[dict]:
     """A row for each of the twelve: cells, effort, definition, the factor and its verdict."""
-    table, own, rows = evidence.table(shipped.EFFORTS), evidence.facts["iterations"], []
+    own, rows = evidence.facts["iterations"], []
+    its = cache(partial(watched, evidence.table(shipped.EFFORTS)))
     for (learner, cells), (effort, pair), definition in product(
         CELLS.items(), EFFORTS.items(), (ANEW, ON_THE_WAY)
     ):
         rng = evidence.rng("factor", learner, effort, definition)
-        _, fast = watched(table, IMPROVED, pair[0])[own]
-        slow = watched(table, learner, pair[1])
+        _, fast = its(IMPROVED, pair[0])[own]
+        slow = its(learner, pair[1])
         longest = max(slow)
         if definition == ANEW and pair == ("full", "full"):
             estimate = leading(evidence, learner)  # as figures and claims have it

@@ -28,8 +28,8 @@ WORDS = [
     ({"gear": "elbow_joint", "eccentricity": "0.1 rad"}, EccentricGear("elbow_joint", 0.1)),
     ({"sag": "elbow_joint", "compliance": "0.01 rad/Nm"}, Sag("elbow_joint", 0.01)),
     ({"backlash": "elbow_joint", "gap": "0.1 rad"}, Backlash("elbow_joint", 0.1)),
-    ({"noise": {"position": "0.2 mm", "orientation": "1 rad"}}, Noise(0.0002, 1.0)),
-    ({"repeatability": "0.5 rad"}, Repeatability(0.5)),
+    ({"noise": {"position": "0.2 mm", "orientation": "0.1 rad"}}, Noise(0.0002, 0.1)),
+    ({"repeatability": "0.1 rad"}, Repeatability(0.1)),
     ({"outliers": {"share": 0.1, "size": "5 cm"}}, Outliers(0.1, 0.05)),
     ({"assigned": "links"}, Assigned(assigned="links")),
 ]

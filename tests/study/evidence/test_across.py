@@ -59,6 +59,8 @@ def test_a_setup_with_a_bound_in_place_of_a_number_enters_no_mean():
     over = factor.over(table, LEVELS)
     assert len(over.model.numbers) == len(over.levels) == SETUPS - 10
     assert over.mean.mean == pytest.approx(np.exp(4), rel=0.1)
+    few = table["universe"] < SETUPS - 2
+    assert factor.over(table.assign(bound=few.astype(int)), LEVELS) is None, "two have no mean"
 
 
 @pytest.mark.parametrize(("mean", "counted"), [(-1.0, True), (1.0, True), (-0.1, False)])

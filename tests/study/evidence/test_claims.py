@@ -20,6 +20,7 @@ from recalib.study.evidence.claims import (
     maps,
     missing,
 )
+from recalib.study.evidence.claims.across import NO_MEAN
 from recalib.study.evidence.claims.claim import Finding
 from recalib.study.evidence.factor import CELLS
 from recalib.study.evidence.results import Evidence
@@ -162,6 +163,14 @@ def test_the_intact_robot_is_judged_by_the_setups_too(few, tmp_path):
     made_up.campaign(outcomes=made_up.outcomes({"intact": 0.01}))
     with few_resamples():
         assert made_up.verdict("identity") == "undecided", "the reference study says the opposite"
+
+
+def test_where_all_setups_have_a_bound_no_mean_decides(few, tmp_path):
+    made_up = MadeUp(tmp_path, few)
+    made_up.campaign(horizon=made_up.horizon().assign(bound=1))
+    (system,) = made_up.judged("speed-up")["systems"].values()
+    assert system["verdict"] == "undecided"
+    assert system["universes"] == NO_MEAN
 
 
 @pytest.mark.parametrize(

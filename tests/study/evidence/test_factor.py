@@ -150,6 +150,12 @@ def test_in_setups_it_stands_by_cells_and_those_with_a_bound_are_left_out():
     known = np.exp(np.log(factors).reshape(24, 2).mean(axis=1)[setups != 2])
     assert found["at_the_end"].mean > np.exp(np.log(known).mean())
     assert found["control"].mean < found["chance"]
+    table.loc[table["universe"] % 2 == 0, "bound"] = 1
+    unknown, known = in_setups(evidence)["rows"]
+    assert (unknown["setups"], unknown["left_out"], unknown["verdict"]) == (0, 12, "undecided")
+    assert np.isnan(unknown["factor"].mean) and known == smaller
+    table["bound"] = 1
+    assert in_setups(evidence) == {}
 
 
 def test_where_no_setup_is_measured_nothing_is_said_of_them():

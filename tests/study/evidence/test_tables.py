@@ -65,7 +65,7 @@ def test_moves_are_said_of_the_slower_error(moves, low, high, text):
     assert moves_text(pd.DataFrame({"moves": moves, "low": low, "high": high})) == text
 
 
-def test_errors_on_the_real_arm_are_means_over_subsets():
+def test_errors_on_the_real_arm_are_means_over_subsets(roots):
     runs = pd.DataFrame({"learner": ["b"] * 4 + ["a"] * 3, "poses": [5, 5, 5, 10, 5, 5, 5]})
     runs[ERROR] = [1.0, 2, 6, 4, 7, 8, 9]
     table = real_errors(runs, seed=1)
@@ -75,6 +75,7 @@ def test_errors_on_the_real_arm_are_means_over_subsets():
         ["a", 5, 3],
     ]
     assert table[ERROR].tolist() == [3, 4, 8]
+    assert len({*roots}) == len(table), "each with random numbers of its own"
     assert np.isnan(table[f"{ERROR}_low"][1]) and 7 <= table[f"{ERROR}_low"][2] < 8
 
 

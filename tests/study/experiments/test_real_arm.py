@@ -109,6 +109,20 @@ def test_learners_leave_ever_smaller_errors(recording, ur5):
     assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
 
 
+def test_a_learner_without_a_model_sees_a_workspace_that_just_holds_what_it_learns_from(
+    recording, ur5, monkeypatch
+):
+    seen = []
+
+    class Seeing(UncorrectedLearner):
+        from_settings = classmethod(lambda cls, *_: cls())
+        observe = staticmethod(lambda sent, *_: seen.append(sent))
+
+    monkeypatch.setattr("recalib.study.experiments.real_arm.class_of", lambda kind: Seeing)
+    remaining_errors("affine", ur5, recording[:30], recording[100:])
+    assert np.abs(seen[0]).max(axis=(0, 1)) == pytest.approx(np.ones(6))
+
+
 @pytest.mark.parametrize("learner", peers())
 def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     """Where the tests were measured 1 m farther up, all of that metre remains."""

@@ -42,6 +42,7 @@ def test_the_committed_pictures_of_ideas_are_those_that_their_code_draws(tmp_pat
     )
 
 
+@few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_figure_reads_what_it_declares_and_nothing_else(figure, made_up, tmp_path):
     evidence = evidence_of(figure, made_up)
@@ -86,6 +87,7 @@ def smaller(study, learners, **update):
         ),
     ],
 )
+@few_resamples()
 def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, update, figures):
     its = smaller(few, learners, **update)
     made_up = MadeUp(tmp_path, its)

@@ -1,6 +1,7 @@
 """Figures of the alternative setups, of planted tables; and how legible figures on pages are."""
 
 import re
+from functools import cache
 from io import StringIO
 from itertools import combinations, pairwise
 from unittest import mock
@@ -56,11 +57,12 @@ def figures(planted):
     with plt.rc_context(STYLE), few_resamples():
         for name in FIGURES:
             found[name] = draw(name, evidence_of(name, planted))
-            found[name].draw_without_rendering()  # it lays out: before, nothing is where it will be
+            texts(found[name])  # it lays out: before, nothing is where it will be
     yield found
     plt.close("all")
 
 
+@cache
 def texts(figure) -> list[Text]:
     """Those that are drawn: of ticks beyond an axis there are labels, too."""
     found, own = {}, Text.draw
@@ -152,7 +154,8 @@ def colours(figures) -> dict[str, set[str]]:
     found = {}
     for name in FIGURES.keys() - {"figure8"}:
         drawing = StringIO()
-        figures[name].savefig(drawing, format="svg")
+        with plt.rc_context({"svg.fonttype": "none"}):  # no outlines of letters: they take seconds
+            figures[name].savefig(drawing, format="svg")
         found[name] = {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
     return found
 
@@ -209,6 +212,7 @@ def test_figure_14_judges_as_the_claims_do(figures, planted):
     assert "1 no effect, 1 undecided" in title
 
 
+@few_resamples()
 def test_figure_14_counts_setups_only_where_luck_is_small(figures, planted):
     evidence = evidence_of("figure14", planted)
     models = [its for claim in CLAIMS for its in claim.setups(evidence).values()]

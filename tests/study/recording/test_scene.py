@@ -134,6 +134,9 @@ def test_leaders_cross_neither_one_another_nor_the_words_of_another_label(side):
         assert apart.min() > 0.01, "leaders"
         inside = np.abs(points[one] - lines[other][2] + [0, labels.LINE]) < [half, labels.LINE / 2]
         assert not inside.all(axis=1).any(), "words"
+    at, far = np.array([side * labels.ASIDE, 0.0]), np.array([side * 2.0, 0.5])
+    beyond = side * (labels.ASIDE + 0.5)
+    assert labels.leader_end(side, at, 0.5, far, True)[0] == pytest.approx(beyond), "its outer end"
 
 
 def test_measurements_scatter_about_the_landings_and_are_enlarged_to_be_visible(recording, columns):

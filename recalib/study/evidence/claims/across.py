@@ -11,6 +11,7 @@ from recalib.study.inference.intervals import Estimate
 if TYPE_CHECKING:
     import pandas as pd
 
+FEWEST = 3  # setups with a number: fewer have no mean and heterogeneity
 CLEAR = 3  # times the luck of a setup's number: farther away, a count of setups says something
 
 
@@ -47,8 +48,10 @@ class Across(NamedTuple):
         """The mean over the replicates of the reference study, with Student's interval."""
         return self.back(student(self.values(reference).to_numpy()))
 
-    def over(self, outcomes: "pd.DataFrame", design: "pd.DataFrame") -> "Setups":
+    def over(self, outcomes: "pd.DataFrame", design: "pd.DataFrame") -> "Setups | None":
         """What all setups say, but for those with a bound in place of a number.
+
+        None where fewer than FEWEST have a number: no mean is known.
 
         Args:
             outcomes: a row for each replicate of each setup.
@@ -59,6 +62,8 @@ class Across(NamedTuple):
             table["value"] = table["value"].where(table["bound"] == 0)
         everywhere = table.pivot(index="universe", columns="replicate", values="value")
         values = everywhere.dropna()
+        if len(values) < FEWEST:
+            return None
         levels = design.loc[values.index]
         model = hierarchy(values.to_numpy(), levels["effort"].to_numpy())
         return Setups(self, model, levels, len(everywhere) - len(values))
@@ -143,6 +148,7 @@ class Setups(NamedTuple):
 
 CANNOT_VARY = {"status": "cannot vary"}  # no choice of the project reaches it
 NOT_MEASURED = {"status": "not measured"}  # a choice might, and nobody looked
+NO_MEAN = {"status": "bounds instead of numbers, so no mean is known"}
 
 
 def rounded(value: float) -> float:

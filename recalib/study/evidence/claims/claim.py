@@ -9,6 +9,7 @@ from recalib.errors import UnknownName
 from recalib.study.configuration.shipped import REFERENCE
 from recalib.study.evidence.claims.across import (
     CANNOT_VARY,
+    NO_MEAN,
     NOT_MEASURED,
     Across,
     Setups,
@@ -138,7 +139,7 @@ class Claim:
         setups = self.setups(evidence)
         systems = {
             system: {
-                "verdict": str(self._verdict(system, finding, setups)),
+                "verdict": str(self._verdict(system, finding, setups, evidence)),
                 "universes": self._said(system, setups, evidence),
             }
             for system in self.across
@@ -163,28 +164,38 @@ class Claim:
         }
 
     def setups(self, evidence: Evidence) -> dict[str, Setups]:
-        """The claim in all alternative setups, by system; empty where they are not measured."""
+        """The claim in all alternative setups, by system, where their mean is known."""
         found = {}
         for system, across in self.across.items():
             outcomes = evidence.setups(across.table)
-            if outcomes is not None:
-                found[system] = across.over(outcomes, evidence.levels())
+            if outcomes is not None and (its := across.over(outcomes, evidence.levels())):
+                found[system] = its
         return found
 
     def _from(self, evidence: Evidence) -> Finding:
         reference = evidence.table(REFERENCE)
         return Finding({name: its.in_reference(reference) for name, its in self.across.items()})
 
-    def _verdict(self, system: str, finding: Finding, setups: Mapping[str, Setups]) -> Verdict:
-        """Of a system: by the setups, or by the study itself where they are not measured."""
+    def _verdict(
+        self, system: str, finding: Finding, setups: Mapping[str, Setups], evidence: Evidence
+    ) -> Verdict:
+        """Of a system: by the setups, or by the study itself where they are not measured.
+
+        A mean over the setups that is not known decides nothing.
+        """
         if finding.verdict is None and system not in finding.estimates:
             raise UnknownName(f"system of the claim {self.id}", system, finding.estimates)
         estimate = finding.estimates.get(system, Estimate(np.nan, np.nan, np.nan))
         if system in setups:
             return setups[system].verdict(estimate)
+        if self._are_measured(system, evidence):
+            return Verdict.UNDECIDED
         return self.across[system].comparison.verdict(estimate)
 
     def _said(self, system: str, setups: Mapping[str, Setups], evidence: Evidence) -> dict:
         if system not in setups:
-            return NOT_MEASURED
+            return NO_MEAN if self._are_measured(system, evidence) else NOT_MEASURED
         return setups[system].said(evidence.rng("effects", self.id, system))
+
+    def _are_measured(self, system: str, evidence: Evidence) -> bool:
+        return evidence.setups(self.across[system].table) is not None
