@@ -37,7 +37,7 @@ ONCE = {  # what a single search compares, by column of the reference study
     "equal visits, improved system": "schedule_improved",
     "equal visits, Ritter's": "schedule_ritter",
 }
-ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
+ELSEWHERE = {"figure1", "figure2", "figure3", "figure9"}  # shown among results or above
 
 NEEDS = f"""
     summary.csv claims.json outcomes? horizon? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
