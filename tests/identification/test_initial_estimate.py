@@ -24,15 +24,15 @@ def arm(request):
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(positions, seed, arm):
     real = Real(arm, seed)
-    observations = real.seen(30 if positions else 20, positions)
+    observations = real.observe(30 if positions else 20, positions)
     bad = 3 * (seed % 2)
     observations.measured[:bad] = observations.measured[bad : 2 * bad]
-    assert real.missed(geometry_of(arm, observations).predict) < 5e-4
+    assert real.error(geometry_of(arm, observations).predict) < 5e-4
 
 
 def test_an_arm_that_turns_its_tool_about_one_axis_is_placed_by_positions(load):
     real = Real(nominal := load(SCARA), 7)
-    assert real.missed(geometry_of(nominal, real.seen(30)).predict) < 5e-4
+    assert real.error(geometry_of(nominal, real.observe(30)).predict) < 5e-4
 
 
 def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
@@ -50,7 +50,7 @@ def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
 def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
     """What is found of the other one is right, far beyond what an arm's own errors may be."""
     real = Real(arm, 8)
-    observations = real.seen(30, positions)
+    observations = real.observe(30, positions)
     observations.measured[:3] = observations.measured[3:6]  # outliers
     frame = real.base if known == "base" else real.targets[0]
     frames = initial_frames(arm, observations, **{known: frame})
@@ -62,7 +62,7 @@ def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
         assert np.abs(frames.base - real.base).max() < 0.05
     model, joints = ErrorModel(arm, OFFSETS, frames), observations.joints
     parameters = identify(model, observations).parameters
-    assert real.missed(partial(model.predict, parameters)) < 5e-4
+    assert real.error(partial(model.predict, parameters)) < 5e-4
     found = model.found(parameters)
     assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
     standing = model.standing(parameters, joints, model.terms(joints))
