@@ -137,7 +137,7 @@ def method() -> Figure:
     _nets(right)
     title(
         figure,
-        "The arm learns which fake pose to send, from where it went",
+        "The map learns which fake pose to send, from where the arm went",
         "the darker a cell, the more of the change it learns;"
         " each of the four neighbourhoods has its own width.\n"
         "A second, corrected move teaches each cell how commands must change with poses",
@@ -153,7 +153,7 @@ def _cycle(axes: Axes) -> None:
     box(axes, 8.6, 3.2, "controller,\nas it always was")
     box(axes, 6, 1, "damaged arm")
     box(axes, 1.9, 1, "where it\nwent: $u'$")
-    box(axes, 1.9, 4.4, "miss\n$u - u'$", FAILS)
+    box(axes, 1.9, 4.4, "error\n$u - u'$", FAILS)
     arrow(axes, (2.55, 8), (3.95, 8))
     arrow(axes, (7.2, 7.8), (8.9, 6.05), bend=-0.25)
     arrow(axes, (8.85, 5.2), (8.75, 3.8))
@@ -230,7 +230,7 @@ def increments() -> Figure:
     panels[0].set_ylabel("command")
     title(
         figure,
-        "What neighbouring cells learn from one correction",
+        "A shared change brings every cell nearer to what is right, a shared value does not",
         "one dimension, nine cells, one wide neighbourhood; the damage is slight, so that what is"
         " right now looks like what was right before",
     )
@@ -263,9 +263,9 @@ def schedule() -> Figure:
     right.set_title("how often are cells visited meanwhile?", fontweight="normal")
     title(
         figure,
-        "How fast neighbourhoods shrink",
-        f"from {START:g} to {END:g} half workspaces in {ITERATIONS} iterations; a cell that learns"
-        " half of a correction counts as half a visit",
+        "For equal visits, the narrower a neighbourhood is, the more slowly it shrinks",
+        f"from {START:g} to {END:g} half-ranges of the workspace in {ITERATIONS} iterations;"
+        " a cell that learns half of a correction counts as half a visit",
     )
     return figure
 

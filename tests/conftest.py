@@ -29,7 +29,7 @@ from recalib.study.configuration.study import Study
 from recalib.study.plan.competitors import make_peer, peers
 from recalib.study.scenarios.nominal import Nominal, nominal
 from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
-from tests.made_up import NOISE, MadeUp
+from tests.synthetic import NOISE, Synthetic
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
@@ -118,17 +118,17 @@ def few(study) -> Study:
 
 
 @pytest.fixture(scope="session")
-def made_up(few, tmp_path_factory) -> MadeUp:
+def synthetic(few, tmp_path_factory) -> Synthetic:
     """Results that support every claim."""
-    its = MadeUp(tmp_path_factory.mktemp("made_up"), few)
+    its = Synthetic(tmp_path_factory.mktemp("synthetic"), few)
     its.conclude()
     return its
 
 
 @pytest.fixture(scope="session")
-def disturbed(few, tmp_path_factory) -> MadeUp:
+def disturbed(few, tmp_path_factory) -> Synthetic:
     """The same, as another machine would round them."""
-    its = MadeUp(tmp_path_factory.mktemp("disturbed"), few, noise=NOISE)
+    its = Synthetic(tmp_path_factory.mktemp("disturbed"), few, noise=NOISE)
     its.conclude()
     return its
 

@@ -12,7 +12,7 @@ from recalib.study.evidence.pages import words
 from recalib.study.evidence.pages.readme import in_a_sentence
 from recalib.study.evidence.pages.rendering import PAGES, render
 from tests.conftest import ROOT
-from tests.made_up import MadeUp, few_resamples, unread
+from tests.synthetic import Synthetic, few_resamples, unread
 
 RESULTS = ROOT / "results"
 README = ROOT / "README.md"
@@ -34,44 +34,44 @@ def rows(page: str, heading: str) -> list[list[str]]:
 
 @cache
 @few_resamples()
-def rendered(page: str, made_up: MadeUp) -> str:
-    context = PAGES[page].context(made_up.evidence(PAGES[page].NEEDS))
+def rendered(page: str, synthetic: Synthetic) -> str:
+    context = PAGES[page].context(synthetic.evidence(PAGES[page].NEEDS))
     return render(ROOT / "workflow" / "templates" / f"{page}.j2", context)
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_noise_in_the_last_digits_changes_no_letter(page, made_up, disturbed):
-    assert rendered(page, made_up) == rendered(page, disturbed)
+def test_noise_in_the_last_digits_changes_no_letter(page, synthetic, disturbed):
+    assert rendered(page, synthetic) == rendered(page, disturbed)
     bands = [
         expect(pd.read_csv(results.path("summary.csv"))).to_csv(float_format="%.4g")
-        for results in (made_up, disturbed)
+        for results in (synthetic, disturbed)
     ]
     assert bands[0] == bands[1]
 
 
 @pytest.mark.parametrize("page", PAGES)
 @few_resamples()
-def test_a_page_reads_all_that_it_declares(page, made_up):
+def test_a_page_reads_all_that_it_declares(page, synthetic):
     """And nothing else, or it could not be made."""
-    assert unread(made_up.evidence(PAGES[page].NEEDS), PAGES[page].context) == set()
+    assert unread(synthetic.evidence(PAGES[page].NEEDS), PAGES[page].context) == set()
 
 
-def test_no_computing_time_is_printed(made_up):
-    assert not re.search(r"\d m?s\b", rendered("guidance.md", made_up))
+def test_no_computing_time_is_printed(synthetic):
+    assert not re.search(r"\d m?s\b", rendered("guidance.md", synthetic))
 
 
 def test_the_page_of_guidance_is_written_for_any_learners(few, tmp_path):
     fewer = {"learners": ("affine", "improved"), "scenarios": ("translation",)}
     less = few.model_copy(update={"benchmark": few.benchmark.model_copy(update=fewer)})
-    its = MadeUp(tmp_path, less)
+    its = Synthetic(tmp_path, less)
     its.compare()
     page = rendered("guidance.md", its)
     assert "| translation |" in page and "hybrid" not in page
 
 
-def test_the_table_of_trainings_says_what_the_summary_says(made_up):
-    summary = pd.read_csv(made_up.path("summary.csv"))
-    table = rows(rendered("results.md", made_up), "All trainings")
+def test_the_table_of_trainings_says_what_the_summary_says(synthetic):
+    summary = pd.read_csv(synthetic.path("summary.csv"))
+    table = rows(rendered("results.md", synthetic), "All trainings")
     assert len(table) == len(summary)
     for cells, row in zip(table, summary.to_dict("records"), strict=True):
         assert cells[:2] == [row["scenario"], row["learner"]]
@@ -85,9 +85,9 @@ def test_the_table_of_trainings_says_what_the_summary_says(made_up):
             )
 
 
-def test_the_readme_has_each_claim_in_a_line_under_its_verdict(made_up):
-    claims = json.loads(made_up.path("claims.json").read_text(encoding="utf-8"))
-    section = rendered("README.md", made_up).split("## Does the paper hold?\n")[1]
+def test_the_readme_has_each_claim_in_a_line_under_its_verdict(synthetic):
+    claims = json.loads(synthetic.path("claims.json").read_text(encoding="utf-8"))
+    section = rendered("README.md", synthetic).split("## Does the paper hold?\n")[1]
     found, verdict = {}, None
     for line in section.split("\n## ")[0].splitlines():
         if heading := re.fullmatch(r"\*\*(.+)\*\*", line):
@@ -122,12 +122,12 @@ def test_a_mean_says_in_how_many_setups_the_claim_holds_unless_it_does_in_all(ho
     assert said == {"schedule": f"error x 0.9 (0.8 to 0.95){more}"}
 
 
-def test_readers_are_told_which_number_is_which(made_up):
+def test_readers_are_told_which_number_is_which(synthetic):
     section = (
-        rendered("results.md", made_up).split("### Which number is which\n")[1].split("\n##")[0]
+        rendered("results.md", synthetic).split("### Which number is which\n")[1].split("\n##")[0]
     )
-    summary = pd.read_csv(made_up.path("summary.csv")).set_index(["scenario", "learner"])
-    own = summary.loc[(made_up.study.scenario, "improved")]
+    summary = pd.read_csv(synthetic.path("summary.csv")).set_index(["scenario", "learner"])
+    own = summary.loc[(synthetic.study.scenario, "improved")]
     assert f"{own.seeds} repetitions: {own.searches} searches with" in section
     assert words.pair(own, "final") in section, "the mean over all, not of the typical search"
 

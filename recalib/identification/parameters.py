@@ -74,8 +74,8 @@ def _names(
     ends = [f"of target {name}" for name in targets or range(len(frames.targets))]
     if len(ends) == 1:
         ends = ["of target" if frames.targets_unknown else "of tool"]
-    seen = [f"of base to {name}" for name in instruments or range(len(frames.bases))]
-    for where in [*links, *ends, *seen[1:]]:
+    bases = [f"of base to {name}" for name in instruments or range(len(frames.bases))]
+    for where in [*links, *ends, *bases[1:]]:
         for motion in MOTIONS:
             yield f"{motion} {where}", *_unit(slides=motion.startswith("shift"))
     for socket in sockets or range(len(frames.sockets)):

@@ -215,8 +215,8 @@ def calibrate_arm(
     if folders:  # OpenCV is imported only for these
         from recalib.laboratory.pictures.observed import with_pixels
 
-        seen = with_pixels([rows for rows, *_ in read], folders)
-        observations, instruments, targets, sights, scaled = seen
+        combined = with_pixels([rows for rows, *_ in read], folders)
+        observations, instruments, targets, sights, scaled = combined
     on_progress("initial estimate of instrument and target")
     names = sight_names(instruments, targets, sights)
     known = given.instrument, given.target

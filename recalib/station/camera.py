@@ -60,9 +60,9 @@ class PicturedStation(PhysicsStation):
 
     def _scene(self, spec: mujoco.MjSpec) -> mujoco.MjSpec:
         """The arm with a sheet of paper on its tool, the board on that, and the camera."""
-        (width, height), look = self.lens.size, spec.visual
-        look.global_.offwidth, look.global_.offheight = FINE * width, FINE * height
-        look.headlight.ambient, look.headlight.specular = [0.5] * 3, [0.0] * 3
+        (width, height), visual = self.lens.size, spec.visual
+        visual.global_.offwidth, visual.global_.offheight = FINE * width, FINE * height
+        visual.headlight.ambient, visual.headlight.specular = [0.5] * 3, [0.0] * 3
         opening = np.degrees(2 * np.arctan(height / 2 / self.lens.matrix[0, 0]))
         spec.worldbody.add_camera(name="camera", fovy=opening, **placed(self._camera @ UPWARDS))
         modules = np.where(self._board.modules, BLACK, WHITE).astype(np.uint8)

@@ -160,8 +160,8 @@ class PhysicsStation:
         """The pose of the target in the instrument's frame, with its noise; see `Station`."""
         from scipy.spatial.transform import Rotation
 
-        seen = np.linalg.inv(self._instrument) @ self.pose() @ self._target
-        measured = self._disturbances.measure([self._rng], seen[None, None])[0, 0]
+        exact = np.linalg.inv(self._instrument) @ self.pose() @ self._target
+        measured = self._disturbances.measure([self._rng], exact[None, None])[0, 0]
         turn = Rotation.from_matrix(measured[:3, :3]).as_quat()
         place = zip(("x [m]", "y [m]", "z [m]"), measured[:3, 3].tolist(), strict=True)
         return {**dict(place), **dict(zip(("qx", "qy", "qz", "qw"), turn.tolist(), strict=True))}

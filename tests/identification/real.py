@@ -94,13 +94,13 @@ class Real:
         observations[:, :3, 3] += noise[0] * self.random.standard_normal((len(joints), 3))
         return observations
 
-    def seen(self, count: int, positions: bool = False, targets=None) -> Observations:
+    def observe(self, count: int, positions: bool = False, targets=None) -> Observations:
         """What the instrument sees in other postures; the first target unless given (count,)."""
         joints = self.postures(count)
         poses = self.poses(joints, 0 if targets is None else targets)
         return Observations(joints, poses[:, :3, 3] if positions else poses, targets)
 
-    def missed(self, predict: Callable[[np.ndarray], np.ndarray]) -> float:
+    def error(self, predict: Callable[[np.ndarray], np.ndarray]) -> float:
         """Mean error of position [m] in 200 fresh postures."""
         fresh = self.postures(200)
         gaps = predict(fresh) - self.poses(fresh, noise=(0, 0))

@@ -54,10 +54,10 @@ def test_intervals_hold_where_postures_are_few(ur10):
     within = []
     for seed in range(8):
         real = Real(ur10, seed)
-        known = real.seen(16)
+        known = real.observe(16)
         found = validate(ur10, known, initial_frames(ur10, known))
         assert found.radius > found.mean_error(BLOCKWISE, found.chosen)
-        within.append(distances(found.calibration, real.seen(HELD_BACK)) <= found.radius)
+        within.append(distances(found.calibration, real.observe(HELD_BACK)) <= found.radius)
     assert 0.9 <= np.mean(within) <= 0.99
 
 

@@ -24,18 +24,18 @@ def arm(request):
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(positions, seed, arm):
     real = Real(arm, seed)
-    observations = real.seen(30 if positions else 20, positions)
+    observations = real.observe(30 if positions else 20, positions)
     bad = 3 * (seed % 2)
     observations.measured[:bad] = observations.measured[bad : 2 * bad]
-    assert real.missed(geometry_of(arm, observations).predict) < 5e-4
+    assert real.error(geometry_of(arm, observations).predict) < 5e-4
 
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_an_arm_that_turns_its_tool_about_one_axis_is_placed(load, positions):
     """How high it stands and where the target sits are one: neither goes far for nothing."""
     real = Real(nominal := load(SCARA), 7)
-    geometry = geometry_of(nominal, observations := real.seen(30, positions))
-    assert real.missed(geometry.predict) < 5e-4
+    geometry = geometry_of(nominal, observations := real.observe(30, positions))
+    assert real.error(geometry.predict) < 5e-4
     target = initial_frames(nominal, observations).targets[0, :3, 3]
     assert np.abs(target - real.targets[0, :3, 3]).max() < 1.2
 
@@ -55,7 +55,7 @@ def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):
 def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
     """What is found of the other one is right, far beyond what an arm's own errors may be."""
     real = Real(arm, 8)
-    observations = real.seen(30, positions)
+    observations = real.observe(30, positions)
     observations.measured[:3] = observations.measured[3:6]  # outliers
     frame = real.base if known == "base" else real.targets[0]
     frames = initial_frames(arm, observations, **{known: frame})
@@ -67,7 +67,7 @@ def test_a_frame_that_is_known_stays_as_it_is(known, positions, arm):
         assert np.abs(frames.base - real.base).max() < 0.05
     model, joints = ErrorModel(arm, OFFSETS, frames), observations.joints
     parameters = identify(model, observations).parameters
-    assert real.missed(partial(model.predict, parameters)) < 5e-4
+    assert real.error(partial(model.predict, parameters)) < 5e-4
     found = model.found(parameters)
     assert np.array_equal(found.base, frame) or np.array_equal(found.targets[0], frame)
     standing = model.standing(parameters, joints, model.terms(joints))

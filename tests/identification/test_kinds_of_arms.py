@@ -21,14 +21,12 @@ BALL, SOCKETS = np.array([0.02, -0.01, 0.12]), np.array([[0.45, -0.15, 0.1], [0.
 def test_joints_that_slide_are_identified(text, what, load):
     arm = load(text)
     real = Real(arm, 1)
-    observations = real.seen(30, what == "positions")
+    observations = real.observe(30, what == "positions")
     model = ErrorModel(arm, OFFSETS, initial_frames(arm, observations))
     found = identify(model, observations)
     assert found.converged
     nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
-    after, before = (
-        real.missed(partial(model.predict, its.parameters)) for its in (found, nominal)
-    )
+    after, before = (real.error(partial(model.predict, its.parameters)) for its in (found, nominal))
     assert after < 4e-4 and before > 3 * after
 
 

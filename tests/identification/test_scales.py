@@ -21,12 +21,12 @@ def scale_of(arm, observations: Observations):
 @pytest.mark.parametrize("kind", ["positions", "poses"])
 @pytest.mark.parametrize("factor", [1.03, 0.9])
 def test_positions_of_another_scale_are_known_by_the_links(factor, kind, ur10):
-    seen = Real(ur10, 1).seen(40, kind == "positions")
-    right = scale_of(ur10, seen)
+    observations = Real(ur10, 1).observe(40, kind == "positions")
+    right = scale_of(ur10, observations)
     assert right.factor == pytest.approx(1, abs=5e-3) and right.remaining > 0.9
-    measured = seen.measured.copy()
+    measured = observations.measured.copy()
     (measured if kind == "positions" else measured[:, :3, 3])[:] *= factor
-    found = scale_of(ur10, replace(seen, measured=measured))
+    found = scale_of(ur10, replace(observations, measured=measured))
     assert found.factor == pytest.approx(1 / factor, abs=5e-3) and found.remaining < TOGETHER
 
 

@@ -27,7 +27,7 @@ class Cell:
     def __init__(self, arm: Arm, seed: int, gears: float = 0.0):
         self.arm, self.real = arm, Real(arm, seed, 2, gears)
 
-    def seen(self, count: int, **noise) -> Observations:
+    def observe(self, count: int, **noise) -> Observations:
         """Rows, so many of each sight."""
         joints, sights = self.real.postures(3 * count), np.repeat(np.arange(3), count)
         poses = self.real.poses(joints, SIGHTS[sights, 1], **noise)
@@ -35,10 +35,10 @@ class Cell:
         poses[second] = ELSEWHERE @ poses[second]
         return Observations(joints, poses, sights)
 
-    def frames(self, seen: Observations) -> Frames:
+    def frames(self, observations: Observations) -> Frames:
         alone = [
             replace(its, targets=0 * its.targets)
-            for its in (seen[seen.targets == sight] for sight in range(3))
+            for its in (observations[observations.targets == sight] for sight in range(3))
         ]
         return joined_frames([initial_frames(self.arm, its) for its in alone], SIGHTS)
 
@@ -71,10 +71,10 @@ def test_slopes_agree_with_finite_differences(ur10):
 
 def test_rows_of_all_sights_identify_one_arm(ur10):
     cell = Cell(ur10, 3)
-    seen = cell.seen(20)
-    model = ErrorModel(ur10, OFFSETS, cell.frames(seen))
-    calibration = Calibration(model, identify(model, seen))
-    fresh = cell.seen(60, noise=(0, 0))
+    observations = cell.observe(20)
+    model = ErrorModel(ur10, OFFSETS, cell.frames(observations))
+    calibration = Calibration(model, identify(model, observations))
+    fresh = cell.observe(60, noise=(0, 0))
     errors = np.linalg.norm(calibration.residuals(fresh)[:, :3], axis=1)
     assert errors.mean() < 1.5e-4  # m
     assert np.abs(calibration.frames.bases[1] - ELSEWHERE @ calibration.frames.base).max() < 2e-3
@@ -87,10 +87,10 @@ def test_rows_of_all_sights_identify_one_arm(ur10):
 
 def test_a_pattern_has_the_axes_of_the_instrument_that_measures(ur10):
     cell = Cell(ur10, 3, gears=np.radians(0.2))
-    seen = cell.seen(80)
-    calibration = calibrate(ur10, [OFFSETS], seen, cell.frames(seen))
+    observations = cell.observe(80)
+    calibration = calibrate(ur10, [OFFSETS], observations, cell.frames(observations))
     assert calibration.pattern is not None
-    fresh, plain = cell.seen(60, noise=(0, 0)), replace(calibration, pattern=None)
+    fresh, plain = cell.observe(60, noise=(0, 0)), replace(calibration, pattern=None)
     for sight in range(3):
         rows = fresh[fresh.targets == sight]
         errors = [
@@ -103,8 +103,8 @@ def test_a_pattern_has_the_axes_of_the_instrument_that_measures(ur10):
 @pytest.mark.parametrize("sight", [-1, 3])
 def test_a_sight_that_is_none_is_refused(ur10, sight):
     cell = Cell(ur10, 3)
-    seen = cell.seen(10)
-    frames = cell.frames(seen)
-    seen.targets[4] = sight
+    observations = cell.observe(10)
+    frames = cell.frames(observations)
+    observations.targets[4] = sight
     with pytest.raises(BadMeasurement, match="target of measurement 4"):
-        identify(ErrorModel(ur10, OFFSETS, frames), seen)
+        identify(ErrorModel(ur10, OFFSETS, frames), observations)

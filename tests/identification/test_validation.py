@@ -34,14 +34,14 @@ def real(ur10):
 @pytest.fixture(scope="module")
 def validation(ur10, real):
     """With an outlier in row 7."""
-    observations = real.seen(ROWS)
+    observations = real.observe(ROWS)
     observations.measured[7, 2, 3] += 0.02
     return validate(ur10, observations, initial_frames(ur10, observations))
 
 
 def test_what_is_said_of_rows_held_out_holds_for_fresh_ones(real, validation):
     assert validation.chosen == GEOMETRIC
-    errors = distances(validation.calibration, real.seen(200))
+    errors = distances(validation.calibration, real.observe(200))
     said = validation.errors(RANDOM, GEOMETRIC)[validation.counted, 0]
     assert said.mean() == pytest.approx(errors.mean(), rel=0.2)
     assert validation.errors(RANDOM, NOTHING)[:, 0].mean() > 10 * said.mean()
@@ -133,12 +133,12 @@ def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
 @pytest.mark.parametrize("count", [16, 30])
 def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     real = Real(ur10, count)
-    observations = real.seen(count)
+    observations = real.observe(count)
     bad = np.arange(count // 3) * 3
     observations.measured[bad, :3, 3] += 0.05 * np.array([0.6, -0.8, 0.0])
     found = validate(ur10, observations, initial_frames(ur10, observations))
     assert np.array_equal(np.flatnonzero(~found.counted), bad)
-    assert real.missed(found.calibration.predict) < 1e-3
+    assert real.error(found.calibration.predict) < 1e-3
 
 
 def test_an_arm_without_errors_is_left_alone(ur10):
@@ -165,7 +165,7 @@ def test_a_joint_may_stand_still_at_any_angle(ur10, angle):
 
 def test_what_is_no_noise_is_refused_with_the_rows_to_look_at(ur10):
     real = Real(ur10, 5)
-    observations = real.seen(30)
+    observations = real.observe(30)
     towards = real.random.standard_normal((30, 3))
     towards *= 0.05 / np.linalg.norm(towards, axis=1, keepdims=True)
     towards[11] *= 2  # too little for a lower weight
@@ -185,7 +185,7 @@ def test_of_losses_a_turn_of_one_rad_counts_as_half_a_metre():
 
 
 def test_rows_of_one_posture_are_refused_as_such(ur10):
-    observations = Real(ur10, 6).seen(12)
+    observations = Real(ur10, 6).observe(12)
     with pytest.raises(Untrustworthy, match="12 rows of 1 posture; expected: at least 10 postures"):
         validate(ur10, observations[np.zeros(12, dtype=int)])
 

@@ -246,8 +246,8 @@ def drawn(curves: pd.DataFrame) -> None:
             logarithmic(axes.yaxis, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10)
         best = learners[0] if learners == MAPS else learners[-1]
         ratio = _mean_ratio(curves, best)
-        said = f"{_short(ratio)} times the last error ({label_of(short(best))})"
-        column[0].set_title(f"{TITLES[learners]}: with physics,\n{said}")
+        name = f"{label_of(short(best))} ends at {_short(ratio)} times the error"
+        column[0].set_title(f"{TITLES[learners]}: with physics,\n{name}")
         column[1].legend(fontsize=8)
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):

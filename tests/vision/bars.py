@@ -45,7 +45,7 @@ class Draw:
         self.cell = Cell(self.seed, self.in_hand)
         self.joints, self.fresh = np.split(self.cell.postures(PICTURES + FRESH), [PICTURES])
         off = np.radians(self.returns) * self.cell.random.standard_normal(self.joints.shape)
-        self.views = views = [self._view(pose) for pose in self.cell.seen(self.joints + off)]
+        self.views = views = [self._view(pose) for pose in self.cell.board_poses(self.joints + off)]
         self.lens = find_lens(self.cell.board, views, self.cell.lens.size)
         measured, optics = optics_of(self.cell.board, self.lens, views, True, self.in_hand)
         self.poses = Observations(self.joints, measured)

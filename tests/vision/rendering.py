@@ -64,7 +64,7 @@ class Cell:
         poses = np.linalg.inv(real.base) @ real.poses(joints, noise=(0, 0))
         return poses @ np.linalg.inv(real.targets[0])
 
-    def seen(self, joints: np.ndarray) -> np.ndarray:
+    def board_poses(self, joints: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) [m] of the board in the camera, in the real arm."""
         tool = self.tool(joints)
         if self.in_hand:
@@ -93,7 +93,7 @@ class Cell:
         while len(found) < count:
             joints = middle + wide * self.random.uniform(-1, 1, (400, 7))
             joints = joints[((joints > low) & (joints < high)).all(axis=1)]
-            for its, pose in zip(joints, self.seen(joints), strict=True):
+            for its, pose in zip(joints, self.board_poses(joints), strict=True):
                 corners = pose[:3, :3] @ self.board.points.T + pose[:3, 3:]
                 facing = -(pose[:3, 2] @ pose[:3, 3]) / np.linalg.norm(pose[:3, 3])
                 near = corners[2].min() > 0.3 and corners[2].max() < 1.4

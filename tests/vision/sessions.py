@@ -53,12 +53,12 @@ def write_session(
     """
     cell.random = np.random.default_rng([cell.seed, *camera.encode(), *board.encode()])
     joints = cell.postures(pictures)
-    poses = cell.seen(joints)
+    poses = cell.board_poses(joints)
     if slip is not None:
         place, motion = slip
         before = getattr(cell, place)
         setattr(cell, place, before @ motion)
-        poses[pictures // 2 :] = cell.seen(joints)[pictures // 2 :]
+        poses[pictures // 2 :] = cell.board_poses(joints)[pictures // 2 :]
         setattr(cell, place, before)
     views = [cell.view(pose, NOISE) for pose in poses]
     found = lens or find_lens(cell.board, views, cell.lens.size)

@@ -40,8 +40,8 @@ def session(tmp_path_factory):
     """A folder with pictures of a fixed camera, joints, and what was observed."""
     folder, cell = tmp_path_factory.mktemp("fixed"), Cell(3)
     joints = cell.postures(PICTURES + len(BAD))
-    pictures = [cell.picture(pose) for pose in cell.seen(joints[:PICTURES])]
-    soft = cell.picture(cell.seen(joints[:1])[0], blur=8)
+    pictures = [cell.picture(pose) for pose in cell.board_poses(joints[:PICTURES])]
+    soft = cell.picture(cell.board_poses(joints[:1])[0], blur=8)
     small = cv2.resize(pictures[0], (640, 480))
     (folder / "pictures").mkdir()
     for row, picture in enumerate([*pictures, cv2.flip(pictures[2], 1), soft, pictures[0], small]):
@@ -184,7 +184,7 @@ def taken(tmp_path, monkeypatch):
         cell = Cell(5)
         joints, random = cell.postures(count), np.random.default_rng(6)
         views = []
-        for number, pose in enumerate(cell.seen(joints)):
+        for number, pose in enumerate(cell.board_poses(joints)):
             views.append(cell.view(pose, 0.1 + 0.02 * number, random))
             picture = np.full((*LENS.size[::-1],), number, np.uint8)
             cv2.imwrite(str(tmp_path / f"{number:03}.png"), picture)

@@ -30,7 +30,7 @@ class Photographs:
     def measure(self):
         path = self.folder / f"{self.taken:03}.png"
         try:
-            picture = self.cell.picture(self.cell.seen(self.stands[None])[0])
+            picture = self.cell.picture(self.cell.board_poses(self.stands[None])[0])
         except cv2.error:  # the board is nowhere before the camera
             return None
         self.taken += 1

@@ -30,7 +30,7 @@ def cell():
 
 @pytest.fixture(scope="module")
 def poses(cell):
-    return cell.seen(cell.postures(3))
+    return cell.board_poses(cell.postures(3))
 
 
 def test_corners_are_found_where_they_are(cell, poses):
@@ -67,7 +67,7 @@ def test_a_corner_that_is_off_is_left_out(cell, poses):
 @PLACES
 def test_poses_move_with_optics_as_it_is_said(in_hand):
     cell = Cell(2, in_hand)
-    (pose,) = cell.seen(cell.postures(1))
+    (pose,) = cell.board_poses(cell.postures(1))
     view = cell.view(pose)
     _, optics = optics_of(BOARD, LENS, [view, view], True, in_hand)
     places = [(0, 0), (1, 1), (0, 2), (1, 2)]
@@ -91,7 +91,7 @@ def test_poses_move_with_optics_as_it_is_said(in_hand):
 @PLACES
 def test_poses_are_as_sure_as_is_said(in_hand):
     cell = Cell(3, in_hand)
-    poses = cell.seen(cell.postures(300))
+    poses = cell.board_poses(cell.postures(300))
     rng = np.random.default_rng(3)
     views = [cell.view(pose, NOISE, rng) for pose in poses]
     measured, optics = optics_of(BOARD, LENS, views, False, in_hand)

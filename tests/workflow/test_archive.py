@@ -20,14 +20,14 @@ TERM = b"https://bioschemas.org/terms/ComputationalWorkflow"
 
 
 @pytest.fixture
-def project(made_up, tmp_path, monkeypatch):
+def project(synthetic, tmp_path, monkeypatch):
     """A few files of the project, made-up results, and what Snakemake notes of them."""
     monkeypatch.chdir(tmp_path)
     for name in FEW:
         shutil.copy(ROOT / name, tmp_path)
     subprocess.run(["git", "init", "--quiet"], check=True)
     subprocess.run(["git", "add", *FEW], check=True)
-    shutil.copytree(made_up.folder / "results", "results")
+    shutil.copytree(synthetic.folder / "results", "results")
     archive.NOTES.mkdir(parents=True)
     note = {
         "rule": "claims",

@@ -59,7 +59,7 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
     held[model.offset_columns] = held[model.socket_columns] = False
     model.deviations[held] = HELD
     model.deviations[model.optics_columns][sizes] = HELD
-    said = np.inf if by_cameras else identify(model, observations).noise[0]
+    noise = np.inf if by_cameras else identify(model, observations).noise[0]
     model.deviations[model.optics_columns][sizes] = ANY
     found = identify(model, replace(observations, distances=()))
     centres = model.sockets(found.parameters)
@@ -68,7 +68,7 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         for one, other, length, _ in observations.distances
     ]
     beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
-    remaining = float(found.noise[0] / said)
+    remaining = float(found.noise[0] / noise)
     return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
 
 

@@ -136,9 +136,9 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_
     times = _times(observations)
     poses = geometry.predict(observations.joints, observations.targets)
     instruments, targets = geometry.model.frames.sights[observations.targets].T
-    seen = slice(3 * observations.kinds)  # nobody sees how a point is turned about itself
-    moved = observations.whitened(_moved(poses, instruments)[:, seen])
-    slipped = observations.whitened(_slipped(poses)[:, seen, seen])
+    known = slice(3 * observations.kinds)  # the rotation of a point is not measured
+    moved = observations.whitened(_moved(poses, instruments)[:, known])
+    slipped = observations.whitened(_slipped(poses)[:, known, known])
     passed = np.empty(len(observations))
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)

@@ -15,20 +15,20 @@ def iterations_needed(rungs: np.ndarray, errors: np.ndarray, target: np.ndarray)
         errors: (..., rung, 2) mean final errors.
         target: (..., 2) errors to reach.
 
-    Interpolated on logarithmic scales between the last rung that misses and the first that reaches;
-    NaN where the first rung reaches already, since fewer iterations might have, and infinity where
-    none does.
+    Interpolated on logarithmic scales between the last rung above the target and the first that
+    reaches it; NaN where the first rung reaches it already, since fewer iterations might have, and
+    infinity where none does.
     """
     worse = np.log((errors / np.asarray(target)[..., None, :]).max(axis=-1))
     reached = worse <= 0
     after = np.maximum(reached.argmax(axis=-1), min(1, len(rungs) - 1))
     before = after - 1
-    missed, within = (
+    above, within = (
         np.take_along_axis(worse, rung[..., None], axis=-1)[..., 0] for rung in (before, after)
     )
     grid = np.log(np.asarray(rungs, dtype=float))
     with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.clip(missed / (missed - within), 0, 1)
+        share = np.clip(above / (above - within), 0, 1)
     needed = np.exp(grid[before] + share * (grid[after] - grid[before]))
     needed = np.where(reached.any(axis=-1), needed, np.inf)
     return np.where(reached[..., 0], np.nan, needed)

@@ -123,12 +123,12 @@ def figure13(evidence: Evidence) -> Figure:
     figure.legend(loc="outside right center")
     own = table[~table["learner"].str.contains(" ")]
     enough = own.loc[own[ERROR] < published, "poses"].min()
-    beaten = f", which {enough:.0f} poses suffice to beat" if np.isfinite(enough) else ""
+    beaten = f"{enough:.0f} poses are enough to beat" if np.isfinite(enough) else "no learner beats"
     robot = evidence.facts["real_robot"].upper()
     title(
         figure,
-        f"Figure 13: a real {robot}, and the published error{beaten}",
-        f"means over random subsets of the {own['poses'].max():,} recorded poses, on others; bands:"
-        " 95 % bootstrap intervals",
+        f"Figure 13: on a real {robot}, {beaten} the published error",
+        f"means over random subsets of the {own['poses'].max():,} recorded poses;"
+        " bands: 95 % bootstrap intervals",
     )
     return figure

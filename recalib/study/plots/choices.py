@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from recalib.spelling import listed
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.pages.words import level_in_words, short
 from recalib.study.evidence.results import Evidence, Words
@@ -60,11 +59,8 @@ def _words(evidence: Evidence, scales, unmoved: int) -> tuple[str, str]:
     moved = sum(len(its) for its, _ in scales)
     factors = [factor for its, _ in scales for table in its.values() for factor in table["factor"]]
     text = f"Figure 15: {moved} of {moved + unmoved} claims depend on a choice beyond chance"
-    most = max(dict.fromkeys(factors), key=factors.count, default="")
-    if (often := factors.count(most)) > 1:
-        its = evidence.words()[most]
-        levels = (level_in_words(its, level) for level in evidence.levels()[most].unique())
-        text += f";\n{often} of them on the same: {its['asks']} {listed(sorted(levels), 'or')}"
+    if factors:
+        text += f";\nno choice moves more than {max(map(factors.count, factors))} of them"
     explained = (
         "Where the paper is silent, something has to be chosen. For each claim: the choice with"
         " which its number is largest, instead of the one with which it is\nsmallest, averaged over"

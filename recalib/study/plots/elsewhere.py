@@ -22,16 +22,16 @@ def figure11(evidence: Evidence) -> Figure:
     }
     _draw_assignments(panels[0], tables)
     _draw_amounts(panels[1], evidence)
-    left = _draw_robots(panels[2], evidence)
+    remaining = _draw_robots(panels[2], evidence)
     for axes in panels:
         legend_under(axes)
     robots = [*evidence.facts["elsewhere"]]
     title(
         figure,
-        "Figure 11: on all robots, the improved map leaves less than"
-        f" {math.ceil(left.max())} % of the error",
+        f"Figure 11: on all robots, less than {math.ceil(remaining.max())} % of the error remains"
+        " (improved system)",
         f"widths and rates as tuned for the paper's damage on the {robots[0].upper()}; bands:"
-        f" 5-95 % of the assignments;\n{len(tables[IMPROVED])} for the improved map,"
+        f" 5-95 % of the assignments;\n{len(tables[IMPROVED])} for the improved system,"
         f" {len(tables[RITTER])} for Ritter's after {_iterations(evidence, RITTER):,} iterations",
     )
     return figure
@@ -67,7 +67,7 @@ def _draw_amounts(axes: Axes, evidence: Evidence) -> None:
     axes.set(xlabel="size of the damage, times the paper's", ylabel="error [cm, degrees]")
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3)
     logarithmic(axes.yaxis, 0.01, 0.1, 1, 10)
-    axes.set_title("Other amounts (improved map)")
+    axes.set_title("Other amounts (improved)")
 
 
 def _iterations(evidence: Evidence, learner: str) -> int:
@@ -77,7 +77,7 @@ def _iterations(evidence: Evidence, learner: str) -> int:
 
 
 def _draw_robots(axes: Axes, evidence: Evidence) -> np.ndarray:
-    """What is left of the larger error, in percent: of the improved map, (robots,)."""
+    """Draw the larger remaining error in percent; returns the improved system's (robots,)."""
     shown = {}
     robots, learners = evidence.facts["elsewhere"], styles_of(evidence.facts["learners"])
     places = np.arange(len(robots))
@@ -98,7 +98,7 @@ def _draw_robots(axes: Axes, evidence: Evidence) -> np.ndarray:
             zorder=3,
             **style.signs(),
         )
-    axes.set_ylabel("larger error left [% of the initial one]")
+    axes.set_ylabel("larger remaining error [% of the initial]")
     logarithmic(axes.yaxis, 2, 5, 10, 20, 50, 100)
     axes.set_xticks(places, [robot.upper() for robot in robots])
     axes.set_title("Other robots")

@@ -92,8 +92,8 @@ def figure1(evidence: Evidence) -> Figure:
             )
     remaining = 100 * ends.iloc[-1] / ends.iloc[0]
     text = (
-        f"Figure 1: both errors over {ends.index[-1]} iterations;"
-        f" {remaining.iloc[0]:.0f} % and {remaining.iloc[1]:.0f} % of them are left"
+        f"Figure 1: after {ends.index[-1]} iterations, {remaining.iloc[0]:.0f} % of the position"
+        f" error\nand {remaining.iloc[1]:.0f} % of the orientation error remain"
     )
     if not evidence.shipped:
         resolved = evidence.scenario()
@@ -132,15 +132,16 @@ def figure2(evidence: Evidence) -> Figure:
         for one, other in (compared, compared[::-1]) if compared else ():
             level = histories[other].groupby("iteration")[error.column].mean().iloc[-1]
             when = _reached(histories[one], [error.column], np.array([level]))
-            told = f"{level:.2f}: {shown[one].label.partition(',')[0]} after {when}"
-            reached.append((level, told, shown[other].color))
-        for (level, told, color), above in zip(sorted(reached), (False, True), strict=False):
+            name = shown[one].label.partition(",")[0]
+            text = f"{name}: {level:.2f} after {when}"
+            reached.append((level, text, shown[other].color))
+        for (level, text, color), above in zip(sorted(reached), (False, True), strict=False):
             # two levels may be near to each other: dashes of one between those of the other
             dashes = (0 if above else 6, (6, 6))
             axes.axhline(level, color=color, linewidth=1, linestyle=dashes)
             note(
                 axes,
-                told,
+                text,
                 (0.01, level),
                 (0, 3 if above else -3),
                 xycoords=("axes fraction", "data"),
@@ -159,8 +160,8 @@ def figure2(evidence: Evidence) -> Figure:
     )
     if compared:
         spread += (
-            "\nlevel lines: the final error of the learner of this colour,"
-            " and when the other has reached it"
+            "\nlevel lines: a learner's final error, in its colour,"
+            " and after how many iterations the other one reaches it"
         )
     finish(figure, text, panels[0], min(len(histories), 2), spread)
     return figure
@@ -177,7 +178,7 @@ def _in_one_sentence(histories: dict[str, pd.DataFrame], compared: Sequence[str]
         ends = {name: errors_of(its)[..., 0].mean() for name, its in histories.items()}
         best = min(ends, key=lambda name: ends[name])
         most, shown = histories[best]["iteration"].max(), styles_of(histories)[best].label
-        return f"{shown} leaves the least, {ends[best]:.2g} cm after {most:,} iterations"
+        return f"{shown} ends at the smallest error, {ends[best]:.2g} cm after {most:,} iterations"
     ritter, improved = (histories[learner] for learner in compared)
     cells = CELLS[re.sub(r"_\d+$", "", compared[0])]
     final = improved.groupby("iteration")[list(ERRORS)].mean().iloc[-1].to_numpy()
@@ -234,7 +235,7 @@ def figure3(evidence: Evidence) -> Figure:
         name_rows(axes, rows, map(words, scenarios))
         ends_of.append(pd.DataFrame(remaining))
     lengths = {name: histories[scenarios[0], name]["iteration"].max() for name in learners}
-    text = f"Figure 3: {_compared(ends_of, lengths)} of {len(scenarios)} scenarios"
+    text = f"Figure 3: {_compared(ends_of, lengths)}"
     spread = f"signs: means over searches and seeds; lines: {BAND[0]}-{BAND[1]} % of the runs"
     finish(figure, text, panels[0], 1 + len(learners), spread)
     return figure
@@ -246,15 +247,16 @@ def _compared(ends: Sequence[pd.DataFrame], lengths: dict[str, int]) -> str:
     equal = [name for name, length in lengths.items() if length == shortest]
     wins = {name: [(its[name] <= its[equal].min(axis=1)).sum() for its in ends] for name in equal}
     best = max(equal, key=lambda name: sum(wins[name]))
-    text = f"after {shortest:,} iterations, {shown[best].label} has the smallest errors in"
-    text += f" {_counts(wins[best])}"
+    text = f"after {shortest:,} iterations, {shown[best].label} has the smallest"
+    text += f" {_counts(wins[best])} of {len(ends[0])} scenarios"
     for name in (name for name in lengths if name not in equal):
         fewer = [(its[name] < its[best]).sum() for its in ends]
-        text += f";\nafter {lengths[name]:,}, {shown[name].label} has smaller ones in"
-        text += f" {_counts(fewer)}"
+        text += f";\nafter {lengths[name]:,}, {shown[name].label} has smaller {_counts(fewer)}"
     return text
 
 
 def _counts(numbers: Sequence[int]) -> str:
+    if len(set(numbers)) == 1:
+        return f"errors in {numbers[0]}"
     named = zip(numbers, BOTH, strict=True)
-    return " and ".join(f"{number} ({error.kind})" for number, error in named)
+    return " and ".join(f"{error.kind} errors in {number}" for number, error in named)

@@ -47,8 +47,8 @@ def multiverse(evidence: Evidence) -> Figure:
     axes.axis("off")
     title(
         figure,
-        f"A multiverse: of {len(design)} ways to replicate one paper, {holds.sum()} leave a tenth"
-        " of both errors, or less",
+        f"A multiverse: in {holds.sum()} of {len(design)} alternative setups, a tenth of both"
+        " errors remains, or less",
         "Where the paper is silent, something has to be chosen. Each line is a setup: the whole"
         f" replication with other choices; {len(SHOWN)} of its {design.shape[1]} choices are"
         " shown.\nRight: what remains of the initial errors after learning, the mean of a setup's"

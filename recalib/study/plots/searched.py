@@ -35,7 +35,7 @@ def _best(trials: pd.DataFrame) -> np.ndarray:
 
 
 def _draw_shares(axes: Axes, evidence: Evidence) -> float:
-    """How little the best of few trials leaves; returns the improved system's median."""
+    """The error that remains with the best of few trials; returns the improved system's median."""
     rough, median = evidence.facts["rough_trials"], {}
     trained = {IMPROVED: evidence.facts["improved"], RITTER: evidence.facts["ritter"]}
     for role, style in styles_of(trained).items():
@@ -96,11 +96,11 @@ def figure6(evidence: Evidence) -> Figure:
         _draw_order(axes, trials, error)
     title(
         figure,
-        f"Figure 6: the best of {evidence.facts['rough_trials']} random trials leaves"
-        f" {100 * remaining:.0f} % of the error",
-        f"all trials of the first round at {evidence.facts['iterations']} iterations, of"
-        f" {budget.searches} searches, {budget.budget.seeds} seeds a trial. Left: medians and"
-        f" {BAND[0]}-{BAND[1]} % of the searches.\nMiddle and right: the improved system; above 0"
-        " the order of widths is the paper's: the error rises to the right",
+        f"Figure 6: with the best of {evidence.facts['rough_trials']} random trials,"
+        f" {100 * remaining:.0f} % of the error remains in the search",
+        f"first rounds of {budget.searches} searches at {evidence.facts['iterations']} iterations,"
+        f" {budget.budget.seeds} seeds a trial; the claims are judged by other searches and poses."
+        f"\nLeft: medians and {BAND[0]}-{BAND[1]} % of the searches. Middle and right: improved"
+        " system; above 0, the paper's order of widths is the better one",
     )
     return figure

@@ -76,5 +76,5 @@ class Sheet:
 
 def write(axes: Axes, place: float, height: float, text: str, **font: Any) -> None:
     """Words beside a panel: from this part of its width, about this height [inch]."""
-    said: Any = {"fontsize": SMALL, "va": "center", "linespacing": 1.15, **font}
-    axes.text(place, height, text, transform=axes.get_yaxis_transform(), **said)
+    style: Any = {"fontsize": SMALL, "va": "center", "linespacing": 1.15, **font}
+    axes.text(place, height, text, transform=axes.get_yaxis_transform(), **style)

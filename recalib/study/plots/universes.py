@@ -14,7 +14,7 @@ from recalib.study.evidence.claims.across import Setups, rounded
 from recalib.study.evidence.pages.words import headline, judged_by_setups, ranged, short
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import CORRELATION, RATIO, Verdict
-from recalib.study.inference.intervals import LEVEL, Estimate
+from recalib.study.inference.intervals import LEVEL
 from recalib.study.plots.palette import BORDER, HOLDS, NEUTRAL
 from recalib.study.plots.sheet import Sheet, write
 from recalib.study.plots.style import logarithmic, plain
@@ -48,12 +48,6 @@ class ClaimRow(NamedTuple):
         """With which others it shares an axis."""
         bounded = {RATIO: "ratio", CORRELATION: "correlation"}
         return bounded.get(self.setups.across.comparison, "limit")
-
-    @property
-    def right(self) -> bool:
-        """Whether the mean, whatever its interval, lies on the paper's side."""
-        mean = Estimate(*[self.setups.mean.mean] * 3)
-        return self.setups.across.comparison.side(mean) is Verdict.SUPPORTED
 
     @property
     def height(self) -> float:
@@ -101,12 +95,11 @@ def figure14(evidence: Evidence) -> Figure:
 
 def _heading(shown: Sequence[ClaimRow]) -> str:
     leading = [row for row in shown if row.leads]
-    right = sum(row.right for row in leading)
     counts = {verdict: sum(row.verdict == verdict for row in leading) for verdict in Verdict}
-    said = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
-    return (
-        f"Figure 14: {right} of {len(leading)} claims have their mean on the paper's side\n({said})"
-    )
+    supported = counts.pop(Verdict.SUPPORTED)
+    others = ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count)
+    text = f"Figure 14: {supported} of {len(leading)} claims that choices can change are supported"
+    return f"{text}\n({others})" if others else text
 
 
 def _explained(evidence: Evidence, shown: Sequence[ClaimRow]) -> str:

@@ -28,15 +28,17 @@ def send_labels(scene: Scene, words: Sequence[str], starts: np.ndarray) -> None:
     """
     sight, unit = scene.sight, unit_of(scene.workspace)
     waits = np.sum(scene.motion.frames < BEFORE)
-    seen = sight.seen(starts[:, waits])
+    projected = sight.projected(starts[:, waits])
     for side in (-1, 1):
-        column = np.flatnonzero(np.where(seen[:, 0] > seen[:, 1], 1, -1) == side)
-        for place, label in enumerate(column[in_order(side, seen[column])]):
+        column = np.flatnonzero(np.where(projected[:, 0] > projected[:, 1], 1, -1) == side)
+        for place, label in enumerate(column[in_order(side, projected[column])]):
             at = np.array([side * ASIDE, side * (GAP * place - ABOVE)])
             point = rr.Points3D([sight.place(*at)], radii=0, colors=WRONG, labels=[words[label]])
             scene.log(f"wrong/{label}/label", point)
             half = LETTER * len(words[label]) + BESIDE
-            end = sight.place(*leader_end(side, at, half, seen[label], place == len(column) - 1))
+            end = sight.place(
+                *leader_end(side, at, half, projected[label], place == len(column) - 1)
+            )
             strips = np.stack([starts[label], np.broadcast_to(end, starts[label].shape)], axis=1)
             leader = f"wrong/{label}/leader"
             scene.send(leader, scene.motion.clock(), rr.LineStrips3D.columns(strips=strips))

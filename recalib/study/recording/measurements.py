@@ -6,7 +6,7 @@ import numpy as np
 import rerun as rr
 
 from recalib.study.inference.measured import ERRORS, UNITS
-from recalib.study.recording.colours import BELIEVED, GREY, MEASURED, MISSED
+from recalib.study.recording.colours import BELIEVED, GREY, MEASURED, REACHED
 from recalib.study.recording.scene import AXIS, Scene, axes_of, unit_of
 from recalib.study.recording.watched import MapCells, Watched
 
@@ -57,7 +57,7 @@ def send_landings(scene: Scene) -> None:
         far = np.linalg.norm(apart[:, 1] - apart[:, 0], axis=-1)
         lines = rr.LineStrips3D.columns(strips=strips, radii=np.minimum(far / 4, widest))
         each = poses * len(strips) // len(misses)
-        scene.show(part, lines, each, rr.LineStrips3D.from_fields(colors=MISSED))
+        scene.show(part, lines, each, rr.LineStrips3D.from_fields(colors=REACHED))
 
 
 def send_scatter(scene: Scene) -> None:

@@ -7,7 +7,7 @@ import pytest
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.effects import effects
 from recalib.study.evidence.verdicts import CORRELATION, Comparison
-from tests.made_up import few_resamples
+from tests.synthetic import few_resamples
 
 SETUPS = 64
 RATIO = Across("theta", "a ratio")

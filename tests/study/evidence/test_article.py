@@ -18,9 +18,9 @@ MEASURED = "measured", "interval", "bounds", "published", "criterion", "statemen
 
 
 @pytest.fixture(scope="module")
-def known(made_up):
+def known(synthetic):
     page = PAGES["article.typ"]
-    return page.context(made_up.evidence(page.NEEDS))
+    return page.context(synthetic.evidence(page.NEEDS))
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +77,8 @@ def test_every_claim_is_in_it(article, known):
         assert first in text, claim["id"]
 
 
-def test_the_numbers_of_the_abstract_are_those_of_the_claims(article, made_up, known):
-    claims = json.loads(made_up.path("claims.json").read_text(encoding="utf-8"))
+def test_the_numbers_of_the_abstract_are_those_of_the_claims(article, synthetic, known):
+    claims = json.loads(synthetic.path("claims.json").read_text(encoding="utf-8"))
     verdicts = Counter(claim["verdict"] for claim in claims)
     measured = [[claim[key] for key in MEASURED] for claim in claims]
     results = [len(claims), *verdicts.values(), *numbers_in(measured)]

@@ -27,7 +27,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
-from tests.made_up import AT_FIRST, INITIAL, LUCK, REPLICATES, MadeUp, few_resamples, unread
+from tests.synthetic import AT_FIRST, INITIAL, LUCK, REPLICATES, Synthetic, few_resamples, unread
 
 IDS = [claim.id for claim in CLAIMS]
 
@@ -38,8 +38,8 @@ FACTORS = [f"factor, as many cells as {cells}" for cells in CELLS.values()]
 
 
 @pytest.fixture(scope="module")
-def supporting(few, tmp_path_factory) -> MadeUp:
-    return MadeUp(tmp_path_factory.mktemp("supporting"), few).campaign()
+def supporting(few, tmp_path_factory) -> Synthetic:
+    return Synthetic(tmp_path_factory.mktemp("supporting"), few).campaign()
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def test_supporting_evidence_supports_every_claim(judged):
 
 
 def test_without_the_campaign_the_reference_study_decides_what_can_vary(few, tmp_path, judged):
-    without = {claim["id"]: claim for claim in MadeUp(tmp_path, few).judge()}
+    without = {claim["id"]: claim for claim in Synthetic(tmp_path, few).judge()}
     assert {name for name, its in without.items() if its["verdict"] != "supported"} == UNDECIDED
     fixed = {"grid", "theta-reason", "jacobian-reason", "expected-learning", "rigid"}
     fixed |= {"initial-error", "controller-kept"}
@@ -133,11 +133,11 @@ def test_evidence_travels_as_text(supporting):
     ],
 )
 def test_other_errors_change_the_verdict(few, tmp_path, claim, final, verdict):
-    assert MadeUp(tmp_path, few, final).verdict(claim) == verdict
+    assert Synthetic(tmp_path, few, final).verdict(claim) == verdict
 
 
 def test_of_a_moved_robot_the_largest_share_that_remains_is_said_first(few, tmp_path):
-    judged = MadeUp(tmp_path, few, {("improved", "rotation"): [4.0, 4.0]}).judged("rigid")
+    judged = Synthetic(tmp_path, few, {("improved", "rotation"): [4.0, 4.0]}).judged("rigid")
     shares = [judged["measured"][label] for label in judged["interval"]]
     assert shares == sorted(shares, reverse=True) and shares[0] > 0.1
 
@@ -146,29 +146,29 @@ def test_an_error_that_was_none_at_first_decides_nothing(few, tmp_path, monkeypa
     """As of a single link that is short: the rest that remains of rounding says nothing."""
     monkeypatch.setitem(AT_FIRST, few.scenario, INITIAL * [1, 0])
     for claim in ("figure-1", "ritter-slow"):
-        measured = MadeUp(tmp_path / claim, few).judged(claim)["measured"]
+        measured = Synthetic(tmp_path / claim, few).judged(claim)["measured"]
         assert "position error" in measured and "orientation error" not in measured
 
 
 def test_the_system_for_which_the_paper_makes_a_claim_decides(few, tmp_path):
-    made_up = MadeUp(tmp_path, few, {"ritter_jacobian_increments": [9.0, 6.0]})
-    judged = made_up.judged("jacobian-increments")
+    synthetic = Synthetic(tmp_path, few, {"ritter_jacobian_increments": [9.0, 6.0]})
+    judged = synthetic.judged("jacobian-increments")
     verdicts = {name: system["verdict"] for name, system in judged["systems"].items()}
     assert verdicts == {"improved system": "supported", "Ritter's": "contradicted"}
     assert judged["verdict"] == "supported"
 
 
 def test_the_intact_robot_is_judged_by_the_setups_too(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
-    made_up.campaign(outcomes=made_up.outcomes({"intact": 0.01}))
+    synthetic = Synthetic(tmp_path, few)
+    synthetic.campaign(outcomes=synthetic.outcomes({"intact": 0.01}))
     with few_resamples():
-        assert made_up.verdict("identity") == "undecided", "the reference study says the opposite"
+        assert synthetic.verdict("identity") == "undecided", "the reference study says the opposite"
 
 
 def test_where_all_setups_have_a_bound_no_mean_decides(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
-    made_up.campaign(horizon=made_up.horizon().assign(bound=1))
-    (system,) = made_up.judged("speed-up")["systems"].values()
+    synthetic = Synthetic(tmp_path, few)
+    synthetic.campaign(horizon=synthetic.horizon().assign(bound=1))
+    (system,) = synthetic.judged("speed-up")["systems"].values()
     assert system["verdict"] == "undecided"
     assert system["universes"] == NO_MEAN
 
@@ -185,15 +185,15 @@ def test_the_mean_over_the_setups_decides_but_never_against_the_reference_study(
     limit, factor = across.comparison.limit, 0.5 if across.comparison.below else 2.0
     right, wrong = limit * factor or 0.4, limit / factor or -0.4
     neutral = "no effect" if across.comparison.bounds else "undecided"
-    made_up = MadeUp(tmp_path, few)
+    synthetic = Synthetic(tmp_path, few)
 
     def verdict(reference, setups):
         luck = LUCK * np.resize([-1.0, 1.0], REPLICATES)  # none on average: 0 or 1 is inside
         values = reference * np.exp(luck) if across.logarithmic else reference + luck
-        table = made_up.reference().assign(**{across.column: values})
-        made_up.write(REFERENCE, table)
-        made_up.campaign(outcomes=made_up.outcomes({across.column: setups}))
-        return made_up.verdict(claim.id)
+        table = synthetic.reference().assign(**{across.column: values})
+        synthetic.write(REFERENCE, table)
+        synthetic.campaign(outcomes=synthetic.outcomes({across.column: setups}))
+        return synthetic.verdict(claim.id)
 
     with few_resamples():
         cases = (right, right), (limit, right), (limit, wrong), (right, wrong), (wrong, right)
@@ -203,8 +203,8 @@ def test_the_mean_over_the_setups_decides_but_never_against_the_reference_study(
 
 
 def test_contradicting_measurements_change_the_verdict(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
-    quantised, balls = made_up.quantisation(), made_up.propagation
+    synthetic = Synthetic(tmp_path, few)
+    quantised, balls = synthetic.quantisation(), synthetic.propagation
     worse = quantised.assign(distance=quantised["distance"].where(quantised.seed < 0, 0.5))
     worse.loc[worse["placement"] == "boxes", "distance"] = 0.6
     beaten = quantised.copy()
@@ -214,35 +214,35 @@ def test_contradicting_measurements_change_the_verdict(few, tmp_path):
         ("grid", "quantisation", beaten),  # not near to the least that is known
         ("theta-reason", "propagation", balls(1.2)),
         ("jacobian-reason", "propagation", balls(1.0)),
-        ("expected-learning", "visits", made_up.visits().assign(ratio=1.2, error=0.1)),
-        ("controller-kept", "replay", made_up.replay().assign(difference=1e-9)),
+        ("expected-learning", "visits", synthetic.visits().assign(ratio=1.2, error=0.1)),
+        ("controller-kept", "replay", synthetic.replay().assign(difference=1e-9)),
     ):
-        made_up.write(f"mapping/{name}.parquet", table)
-        assert made_up.verdict(claim) == "contradicted", claim
+        synthetic.write(f"mapping/{name}.parquet", table)
+        assert synthetic.verdict(claim) == "contradicted", claim
 
 
 def test_a_condition_that_is_met_nowhere_decides_nothing(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
-    table = made_up.propagation(1.0).assign(to_original=0.9)
-    made_up.write("mapping/propagation.parquet", table)
-    judged = made_up.judged("theta-reason")
+    synthetic = Synthetic(tmp_path, few)
+    table = synthetic.propagation(1.0).assign(to_original=0.9)
+    synthetic.write("mapping/propagation.parquet", table)
+    judged = synthetic.judged("theta-reason")
     assert judged["verdict"] == "undecided"
     json.dumps(judged, allow_nan=False)
 
 
 def test_updates_that_are_equal_but_for_rounding_are_said_to_be(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
+    synthetic = Synthetic(tmp_path, few)
     for gap, equal in ((1e-9, True), (1e-3, False)):
-        table = made_up.propagation(0.5).assign(to_constant=1.0)
+        table = synthetic.propagation(0.5).assign(to_constant=1.0)
         table.loc[table["start"] == "intact", "to_original"] = 1 - gap
-        made_up.write("mapping/propagation.parquet", table)
-        assert ("so both updates are equal" in made_up.judged("jacobian-reason")["note"]) == equal
+        synthetic.write("mapping/propagation.parquet", table)
+        assert ("so both updates are equal" in synthetic.judged("jacobian-reason")["note"]) == equal
 
 
 @pytest.mark.parametrize(("better", "verdict"), [(95, "supported"), (94, "contradicted")])
 def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, better, verdict):
     """Others say nothing of it."""
-    made_up, rows = MadeUp(tmp_path, few), []
+    synthetic, rows = Synthetic(tmp_path, few), []
     for ball in range(150):
         meets = ball < 100
         updated = 0.5 if ball < better else 1 - 1e-7  # equal, but for rounding
@@ -250,8 +250,8 @@ def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, b
         rows.append(("theta", "damaged", 1.0, 1.0, updated, *ends))
     columns = ["kind", "start", "scale", "classic", "updated", "to_original", "to_constant"]
     table = pd.DataFrame(rows, columns=columns)
-    made_up.write("mapping/propagation.parquet", table)
-    judged = made_up.judged("theta-reason")
+    synthetic.write("mapping/propagation.parquet", table)
+    judged = synthetic.judged("theta-reason")
     assert judged["verdict"] == verdict
     assert [*judged["measured"].values()] == pytest.approx([better / 100, 2 / 3, 0], abs=1e-4)
 
@@ -265,17 +265,17 @@ def test_the_reason_holds_in_95_of_100_balls_with_the_condition(few, tmp_path, b
     ],
 )
 def test_the_expected_learning_is_held_to_both_of_its_limits(few, tmp_path, ratio, error, verdict):
-    made_up = MadeUp(tmp_path, few)
-    visits = made_up.visits().assign(ratio=ratio, error=error)
-    made_up.write("mapping/visits.parquet", visits)
-    assert made_up.verdict("expected-learning") == verdict
+    synthetic = Synthetic(tmp_path, few)
+    visits = synthetic.visits().assign(ratio=ratio, error=error)
+    synthetic.write("mapping/visits.parquet", visits)
+    assert synthetic.verdict("expected-learning") == verdict
 
 
 def test_unusual_initial_errors_change_the_verdict(few, tmp_path):
     published = few.paper_damage.published.model_copy(update={ERRORS[0]: 30.0})
     damage = few.paper_damage.model_copy(update={"published": published})
-    made_up = MadeUp(tmp_path, few.model_copy(update={"paper_damage": damage}))
-    judged = made_up.judged("initial-error")
+    synthetic = Synthetic(tmp_path, few.model_copy(update={"paper_damage": damage}))
+    judged = synthetic.judged("initial-error")
     assert judged["verdict"] == "contradicted"
     assert judged["statement"] == "This damage gives initial errors of 30.0 cm and 4.7 degrees."
 
@@ -299,7 +299,7 @@ def test_the_end_of_a_ladder_is_a_bound_and_is_called_so(
 ):
     rungs = few.experiments.ladder["ritter_double"]
     never = dict.fromkeys(["ritter_double", *(f"ritter_double_{rung}" for rung in rungs)], 5.0)
-    judged = MadeUp(tmp_path, few, never | final).judged("speed-up")
+    judged = Synthetic(tmp_path, few, never | final).judged("speed-up")
     assert judged["verdict"] == verdict
     assert judged["measured"][FACTORS[0]] == pytest.approx(number, rel=0.1)
     assert bounds <= {*judged["bounds"][FACTORS[0]]}
@@ -310,8 +310,8 @@ def test_the_end_of_a_ladder_is_a_bound_and_is_called_so(
 
 def test_a_single_search_has_no_interval_to_say(study, tmp_path):
     once = study.search.model_copy(update={"searches": 1, "searches_long": 1})
-    made_up = MadeUp(tmp_path, study.model_copy(update={"name": "once", "search": once}))
-    judged = made_up.judged("ritter-slow")
+    synthetic = Synthetic(tmp_path, study.model_copy(update={"name": "once", "search": once}))
+    judged = synthetic.judged("ritter-slow")
     assert judged["verdict"] == "undecided" and judged["interval"] == {}
     assert "null" not in json.dumps(judged, allow_nan=False)
 

@@ -134,8 +134,8 @@ def test_every_claim_of_today_stands_for_a_claim_before_or_is_new(told):
     assert sorted(now) == sorted(claim.id for claim in CLAIMS), "in `reread` of deviations.yaml"
 
 
-def test_the_page_has_each_change_and_each_verdict_before_and_now(made_up, told):
-    said = context(made_up.evidence(NEEDS))
+def test_the_page_has_each_change_and_each_verdict_before_and_now(synthetic, told):
+    said = context(synthetic.evidence(NEEDS))
     page = render(ROOT / "workflow" / "templates" / "deviations.md.j2", said)
     assert re.findall(r"^## (.+)$", page, re.MULTILINE)[:-1] == [
         each["what"] for each in told["deviations"]

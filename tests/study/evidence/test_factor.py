@@ -19,15 +19,15 @@ from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS
-from tests.made_up import MadeUp
+from tests.synthetic import Synthetic
 
 NEEDS = f"runs/{{scenario}}/{{ladder}}.parquet {shipped.EFFORTS} iterations seed"
 
 
 @pytest.fixture(scope="module")
 def table(few, tmp_path_factory):
-    made_up = MadeUp(tmp_path_factory.mktemp("factor"), few)
-    rows = factor_table(made_up.evidence(NEEDS))
+    synthetic = Synthetic(tmp_path_factory.mktemp("factor"), few)
+    rows = factor_table(synthetic.evidence(NEEDS))
     return {(row["cells"], row["effort"], row["definition"]): row for row in rows}
 
 

@@ -15,7 +15,7 @@ from recalib.study.inference import hierarchy, intervals
 from recalib.study.multiverse import power
 from tests.conftest import ROOT
 from tests.kept import plain
-from tests.made_up import MadeUp
+from tests.synthetic import Synthetic
 
 UNEVEN = {  # no two errors, and no two ratios, alike
     "ritter_200": [5.3, 2.9],
@@ -32,7 +32,7 @@ UNEVEN = {  # no two errors, and no two ratios, alike
 SAID = {"claims", "summary", "runs", "versions"}  # on several pages, or another one each day
 
 
-class Uneven(MadeUp):
+class Uneven(Synthetic):
     """Results that support some claims, and contradict others."""
 
     def outcomes(self, *_):

@@ -6,30 +6,30 @@ from recalib.study.configuration.shipped import PIECES, REFERENCE, pieces
 from recalib.study.evidence.needs import FACTS, Request
 from recalib.study.evidence.results import Evidence, Undeclared
 from recalib.study.plan.trainings import Trainings
-from tests.made_up import MadeUp, without_one
+from tests.synthetic import Synthetic, without_one
 
 
-def asked(made_up: MadeUp) -> Evidence:
-    return made_up.request().read("outcomes? horizon?").evidence
+def asked(synthetic: Synthetic) -> Evidence:
+    return synthetic.request().read("outcomes? horizon?").evidence
 
 
 def test_no_table_is_read_before_the_last_piece_is_in(few, tmp_path):
-    made_up = MadeUp(tmp_path, few)
+    synthetic = Synthetic(tmp_path, few)
     for table in PIECES:
-        assert asked(made_up).setups(table) is None
-    made_up.campaign()
-    read = {table: asked(made_up).setups(table) for table in PIECES}
+        assert asked(synthetic).setups(table) is None
+    synthetic.campaign()
+    read = {table: asked(synthetic).setups(table) for table in PIECES}
     assert len(read["outcomes"]) == few.universes.count * few.universes.replicates
     assert len(read["horizon"]) == len(few.universes.horizons) * few.universes.replicates
     assert not read["outcomes"].duplicated(["universe", "replicate"]).any()
-    made_up.path(pieces("horizon", len(few.universes.horizons))[-1]).unlink()
-    assert asked(made_up).setups("horizon") is None
-    assert len(asked(made_up).setups("outcomes")) == len(read["outcomes"])
+    synthetic.path(pieces("horizon", len(few.universes.horizons))[-1]).unlink()
+    assert asked(synthetic).setups("horizon") is None
+    assert len(asked(synthetic).setups("outcomes")) == len(read["outcomes"])
 
 
 def test_a_piece_that_was_not_declared_is_missed(few, tmp_path):
-    made_up = MadeUp(tmp_path, few).campaign()
-    evidence = asked(made_up)
+    synthetic = Synthetic(tmp_path, few).campaign()
+    evidence = asked(synthetic)
     names = pieces("horizon", len(few.universes.horizons))
     declared = [name for name in names if name in evidence.files]
     assert len(declared) > 1, "a table of one piece is there or not"
@@ -48,7 +48,7 @@ def test_tables_are_those_of_the_project_whose_results_are_read(few, root, proje
 
 
 def test_another_study_has_no_campaign(few, tmp_path):
-    other = MadeUp(tmp_path, few.model_copy(update={"name": "other"})).campaign()
+    other = Synthetic(tmp_path, few.model_copy(update={"name": "other"})).campaign()
     ask = other.request().read(f"outcomes? horizon? {REFERENCE}?")
     assert ask.evidence.files == {}
     assert not ask.foreign

@@ -39,8 +39,8 @@ def test_the_shipped_study_judges_all():
     assert judged("replication") == {claim.id for claim in CLAIMS}
 
 
-def test_errors_and_verdicts_are_said_and_where_to_look(made_up):
-    evidence = made_up.evidence(NEEDS)
+def test_errors_and_verdicts_are_said_and_where_to_look(synthetic):
+    evidence = synthetic.evidence(NEEDS)
     text = outcome(evidence)
     assert text.startswith("results: UR10, forearm_link 4 cm\n")
     for row in evidence.table("summary.csv").itertuples():

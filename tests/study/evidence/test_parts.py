@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from recalib.study.evidence.claims import changes
-from recalib.study.evidence.parts import otherwise, parts
+from recalib.study.evidence.pages.parts import otherwise, parts
 from tests.study.evidence.test_across import LEVELS, SETUPS, outcomes
 
 COLUMN = next(iter(changes.JACOBIAN.across.values())).column

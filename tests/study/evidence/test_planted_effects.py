@@ -11,7 +11,7 @@ from recalib.study.inference import intervals
 from recalib.study.inference.intervals import LEVEL
 from recalib.study.multiverse.power import LUCK
 from tests.conftest import ROOT
-from tests.made_up import REPLICATES, MadeUp
+from tests.synthetic import REPLICATES, Synthetic
 
 COLUMNS = ["maps_ritter_late", "maps_ritter", "maps_improved"]  # three worlds a judgement
 CLAIM, REPETITIONS = "separate-maps", 40
@@ -26,8 +26,8 @@ def verdicts(study, tmp_path, monkeypatch):
     monkeypatch.setattr(intervals, "RESAMPLES", 200)
     monkeypatch.setattr(effects, "RESAMPLES", 2)
     monkeypatch.chdir(ROOT)  # where the design is
-    made_up = MadeUp(tmp_path, study)
-    plain = made_up.reference(), made_up.outcomes(), made_up.horizon()
+    synthetic = Synthetic(tmp_path, study)
+    plain = synthetic.reference(), synthetic.outcomes(), synthetic.horizon()
     luck = pd.read_csv(DESIGN)["effort"].map(LUCK).to_numpy()[:, None, None]
 
     def planted(table, ratio, spread, size, random):
@@ -42,9 +42,9 @@ def verdicts(study, tmp_path, monkeypatch):
             reference = planted(plain[0], ratio, LUCK["full"], (REPLICATES, 1), random)
             size = study.universes.count, study.universes.replicates
             outcomes = planted(plain[1], ratio, luck, size, random)
-            made_up.write(REFERENCE, reference)
-            made_up.campaign(outcomes=outcomes, horizon=plain[2])
-            systems = made_up.judged(CLAIM)["systems"]
+            synthetic.write(REFERENCE, reference)
+            synthetic.campaign(outcomes=outcomes, horizon=plain[2])
+            systems = synthetic.judged(CLAIM)["systems"]
             found += [its["verdict"] for its in systems.values()]
         return np.array(found)
 

@@ -15,12 +15,12 @@ from recalib.study.evidence.reference import (
     width_order,
 )
 from recalib.study.inference.measured import ERRORS
-from tests.made_up import MadeUp
+from tests.synthetic import Synthetic
 
 
 @pytest.fixture(scope="module")
 def reference(few, tmp_path_factory):
-    return MadeUp(tmp_path_factory.mktemp("reference"), few).reference()
+    return Synthetic(tmp_path_factory.mktemp("reference"), few).reference()
 
 
 def test_two_maps_are_as_many_times_as_fast_as_their_errors_say(reference):

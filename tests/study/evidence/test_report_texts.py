@@ -5,19 +5,19 @@ import pytest
 from recalib.study.evidence.pages import report
 from recalib.study.plots.registry import FIGURES, drawn
 from tests.conftest import ROOT
-from tests.made_up import unread
+from tests.synthetic import unread
 
 
 @pytest.fixture
-def known(made_up, monkeypatch) -> dict:
+def known(synthetic, monkeypatch) -> dict:
     monkeypatch.chdir(ROOT)
-    return report.context(made_up.evidence(report.NEEDS))
+    return report.context(synthetic.evidence(report.NEEDS))
 
 
 @pytest.fixture
-def figures(few, made_up, tmp_path) -> dict[str, str]:
+def figures(few, synthetic, tmp_path) -> dict[str, str]:
     """Drawings of which only the beginning matters."""
-    names = drawn(few, made_up.request)
+    names = drawn(few, synthetic.request)
     for name in names:
         (tmp_path / f"{name}.svg").write_text(f"<?xml ?>\n<svg id='{name}'></svg>")
     return {name: str(tmp_path / f"{name}.svg") for name in names}
@@ -33,12 +33,12 @@ def test_every_page_shows_its_figure_and_its_claims(known, figures):
     assert {claim["id"] for name in figures for claim in report.shown_by(name, known["claims"])}
 
 
-def test_tables_hold_what_the_results_say(known, figures, made_up):
+def test_tables_hold_what_the_results_say(known, figures, synthetic):
     errors = report.page("errors", known, figures)
-    assert errors.count("<tr>") == 1 + len(made_up.trainings.runs)
+    assert errors.count("<tr>") == 1 + len(synthetic.trainings.runs)
     settings = report.page("settings", known, figures)
     assert "1 rounds of 100 trials" in settings
-    assert settings.count("<tr>") == 1 + len({learner for _, learner in made_up.trainings.runs})
+    assert settings.count("<tr>") == 1 + len({learner for _, learner in synthetic.trainings.runs})
     damages = report.page("damages", known, figures)
     assert "5 cm, -5 cm, 4.3 cm" in damages
     assert "matplotlib" in report.page("versions", known, figures)
@@ -63,15 +63,15 @@ def test_a_page_of_docs_is_drawn_into_the_report_and_its_links_lead_nowhere_else
     assert "<?xml" not in html
 
 
-def test_a_report_reads_all_files_that_it_declares(made_up):
+def test_a_report_reads_all_files_that_it_declares(synthetic):
     """And no others, or it could not be made."""
-    evidence = made_up.evidence(report.NEEDS)
+    evidence = synthetic.evidence(report.NEEDS)
     assert not unread(evidence, report.context) & {*evidence.files}
 
 
-def test_every_fact_of_the_report_is_said_by_a_page(made_up):
+def test_every_fact_of_the_report_is_said_by_a_page(synthetic):
     texts = "".join(path.read_text() for path in (ROOT / report.TEXTS).glob("*.*"))
-    facts = made_up.evidence(report.NEEDS).facts
+    facts = synthetic.evidence(report.NEEDS).facts
     assert [fact for fact in facts if fact not in texts] == []
 
 

@@ -18,7 +18,7 @@ from recalib.study.inference.intervals import (
     typical,
 )
 from recalib.study.inference.measured import ERRORS, errors_of
-from tests.made_up import OF_SEARCHES, OF_SEEDS
+from tests.synthetic import OF_SEARCHES, OF_SEEDS
 
 SEEDS = 5
 

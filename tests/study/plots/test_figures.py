@@ -13,7 +13,7 @@ from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
 from recalib.study.plots.style import STYLE, plt, save
 from tests.conftest import ROOT
-from tests.made_up import NOISE, OF_SEARCHES, MadeUp, evidence_of, few_resamples, without_one
+from tests.synthetic import NOISE, OF_SEARCHES, Synthetic, evidence_of, few_resamples, without_one
 
 
 def bytes_of(figure: str, evidence, folder) -> list[bytes]:
@@ -26,8 +26,8 @@ def bytes_of(figure: str, evidence, folder) -> list[bytes]:
 @pytest.mark.slow
 @few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
-def test_noise_in_the_last_digits_changes_no_byte(figure, made_up, disturbed, tmp_path):
-    evidence = (evidence_of(figure, results) for results in (made_up, disturbed))
+def test_noise_in_the_last_digits_changes_no_byte(figure, synthetic, disturbed, tmp_path):
+    evidence = (evidence_of(figure, results) for results in (synthetic, disturbed))
     first, again = (bytes_of(figure, its, tmp_path) for its in evidence)
     assert first == again and min(map(len, first)) > 5000
 
@@ -44,8 +44,8 @@ def test_the_committed_pictures_of_ideas_are_those_that_their_code_draws(tmp_pat
 
 @few_resamples()
 @pytest.mark.parametrize("figure", FIGURES)
-def test_a_figure_reads_what_it_declares_and_nothing_else(figure, made_up, tmp_path):
-    evidence = evidence_of(figure, made_up)
+def test_a_figure_reads_what_it_declares_and_nothing_else(figure, synthetic, tmp_path):
+    evidence = evidence_of(figure, synthetic)
     # of a table in pieces, those are read that are declared
     whole = [
         name for name in evidence.files if "/horizon_" not in name and "/outcomes_" not in name
@@ -90,17 +90,17 @@ def smaller(study, learners, **update):
 @few_resamples()
 def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, update, figures):
     its = smaller(few, learners, **update)
-    made_up = MadeUp(tmp_path, its)
-    assert drawn(its, made_up.request) == figures
+    synthetic = Synthetic(tmp_path, its)
+    assert drawn(its, synthetic.request) == figures
     for figure in figures:
-        bytes_of(figure, made_up.evidence(FIGURES[figure].needs), tmp_path)
+        bytes_of(figure, synthetic.evidence(FIGURES[figure].needs), tmp_path)
 
 
 def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
     its = smaller(few, ("improved", "ritter_200"), beside=("ritter_double_200", "ritter_double"))
-    made_up = MadeUp(tmp_path, its, {"ritter_double_200": 0.2})
+    synthetic = Synthetic(tmp_path, its, {"ritter_double_200": 0.2})
     with plt.rc_context(STYLE):
-        figure = draw("figure4", made_up.evidence(FIGURES["figure4"].needs))
+        figure = draw("figure4", synthetic.evidence(FIGURES["figure4"].needs))
     axes = figure.axes[0]
     labels = [label.get_text() for label in axes.get_yticklabels()]
     assert labels == ["ritter double 200,\nanother learner"], "10,000 iterations are not compared"
@@ -112,9 +112,9 @@ def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
 
 
 def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
-    made_up = MadeUp(tmp_path, smaller(few, ("improved",)))
+    synthetic = Synthetic(tmp_path, smaller(few, ("improved",)))
     with plt.rc_context(STYLE):
-        figure = draw("figure1", made_up.evidence(FIGURES["figure1"].needs))
+        figure = draw("figure1", synthetic.evidence(FIGURES["figure1"].needs))
     assert "UR10, forearm_link 4 cm" in figure.get_suptitle()
     plt.close(figure)
 

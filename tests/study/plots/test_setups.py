@@ -22,8 +22,8 @@ from recalib.study.plots.palette import BORDER, BOTH, FAILS, HOLDS, OTHER, STYLE
 from recalib.study.plots.registry import FIGURES, draw, drawn, possible
 from recalib.study.plots.style import STYLE, plt
 from tests.conftest import ROOT
-from tests.made_up import MadeUp, evidence_of, few_resamples
 from tests.study.recording.test_colours import FEWEST, SEEN, ciede2000, lab, linear
+from tests.synthetic import Synthetic, evidence_of, few_resamples
 
 PAGE = 830  # pixels: as wide as pages show figures
 LEAST = 9  # pixels
@@ -36,10 +36,10 @@ MEANT |= {color for color, _ in (*OTHER.values(), *UNKNOWN)}
 
 
 @pytest.fixture(scope="module")
-def planted(few, tmp_path_factory) -> MadeUp:
+def planted(few, tmp_path_factory) -> Synthetic:
     """Theta helps and depends on effort; schedule has no effect; the Jacobian harms, but
     not in the reference study."""
-    its = MadeUp(tmp_path_factory.mktemp("planted"), few)
+    its = Synthetic(tmp_path_factory.mktemp("planted"), few)
     table = its.outcomes({"schedule_improved": 1.0, "jacobian_improved": 1.5})
     effort = pd.read_csv(ROOT / DESIGN)["effort"].to_numpy()[table["universe"]]
     table["theta_improved"] *= np.where(effort == "rough", MOVED, 1.0)
@@ -208,7 +208,7 @@ def test_figure_14_judges_as_the_claims_do(figures, planted):
     leading = [next(iter(judged[claim.id]["systems"].values())) for claim in CLAIMS if claim.across]
     supported = sum(its["verdict"] == "supported" for its in leading)
     title = figures["figure14"].get_suptitle()
-    assert f"of {len(leading)} claims" in title and f"{supported} supported" in title
+    assert f"{supported} of {len(leading)} claims" in title
     assert "1 no effect, 1 undecided" in title
 
 
@@ -255,7 +255,7 @@ def test_every_choice_has_words(study):
 
 
 def test_figures_of_setups_are_drawn_once_all_are_measured(few, tmp_path):
-    its = MadeUp(tmp_path, few)
+    its = Synthetic(tmp_path, few)
     of_setups = {"figure14", "figure15"}
     assert not of_setups & {*drawn(few, its.request)}
     assert "multiverse" not in possible(["ideas"], its.request)
@@ -263,7 +263,7 @@ def test_figures_of_setups_are_drawn_once_all_are_measured(few, tmp_path):
     assert of_setups <= {*drawn(few, its.request)}
     assert "multiverse" in possible(["ideas"], its.request)
     other = few.model_copy(update={"name": "other"})
-    assert not of_setups & {*drawn(other, MadeUp(tmp_path / "other", other).request)}
+    assert not of_setups & {*drawn(other, Synthetic(tmp_path / "other", other).request)}
 
 
 def test_the_bar_of_separate_maps_is_the_nested_comparison(figures, planted):

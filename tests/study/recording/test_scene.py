@@ -219,7 +219,7 @@ def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
         assert in_picture(sight, np.zeros(3))[0] > 0, "the base is aside"
         place = [0.3, -0.8]
         assert np.allclose(in_picture(sight, sight.place(*place)), place)
-        assert np.allclose(sight.seen(sight.place(*place)), place)
+        assert np.allclose(sight.projected(sight.place(*place)), place)
 
 
 def test_plots_reach_to_the_last_iteration_of_the_longest_training():

@@ -12,7 +12,7 @@ CLAIM = Claim(
     quotation="changes in position coordinates influence very slowly the orientation commands, and"
     " the same can be said about orientation coordinates with respect to position commands",
     statement="Positions hardly influence orientation commands, nor the reverse.",
-    short="at most {percent} of their own coordinates' effect at 95 % of poses",
+    short="at 95 % of poses, at most {percent} of the effect of their own coordinates",
     limits={"ratio": RATIO, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",

@@ -79,7 +79,7 @@ THETA = claim(
     quotation="this kind of cooperation works better than Ritter et al.'s when the new function"
     " is more similar to the original one than to a constant function",
     statement="Changes are better if the new mapping is nearer to the old one than to a constant.",
-    short="in {percent} of regions tried",
+    short="true in {percent} of the regions where it is nearer",
 )
 JACOBIAN = claim(
     "jacobian",
@@ -87,5 +87,5 @@ JACOBIAN = claim(
     quotation="The new update version is better than the classical one when the Jacobian function"
     " of f' is more similar to df/dw than to a constant matrix.",
     statement="The same holds for Jacobians.",
-    short="in {percent} of regions tried",
+    short="true in {percent} of the regions where it is nearer",
 )

@@ -4,6 +4,7 @@ import numpy as np
 
 from recalib.study.configuration.switches import RITTER
 from recalib.study.evidence.factor import CELLS
+from recalib.study.evidence.pages.readme import in_a_sentence
 from recalib.study.evidence.pages.words import one, typical_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.inference.intervals import first_within
@@ -44,6 +45,7 @@ def context(evidence: Evidence) -> dict:
             for error, unit in zip(ERRORS, UNITS, strict=True)
         ),
         "claims": claims,
+        "sentences": in_a_sentence(by_id),
         "summary": summary,
         "on_its_way": _on_its_way(evidence),
         "tuned_anew": one(by_id["speed-up"], f"factor, as many cells as {CELLS[RITTER]}"),

@@ -8,8 +8,8 @@ from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import PUBLISHED, factor_table
 from recalib.study.evidence.factor_in_setups import in_setups
-from recalib.study.evidence.pages.words import depends
-from recalib.study.evidence.parts import otherwise, parts
+from recalib.study.evidence.pages.parts import otherwise, parts
+from recalib.study.evidence.pages.words import depends, level_in_words
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
@@ -19,7 +19,6 @@ from recalib.study.evidence.reference import (
 )
 from recalib.study.evidence.results import Evidence, Words
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.evidence.pages.words import depends, level_in_words
 from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:
@@ -39,7 +38,7 @@ ONCE = {  # what a single search compares, by column of the reference study
     "equal visits, improved system": "schedule_improved",
     "equal visits, Ritter's": "schedule_ritter",
 }
-ELSEWHERE = {"figure1", "figure2", "figure3"}  # shown among all results
+ELSEWHERE = {"figure1", "figure2", "figure3", "figure9"}  # shown among results or above
 
 NEEDS = f"""
     summary.csv claims.json outcomes? horizon? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}

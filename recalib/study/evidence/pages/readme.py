@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from recalib.study.evidence.claims import CLAIMS
 from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
+from recalib.study.evidence.pages.parts import otherwise, parts
 from recalib.study.evidence.pages.words import (
     headline,
     of_others,
@@ -12,7 +13,6 @@ from recalib.study.evidence.pages.words import (
     short,
     typical_errors,
 )
-from recalib.study.evidence.parts import otherwise, parts
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate

@@ -7,11 +7,11 @@ they explain verdicts, and change none.
 from collections.abc import Iterator, Mapping
 
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.pages.words import judged_by_setups
+from recalib.study.evidence.results import Evidence
 from recalib.study.inference.intervals import Estimate
 
-EFFORT, FULL = "effort", "full"  # of the search: rough ones have several times the luck
+EFFORT, FULL = "effort", "full"  # of the search: rough ones scatter several times as much
 FEWEST = 3  # setups of which something can be said together
 
 
@@ -55,6 +55,8 @@ def _by_level(evidence: Evidence, judged: dict, factor: str) -> Iterator[dict]:
         if its["universe"].nunique() < FEWEST:
             continue
         setups = across.over(its, design)
+        if setups is None:
+            continue
         yield {
             "id": claim.id,
             "judged": judged["verdict"],

@@ -1,4 +1,4 @@
-"""A study's results made up: all that its evidence reads, in files, in a second.
+"""A study's synthetic results: all that its evidence reads, in files, in a second.
 
 As they are, they support every claim. Tests change what they are about.
 """
@@ -67,7 +67,7 @@ REPLICATES = 8  # of the reference study
 LUCK, OWN = 0.1, 0.05
 
 
-def evidence_of(figure: str, results: "MadeUp") -> Evidence:
+def evidence_of(figure: str, results: "Synthetic") -> Evidence:
     """What a figure may read."""
     return results.request().read(FIGURES[figure].needs).evidence
 
@@ -111,7 +111,7 @@ def few_resamples() -> Iterator[None]:
         yield
 
 
-class MadeUp:
+class Synthetic:
     """Results of a study in a folder of their own.
 
     Args:
