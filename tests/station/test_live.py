@@ -17,11 +17,12 @@ import pytest
 import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
-from recalib.laboratory import live, running
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correction.correct import NotReached
 from recalib.laboratory.correction.corrector import Corrector
+from recalib.laboratory.live import calibration as live
+from recalib.laboratory.live import running
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.calibration import Interrupted, LiveSettings, calibrate_live
 from recalib.laboratory.live.running import PredictedError
