@@ -20,7 +20,7 @@ from recalib.identification.error_model import (
     ErrorModel,
     held,
 )
-from recalib.identification.estimation import identify
+from recalib.identification.estimation import LEAST_NOISE, identify
 from recalib.identification.frames import Frames
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.observations import Observations
@@ -160,6 +160,6 @@ def _choice(
     for kind in richer:
         # rows of one posture err alike: they are one gain
         gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
-        if gains.mean() > SURE * gains.std(ddof=1) / np.sqrt(len(gains)):
+        if gains.mean() > max(SURE * gains.std(ddof=1) / np.sqrt(len(gains)), LEAST_NOISE):
             best = kind
     return best
