@@ -25,6 +25,11 @@ from recalib.identification.model.error_model import (
 )
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.identification.estimation import LEAST_NOISE, identify
+from recalib.identification.model.frames import Frames
+from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
+from recalib.identification.model.observations import Observations
+from recalib.identification.checks.postures import Postures, find_postures
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
@@ -160,6 +165,6 @@ def _choice(
     for kind in richer:
         # rows of one posture err alike: they are one gain
         gains = np.bincount(own, losses[best] - losses[kind]) / np.bincount(own)
-        if gains.mean() > SURE * gains.std(ddof=1) / np.sqrt(len(gains)):
+        if gains.mean() > max(SURE * gains.std(ddof=1) / np.sqrt(len(gains)), LEAST_NOISE):
             best = kind
     return best

@@ -89,9 +89,13 @@ class Calibrated:
     @cached_property
     def places(self) -> list[Place]:
         """Where instrument, targets and sockets are, of those that were not given."""
-        if not self.worthwhile:
-            return self.places_by(self.calibration, [], self.arm.tool)
-        return self.places_by(self.geometry, self.unidentifiable, self.corrected[1])
+        by_geometry = self.places_by(self.geometry, self.unidentifiable, self.corrected[1])
+        if self.worthwhile:
+            return by_geometry
+        # an arm that looks right may have an offset that no measurement tells, all the same
+        own = self.places_by(self.calibration, [], self.arm.tool)
+        pairs = zip(own, by_geometry, strict=True)
+        return [replace(one, real_deviations=its.real_deviations) for one, its in pairs]
 
     def places_by(
         self, calibration: Calibration, unidentifiable: Sequence[Unidentifiable], tool: str

@@ -149,6 +149,8 @@ class _Tree:
                 raise UnsuitableRobot(
                     f"the joint {joint.get('name')} between {base} and {tool} of {self._name} is"
                     f" {kind}; expected: {', '.join(KINDS)}"
+                    + "; try: without <mimic>, and a column of its own"
+                    * (kind == "mimic")
                 )
             if kind != "fixed":
                 moving.append(joint.attrib["name"])

@@ -141,10 +141,11 @@ def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     assert real.error(found.calibration.predict) < 1e-3
 
 
-def test_an_arm_without_errors_is_left_alone(ur10):
+@pytest.mark.parametrize("noise", [1e-3, 0.0])
+def test_an_arm_without_errors_is_left_alone(ur10, noise):
     random = np.random.default_rng(4)
     joints = random.uniform(-1, 1, (30, 6))
-    measured = ur10.forward(joints)[:, :3, 3] + random.normal(scale=1e-3, size=(30, 3))
+    measured = ur10.forward(joints)[:, :3, 3] + random.normal(scale=noise, size=(30, 3))
     found = validate(ur10, Observations(joints, measured), Frames())
     assert found.chosen == NOTHING
     assert np.allclose(found.calibration.forward(joints), ur10.forward(joints), atol=1e-6)

@@ -1,5 +1,7 @@
 """What is known of frames and sockets, right or wrong: of a small arm, and of a Panda."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -129,6 +131,15 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     desired = Measurements(1, positions=np.zeros((1, 3)))
     with pytest.raises(InvalidSetting, match="base: a ball in sockets had no instrument"):
         correct(result.correction, desired, in_instrument=True)
+
+
+def test_a_range_beyond_the_limits_of_the_urdf_is_told(folder, calibrated):
+    """The table's unit or zero may be another, and no command goes there."""
+    narrow = folder / "narrow.urdf"
+    narrow.write_text((folder / "arm.urdf").read_text().replace('upper="2"', 'upper="0"', 1))
+    told = summary(calibrate_arm(narrow, folder / "measurements.csv"))
+    assert re.search(r"swing was .*, beyond its limits in the URDF, -114.6 to 0.0\n", told)
+    assert told.count("beyond its limits") == 1
 
 
 def test_a_distance_of_another_scale_is_doubted(in_sockets):

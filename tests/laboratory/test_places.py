@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import unidentifiable_parameters
@@ -116,6 +117,23 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
     assert (
         0 < float(left["deviation [mm]"]) < 1 < float(left["deviation beside the real link [mm]"])
     )
+
+
+def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tmp_path):
+    real, turned = Real(arm, 3), np.eye(4)
+    joints = real.postures(40)
+    turned[:3, :3] = Rotation.from_euler("z", 0.5, degrees=True).as_matrix()
+    seen = (real.base @ turned @ arm.forward(joints))[:, :3, 3] + real.random.normal(
+        scale=5e-5, size=(40, 3)
+    )
+    columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
+    columns |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate(POSITION)}
+    write(tmp_path / "m.csv", columns)
+    result = calibrate_arm(URDF, tmp_path / "m.csv", tool=TOOL)
+    instrument, _ = result.places
+    assert not result.worthwhile and instrument.link == arm.base
+    off = np.linalg.norm((instrument.pose - np.linalg.inv(real.base))[:3, 3])
+    assert instrument.deviations[0] < 1e-3 < off < 2 * instrument.real_deviations[0]
 
 
 def test_the_summary_says_how_many_postures_there_are(calibrated):

@@ -252,6 +252,8 @@ def test_hand_eye_says_places_and_held_out_errors(observed):
         numbers = [float(text.removesuffix(" mm")) for text in its["position"]]
         assert its["in"] == place.link
         assert numbers == pytest.approx(1e3 * place.pose[:3, 3], abs=1e-4)
+        as_right = said["arm_as_right"][place.name.removeprefix("the ")]
+        assert {*its} - {*as_right} == {"deviation", "deviation_beside_the_real_link"}
     optics, validation = result.observations.optics, result.validation
     for section, kind in (
         (said["held_out"], validation.chosen),

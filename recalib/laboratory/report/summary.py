@@ -29,6 +29,7 @@ DOING = {
 UNITS = (1e3, "mm"), (180 / np.pi, "deg")
 NUMBERS = "mean", "95 %", "largest"  # of errors
 MOST = 12  # doubted rows that are listed
+BEYOND = 0.5  # deg, mm: limits are rounded
 
 
 def errors_table(result: Calibrated) -> list[dict[str, Any]]:
@@ -153,14 +154,19 @@ def _notes(result: Calibrated) -> Iterator[str]:
         if words.startswith("offset"):
             yield f"not identifiable from any posture: {words}"
     yield f"parameters not identifiable from such measurements, kept small: {len(lasting)}"
-    columns = arm.joints, arm.slides, postures.still, result.observations.joints.T
-    for joint, slides, still, column in zip(*columns, strict=True):
+    limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
+    columns = arm.joints, arm.slides, postures.still, result.observations.joints.T, *limits
+    for joint, slides, still, column, *allowed in zip(*columns, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]
         low, high = scale * column.min(), scale * column.max()
         if still:
             yield f"{joint} stood still at {low:.1f} {unit}: nothing is known of its own errors"
-        else:
-            yield f"{joint} was measured from {low:.1f} to {high:.1f} {unit}"
+            continue
+        lower, upper = (scale * limit for limit in allowed)
+        within = lower - BEYOND < low and high < upper + BEYOND
+        outside = f", beyond its limits in the URDF, {lower:.1f} to {upper:.1f}"
+        measured = f"{joint} was measured from {low:.1f} to {high:.1f} {unit}"
+        yield measured if within else measured + outside
 
 
 def _places(result: Calibrated) -> Iterator[str]:
