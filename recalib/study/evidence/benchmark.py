@@ -8,7 +8,7 @@ import pandas as pd
 
 from recalib.numerics.randomness import generator
 from recalib.study.inference.intervals import bootstrap
-from recalib.study.inference.measured import ERRORS
+from recalib.study.inference.measured import BOTH, ERRORS
 from recalib.study.plan.competitors import needs_of
 
 Names = tuple[str, ...]
@@ -52,8 +52,8 @@ def reached(
     """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
     rows = []
     for scenario, learner, own in _entrants(history, scenarios, learners):
-        for error, threshold in product(ERRORS, thresholds):
-            moves = moves_to_reach(own, error, threshold)
+        for error, threshold in product((*ERRORS, BOTH), thresholds):
+            moves = moves_to_reach(own, ERRORS if error == BOTH else (error,), threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             about = {"scenario": scenario, "learner": learner, "error": error}
             its = {"threshold": threshold, "moves": median, "low": low, "high": high}
@@ -61,9 +61,13 @@ def reached(
     return pd.DataFrame(rows)
 
 
-def moves_to_reach(history: pd.DataFrame, error: str, threshold: float) -> np.ndarray:
-    """Moves (seed,) of the first measurement within the threshold; infinity where there is none."""
-    within = history[history[error] <= threshold].groupby("seed")["moves"].min()
+def moves_to_reach(history: pd.DataFrame, errors: Names, threshold: float) -> np.ndarray:
+    """Moves (seed,) of the first measurement with all of these errors within the threshold.
+
+    Infinity where there is none.
+    """
+    reached = (history[list(errors)] <= threshold).all(axis=1)
+    within = history[reached].groupby("seed")["moves"].min()
     return (
         within.astype(float)
         .reindex(np.sort(history["seed"].unique()), fill_value=np.inf)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from recalib.study.evidence.results import Evidence
-from recalib.study.inference.measured import ERRORS
+from recalib.study.inference.measured import BOTH, ERRORS
 from recalib.study.plan.competitors import label_of, peers
 
 if TYPE_CHECKING:
@@ -18,13 +18,12 @@ NEGLIGIBLE = 1e-4  # cm and degrees: below it, errors are rounding
 FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
 
 
-def moves_text(reached: "pd.DataFrame") -> str:
-    """Moves until both errors are within the threshold: the slower one's, with their spread."""
-    slower = reached.sort_values("moves", kind="stable").iloc[-1]
-    if not np.isfinite(slower["moves"]):
+def moves_text(reached: "pd.Series") -> str:
+    """Moves until errors are within a threshold, with their spread."""
+    if not np.isfinite(reached["moves"]):
         return "-"
-    high = f"{slower['high']:,.0f}" if np.isfinite(slower["high"]) else "more"
-    return f"{slower['moves']:,.0f} ({slower['low']:,.0f}-{high})"
+    high = f"{reached['high']:,.0f}" if np.isfinite(reached["high"]) else "more"
+    return f"{reached['moves']:,.0f} ({reached['low']:,.0f}-{high})"
 
 
 def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
@@ -54,7 +53,8 @@ def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     table, budgets = evidence.table("benchmark.csv"), evidence.facts["budgets"]
     reached, threshold = evidence.table("benchmark_moves.csv"), evidence.facts["threshold"]
-    its = reached[reached["threshold"] == threshold].set_index(["scenario", "learner"]).sort_index()
+    both = reached[(reached["threshold"] == threshold) & (reached["error"] == BOTH)]
+    its = both.set_index(["scenario", "learner"])
     learners = list(table["learner"].unique())
     return {
         "shipped": evidence.shipped,
@@ -63,7 +63,7 @@ def context(evidence: Evidence) -> dict:
         "learners": learners,
         "label": label_of,
         "scenarios": list(table["scenario"].unique()),
-        "moves": lambda scenario, learner: moves_text(its.loc[[(scenario, learner)]]),
+        "moves": lambda scenario, learner: moves_text(its.loc[(scenario, learner)]),
         "needs": reached.groupby("learner")["needs"].first(),
         "first": FIRST,
         "budget": max(budgets),
