@@ -11,9 +11,10 @@ SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STU
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
-# Python compiles a module when it is first imported; to compile all takes 20 s and 200 MB.
-PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-compile
+PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
+# images of containers often forbid Python to keep what it compiled: each process would do it again
+PYTEST = PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest
 LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --no-emit-index-url \
   --python-version 3.11 --custom-compile-command "make lock"
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
@@ -61,10 +62,10 @@ live: setup ## install MuJoCo for an arm with dynamics, not pinned; see docs/liv
 	$(PIP) --no-build-isolation --editable .[live]
 
 test: lint ## the linters and all tests except whole workflows, examples, sites and environments
-	.venv/bin/python -m pytest -m "not slow"
+	$(PYTEST) -m "not slow"
 
 test-all: lint ## the linters and all tests
-	.venv/bin/python -m pytest
+	$(PYTEST)
 
 lint: tools ## the linters and the types of the library
 	.venv/bin/ruff check .

@@ -37,6 +37,7 @@ settings.load_profile("untimed")
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
 PARTS += ["tests", "docs", "figures"]
+SHARED = "synthetic", "rules"  # fixtures that one process makes for all
 
 
 def loaded_with(statement: str, heavy: set[str]) -> set[str]:
@@ -50,10 +51,14 @@ def loaded_with(statement: str, heavy: set[str]) -> set[str]:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A process takes all tests of a file, or of what is marked as a group: fixtures are shared."""
+    """A process takes all tests of a file, or of what is marked as a group: fixtures are shared.
+
+    So are the fixtures of a session that take long.
+    """
     for item in items:
         if not item.get_closest_marker("xdist_group"):
-            item.add_marker(pytest.mark.xdist_group(name=item.location[0]))
+            shared = next((name for name in SHARED if name in item.fixturenames), item.location[0])
+            item.add_marker(pytest.mark.xdist_group(name=shared))
 
 
 @pytest.fixture(scope="session")

@@ -45,8 +45,8 @@ def train(learner, plant, moves, first=0, run=slice(None)):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("moves", [0, 19])
-def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_path):
+@pytest.mark.parametrize(("moves", "more"), [(0, 6), (19, 1)])
+def test_a_learner_goes_on_from_its_file(kind, moves, more, makers, plant, robot, tmp_path):
     learner = train(makers[kind](runs=RUNS), plant, moves)
     save(tmp_path / "a.npz", learner, robot)
     loaded = load(tmp_path / "a.npz", robot)
@@ -54,7 +54,7 @@ def test_a_learner_goes_on_from_its_file(kind, moves, makers, plant, robot, tmp_
     assert json.dumps(loaded.settings()) == json.dumps(learner.settings())
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
     for its in (learner, loaded):
-        train(its, plant, 20, first=moves)
+        train(its, plant, moves + more, first=moves)
     assert np.array_equal(loaded.command(TESTS), learner.command(TESTS))
 
 

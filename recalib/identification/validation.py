@@ -13,7 +13,7 @@ from recalib.identification.calibration import Calibration, calibrate, calibrate
 from recalib.identification.checks.diagnostics import check_estimate, check_links, check_postures
 from recalib.identification.checks.postures import Postures, find_postures
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.estimation import identify
+from recalib.identification.estimation import LEAST_NOISE, identify
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.model.error_model import (
     JOINT_ERRORS,
@@ -25,11 +25,6 @@ from recalib.identification.model.error_model import (
 )
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
-from recalib.identification.estimation import LEAST_NOISE, identify
-from recalib.identification.model.frames import Frames
-from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
-from recalib.identification.model.observations import Observations
-from recalib.identification.checks.postures import Postures, find_postures
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first

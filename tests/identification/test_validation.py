@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from recalib.identification import validation as module
-from recalib.identification.calibration import calibrate
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.postures import find_postures
 from recalib.identification.held_out import FOLDS, HeldOut, blocks, random_folds
@@ -71,11 +70,9 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
     found = validate(ur10, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
-    def stopped(*arguments, **options):
-        calibration = calibrate(*arguments, **options)
-        return replace(calibration, estimate=replace(calibration.estimate, converged=False))
-
-    monkeypatch.setattr(module, "calibrate", stopped)
+    richer = found.full[HYBRID]
+    stopped = replace(richer, estimate=replace(richer.estimate, converged=False))
+    monkeypatch.setattr(module, "calibrate", lambda *_, **its: stopped)
     found = validate(ur10, observations, frames)
     assert found.chosen == GEOMETRIC and found.unsettled
 

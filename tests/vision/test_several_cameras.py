@@ -5,6 +5,8 @@ import json
 import re
 import tomllib
 from functools import cache
+from pathlib import Path
+from shutil import copytree
 
 import numpy as np
 import pytest
@@ -63,6 +65,13 @@ SETUPS = {
         ("the camera by board near", "the camera by board far"),
     ),
 }
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """Few folds and few sets for a consensus: what they tell is tested where they are."""
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 3)
+    monkeypatch.setattr("recalib.identification.consensus.SETS", 20)
 
 
 def calibrated(*folders):
@@ -157,18 +166,17 @@ def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
         assert np.allclose(found, np.concatenate(expected), atol=1e-12)
 
 
-def test_a_camera_has_one_lens_in_all_its_folders(tmp_path):
+def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
     """Also where it starts beside the best one of their pictures."""
-    sessions, *_ = SETUPS["two boards"]
-    folders = [write_session(tmp_path / its[2], *its) for its in sessions]
+    result, folders = in_one_fit("two boards")
+    copies = [Path(copytree(its, tmp_path / str(its).replace("/", "_"))) for its in folders]
     lens, matrices = read_lens(folders[0] / "lens.yaml"), []
-    for off in (0.0, 3.0):  # px
-        start = Lens(lens.size, lens.matrix + np.diag([off, off, 0.0]), lens.distortion)
-        (folders[0] / "lens.yaml").write_text(start.as_ros())
-        geometry = calibrated(*folders).geometry
+    start = Lens(lens.size, lens.matrix + np.diag([3.0, 3.0, 0.0]), lens.distortion)  # px
+    (copies[0] / "lens.yaml").write_text(start.as_ros())
+    for its, geometry in ((folders, result.geometry), (copies, calibrated(*copies).geometry)):
         optics = geometry.estimate.parameters[geometry.model.optics_columns]
         assert len(optics) == 2 * 2 + 8
-        (found,) = fitted_lenses(folders, optics).values()
+        (found,) = fitted_lenses(its, optics).values()
         matrices.append(found.matrix)
     assert np.allclose(matrices[0], LENS.matrix, atol=1)
     assert np.allclose(*map(np.diag, matrices), atol=0.03)  # 0.05 were the pictures' own lens lost
