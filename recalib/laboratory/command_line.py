@@ -12,6 +12,7 @@ from recalib.errors import RecalibError, UnknownName
 from recalib.files.outputs import check_new, is_taken, new
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parser_of
 
+TURNED = 0.01  # deg: a rotation that is off by less is reached
 CACHE = "MPLCONFIGDIR"  # the variable with the folder of Matplotlib's
 
 
@@ -110,6 +111,12 @@ def _correct(given: argparse.Namespace) -> int:
             f"errors of {ends} are not identifiable from the measurements, so commands in the base"
             " have them. In the instrument's frame commands are right. Try: --frame instrument, a"
             " description with [instrument] and [target], or measured rotations"
+        )
+    turned = np.degrees(commands.turned)
+    if turned.max() > TURNED:
+        _warn(
+            f"an arm of {len(correction.arm.joints)} joints reaches positions; rotations stay up to"
+            f" {turned.max():.2g} deg from those desired, the most in row {turned.argmax() + 1}"
         )
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if len(rows):

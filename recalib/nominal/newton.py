@@ -21,7 +21,7 @@ def solve_groups(
 
     With more joints than a goal has numbers, each step is the shortest; with fewer, the one that
     leaves least. A group is solved when all of its goals are; where one is not, its best angles are
-    kept.
+    kept. An error is the largest number of a residual; with fewer joints than numbers, its norm.
 
     Args:
         goals: poses (group, n, 4, 4) or positions (group, n, 3) m.
@@ -34,7 +34,8 @@ def solve_groups(
     for _ in range(steps):
         reached, jacobians = kinematics(unsolved, angles)
         residual = _residual(reached, goals)
-        errors = np.abs(residual).max(axis=-1)
+        few = start.shape[-1] < residual.shape[-1]  # then the steps make squares least
+        errors = np.linalg.norm(residual, axis=-1) if few else np.abs(residual).max(axis=-1)
         better = errors < least
         if better.all():
             best, least = angles, errors

@@ -95,6 +95,11 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     reached = to_instrument(true_positions(arm, commanded))
     assert np.abs(reached - goals).max() < 6 * NOISE
     assert "not identifiable" not in capsys.readouterr().err
+    turned = dict.fromkeys(["rx [deg]", "ry [deg]", "rz [deg]"], np.zeros(10))
+    write(folder / "turned.csv", in_millimetres(goals) | turned)
+    arguments[2:] = [str(folder / "turned.csv"), "--frame=instrument", f"--out={folder / 'no.csv'}"]
+    assert main(arguments) == REFUSED
+    assert "nobody knows how a target is turned" in capsys.readouterr().err
     write(folder / "base.csv", {"x [m]": [0.6], "y [m]": [0.0], "z [m]": [0.4]})
     other = folder / "base_commands.csv"
     main(["correct", str(calibrated), str(folder / "base.csv"), f"--out={other}"])

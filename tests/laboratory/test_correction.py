@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.archives import write_archive
@@ -19,6 +20,8 @@ from recalib.laboratory.correction.archive import Correction, load_correction
 from recalib.laboratory.correction.correct import NotReached, correct
 from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.poses import position_error
+from tests.arms import SCARA
 from tests.laboratory.conftest import postures
 from tests.spoiling import spoil
 
@@ -74,6 +77,20 @@ def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
+
+
+def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load):
+    arm, random = load(SCARA), np.random.default_rng(5)
+    joints = random.uniform([-1, 0.3, 0, -2], [1, 1.8, 0.3, 2], (40, 4))
+    offsets = np.array([0.01, 0.02, 0.003, -0.02])
+    observations = Observations(joints, arm.forward(joints + offsets))
+    calibration = calibrate(arm, (OFFSETS,), observations)
+    correction = Correction(SCARA.encode(), calibration, joints[10:])
+    goals = calibration.forward(joints[:10])
+    goals[:, :3, :3] @= Rotation.from_rotvec([0.003, 0, 0]).as_matrix()  # which no joint makes
+    commands = correct(correction, Measurements(10, None, goals[:, :3, 3], goals[:, :3, :3]))
+    gaps = position_error(calibration.forward(commands.joints), goals)
+    assert gaps.max() < 1e-7 and np.allclose(commands.turned, 0.003, rtol=0.05)
 
 
 @pytest.mark.parametrize("in_instrument", [False, True])

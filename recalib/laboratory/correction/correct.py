@@ -43,11 +43,13 @@ class Commands:
         joints: (n, joints) rad, or m where a joint slides, in which the controller has to believe.
         poses: (n, 4, 4) m, which its nominal kinematics give them in the base: the fake poses.
         beyond: (n, joints) whether a joint leaves the range that was learned from.
+        turned: (n,) rad, how far from a desired rotation an arm of fewer than six joints stays.
     """
 
     joints: np.ndarray
     poses: np.ndarray
     beyond: np.ndarray
+    turned: np.ndarray
 
 
 def correct(correction: Correction, desired: Measurements, in_instrument: bool = False) -> Commands:
@@ -56,7 +58,8 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     Args:
         desired: poses or positions of the tool link in the arm's base, with joint coordinates to
             stay near to, if there are any; or joint coordinates alone, which mean the pose that
-            they give the nominal arm. Arms of fewer than six joints are taken to positions.
+            they give the nominal arm. Arms of fewer than six joints are taken to the position, with
+            the rotation as near as they can.
         in_instrument: the poses or positions are those of targets in the instrument's frame, as
             they were measured. That needs no knowledge of the base or the tool link.
 
@@ -64,10 +67,14 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     UnknownName.
     """
     found = reach(correction, desired, in_instrument)
+    goals, turned = _goals(correction.arm, desired), np.zeros(len(found))
+    if goals.ndim == 3:
+        targets = _targets(correction, desired) if in_instrument else None
+        turned = orientation_error(_poses(correction.calibration, found, targets), goals)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     margin = MARGIN * (high - low)
     beyond = (found < low - margin) | (found > high + margin)
-    return Commands(found, correction.arm.forward(found), beyond)
+    return Commands(found, correction.arm.forward(found), beyond, turned)
 
 
 def reach(correction: Correction, desired: Measurements, in_instrument: bool) -> np.ndarray:
@@ -81,7 +88,7 @@ def reach(correction: Correction, desired: Measurements, in_instrument: bool) ->
     if errors[first] > TOLERANCE:
         its = None if targets is None else targets[[first]]
         (pose,) = _poses(correction.calibration, found[[first]], its)
-        gap = _gap(pose, _goals(correction.arm, desired)[first])
+        gap = _gap(pose, _reachable(correction.arm, _goals(correction.arm, desired))[first])
         raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
     low, high = model.lowerPositionLimit, model.upperPositionLimit
     outside = (found[first] < low) | (found[first] > high)
@@ -113,8 +120,9 @@ def solve(
     Returns joint coordinates (n, joints), their errors (n,) in m or rad, and whether a desired pose
     is reached within the arm's limits (n,).
     """
-    arm, joints, goals = correction.arm, desired.coordinates, _goals(correction.arm, desired)
-    starts = [joints] if joints is not None else _nearest(correction, goals, targets)
+    arm, joints, full = correction.arm, desired.coordinates, _goals(correction.arm, desired)
+    goals = _reachable(arm, full)
+    starts = [joints] if joints is not None else _nearest(correction, full, targets)
     lower, upper = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
     found, errors = starts[0].copy(), np.full(len(goals), np.inf)
     reached = np.zeros(len(goals), dtype=bool)
@@ -123,7 +131,10 @@ def solve(
         if not len(rows):
             break
         its = None if targets is None else targets[rows]
-        tried, remaining = _newton(correction.calibration, goals[rows], its, start[rows])
+        begin = start[rows]
+        if full.ndim > goals.ndim:  # the least that is left of a pose, and then its position
+            begin, _ = _newton(correction.calibration, full[rows], its, begin)
+        tried, remaining = _newton(correction.calibration, goals[rows], its, begin)
         within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
         better = within | (remaining < errors[rows])
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
@@ -136,6 +147,11 @@ def _goals(arm: Arm, desired: Measurements) -> np.ndarray:
     goals = desired.measured
     if goals is None:
         goals = arm.forward(desired.joints)
+    return goals
+
+
+def _reachable(arm: Arm, goals: np.ndarray) -> np.ndarray:
+    """What an arm reaches of poses (n, 4, 4) [m]: with fewer than six joints, positions (n, 3)."""
     return goals[:, :3, 3] if arm.model.nv < 6 and goals.ndim == 3 else goals
 
 
@@ -146,6 +162,10 @@ def _targets(correction: Correction, desired: Measurements) -> np.ndarray:
         raise InvalidSetting("frame", "instrument", "base: a ball in sockets had no instrument")
     if desired.positions is None:
         raise InvalidSetting("x, y, z", None, "where a target should be, to the instrument")
+    frames, kinds = correction.calibration.frames, len(correction.calibration.estimate.noise)
+    if desired.rotations is not None and frames.targets_unknown and kinds == 1:
+        valid = "none: from positions alone nobody knows how a target is turned"
+        raise InvalidSetting("rotation", "that of a target", valid)
     if desired.targets is None:
         if len(names) > 1:
             raise InvalidSetting("column target", None, f"one of {', '.join(names)} in each row")
