@@ -8,12 +8,16 @@ from tests.identification.honesty import ROWS, Session, with_targets
 from tests.identification.real import Real, geometry_of
 
 
-@pytest.mark.parametrize("positions", [True, False], ids=["positions", "poses"])
-@pytest.mark.parametrize("on_a_path", [True, False], ids=["path", "random"])
-@pytest.mark.parametrize(
-    ("kind", "size", "near"),
-    [(LAG, 0.05, 0.1), (LAG, -0.02, 0.1), (JUMP, 1e-3, 0.2)],
-    ids=["behind", "ahead", "jump"],
+@pytest.mark.parametrize(  # each pair of them at least once
+    ("kind", "size", "near", "on_a_path", "positions"),
+    [
+        (LAG, 0.05, 0.1, True, True),
+        (LAG, 0.05, 0.1, False, False),
+        (LAG, -0.02, 0.1, True, False),
+        (LAG, -0.02, 0.1, False, True),
+        (JUMP, 1e-3, 0.2, True, True),
+        (JUMP, 1e-3, 0.2, False, False),
+    ],
 )
 def test_a_fault_is_named_by_its_size_and_its_row(kind, size, near, on_a_path, positions, ur10):
     fault, *_ = Session(ur10, 1, kind, size, positions, on_a_path).named()
