@@ -21,7 +21,7 @@ from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correction.correct import NotReached
 from recalib.laboratory.correction.corrector import Corrector
-from recalib.laboratory.live.calibration import calibration as live
+from recalib.laboratory.live import calibration as live
 from recalib.laboratory.live import running
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.calibration import Interrupted, LiveSettings, calibrate_live
