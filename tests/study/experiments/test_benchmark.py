@@ -71,7 +71,7 @@ def test_the_first_measurement_within_a_threshold_counts_for_each_seed():
         for seed, each in errors.items()
         for moves, error in zip((2, 4, 8), each, strict=True)
     ]
-    assert moves_to_reach(pd.DataFrame(table), ERRORS[0], 1).tolist() == [np.inf, 2, 4]
+    assert moves_to_reach(pd.DataFrame(table), (ERRORS[0],), 1).tolist() == [np.inf, 2, 4]
 
 
 def test_where_the_hybrid_is_worse_than_the_best_peer_is_said_unless_it_is_by_rounding():
