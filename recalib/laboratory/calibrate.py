@@ -19,7 +19,7 @@ from recalib.identification.checks.sequence import Fault, faults
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
-from recalib.identification.model.observations import Distance, Observations
+from recalib.identification.model.observations import Observations
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.arms.urdf import corrected_urdf
 from recalib.laboratory.correction.archive import Correction
@@ -27,8 +27,9 @@ from recalib.laboratory.places import INSTRUMENT, Place, found_places
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.fault_words import in_words
 from recalib.laboratory.tables.knowledge import check_distances, frames_by_sights
-from recalib.laboratory.tables.measurements import OBSERVED, Measurements, read_measurements
+from recalib.laboratory.tables.measurements import OBSERVED, read_measurements
 from recalib.laboratory.tables.nominal_checks import check_nominal
+from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
@@ -287,40 +288,3 @@ def _check_several(paths: Sequence[Path], given: Description) -> None:
             paths[1],
             "the description has an instrument or a target, which is for one camera; try: without",
         )
-
-
-def observations_of(
-    rows: Measurements, given: Description, table: Path
-) -> tuple[Observations, tuple[str, ...], tuple[str, ...]]:
-    """What was measured, with the names of targets and of sockets."""
-    targets, numbers = _numbered(rows.targets, len(rows))
-    observations = Observations(rows.joints, rows.measured, numbers, times=rows.times)
-    if rows.sockets is None:
-        if given.distances:
-            raise InvalidFile(
-                table,
-                "its description has a distance between sockets; the table has no column 'socket'",
-            )
-        return observations, targets, ()
-    if given.instrument is not None:
-        raise InvalidFile(table, "its description has an instrument; a ball in sockets needs none")
-    sockets, where = _numbered(rows.sockets, len(rows))
-    for pair in given.distances:
-        for socket in pair:
-            if socket not in sockets:
-                raise InvalidFile(
-                    table,
-                    f"its description names socket {socket!r}; the table has {', '.join(sockets)}",
-                )
-    distances = [
-        Distance(sockets.index(one), sockets.index(other), length)
-        for (one, other), length in given.distances.items()
-    ]
-    return replace(observations, sockets=where, distances=distances), targets, sockets
-
-
-def _numbered(labels: np.ndarray | None, count: int) -> tuple[tuple[str, ...], np.ndarray]:
-    if labels is None:
-        return ("the target",), np.zeros(count, dtype=int)
-    names, numbers = np.unique(labels, return_inverse=True)
-    return tuple(names.tolist()), numbers

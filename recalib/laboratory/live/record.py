@@ -12,10 +12,10 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.calibrate import observations_of
 from recalib.laboratory.tables.columns import MOST
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import measurements_so_far
+from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.kinematics import Arm
 
 
