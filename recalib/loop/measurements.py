@@ -33,18 +33,17 @@ def check_moves(
 
     Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
     """
+    allowed = OUTSIDE + WRAPPED * np.abs(commands).max(axis=-1)
     size = np.abs(achieved).max(axis=-1)
-    if not (size <= OUTSIDE).all():  # seldom, and asked twice a cycle
-        allowed = OUTSIDE + WRAPPED * np.abs(commands).max(axis=-1)
-        # A command may be NaN where a learner diverges; such a move is refused, and harmless.
-        bad = ~np.isfinite(size) | (size > allowed)
-        if bad.any():
-            run, move = np.argwhere(bad)[0]
-            valid = (
-                "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
-                f" {allowed[run, move]:.3g} for such a command"
-            )
-            raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
+    # A command may be NaN where a learner diverges; such a move is refused, and harmless.
+    bad = ~np.isfinite(size) | (size > allowed)
+    if bad.any():
+        run, move = np.argwhere(bad)[0]
+        valid = (
+            "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
+            f" {allowed[run, move]:.3g} for such a command"
+        )
+        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
     if last is not None:
         commands, achieved, executed = (
             np.concatenate(parts, axis=1)

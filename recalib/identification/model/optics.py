@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 # By name, with its unit, the size of that in what parameters are in, and the standard deviation
-# before any picture is seen, in that unit. A printer scales by a thousandth.
+# before any picture is taken, in that unit. A printer scales by a thousandth.
 BOARD = (("print scale along x", "%", 0.01, 0.1), ("print scale along y", "%", 0.01, 0.1))
 OPTICS = (
     *BOARD,
@@ -68,7 +68,7 @@ class Optics:
 
     @property
     def deviations(self) -> np.ndarray:
-        """Standard deviations (o,) of them, before any picture is seen."""
+        """Standard deviations (o,) of them, before any picture is taken."""
         return np.array([OPTICS[kind][2] * OPTICS[kind][3] for kind in self.kinds])
 
 

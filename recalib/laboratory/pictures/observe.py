@@ -69,7 +69,7 @@ class Observed:
 
     Attributes:
         table: the joints of each.
-        board, lens: that they show, and by which they are seen.
+        board, lens: that they show, and through which they were taken.
         fitted: whether the lens is that of these pictures.
         in_hand: whether the camera is on the hand.
         pictures: all of the table.

@@ -36,7 +36,7 @@ class Session:
         camera, board_name: their names.
         in_hand: whether the camera is on the hand.
         fitted: whether the lens is that of the pictures.
-        board, lens: that they show, and by which they are seen.
+        board, lens: that they show, and through which they were taken.
     """
 
     folder: Path

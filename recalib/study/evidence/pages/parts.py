@@ -7,12 +7,12 @@ they explain verdicts, and change none.
 from collections.abc import Iterator, Mapping
 
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.claim import Claim
 from recalib.study.evidence.pages.words import judged_by_setups
 from recalib.study.evidence.results import Evidence
 from recalib.study.inference.intervals import Estimate
 
 EFFORT, FULL = "effort", "full"  # of the search: rough ones scatter several times as much
-FEWEST = 3  # setups of which something can be said together
 
 
 def parts(evidence: Evidence) -> list[dict]:
@@ -26,7 +26,7 @@ def parts(evidence: Evidence) -> list[dict]:
         if its is None or not judged_by_setups(its):
             continue
         for factor in _factors(its["universes"]["depends_on"]):
-            levels = list(_by_level(evidence, its, factor))
+            levels = list(_by_level(evidence, claim, its, factor))
             if any(level["verdict"] != its["verdict"] for level in levels):
                 rows += levels
     return rows
@@ -43,17 +43,14 @@ def _factors(strongest: Mapping) -> list[str]:
     return list(dict.fromkeys([EFFORT, *beyond]))
 
 
-def _by_level(evidence: Evidence, judged: dict, factor: str) -> Iterator[dict]:
+def _by_level(evidence: Evidence, claim: Claim, judged: dict, factor: str) -> Iterator[dict]:
     """What the setups with each level say of a claim, on the system on which the paper makes it."""
-    claim = next(its for its in CLAIMS if its.id == judged["id"])
     system, across = next(iter(claim.across.items()))
     interval = judged["interval"].get(system, [judged["measured"][system]] * 2)
     reference = Estimate(judged["measured"][system], *interval)
     table, design = evidence.setups(across.table), evidence.levels()
     assert table is not None  # they judge it
     for level, its in table.groupby(table["universe"].map(design[factor])):
-        if its["universe"].nunique() < FEWEST:
-            continue
         setups = across.over(its, design)
         if setups is None:
             continue
