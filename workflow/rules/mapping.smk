@@ -11,8 +11,10 @@ rule study_mapping:
         own=own_scenario,
     output:
         coupling="{root}/mapping/coupling.parquet",
+        nearness="{root}/mapping/nearness.parquet",
         propagation="{root}/mapping/propagation.parquet",
         quantisation="{root}/mapping/quantisation.parquet",
+        solutions="{root}/mapping/solutions.parquet",
     log:
         "{root}/logs/study_mapping.log",
     threads: 1
@@ -29,7 +31,7 @@ rule study_mapping:
             seed=study(w).seed,
         ),
     message:
-        "Measure what section 3 says of the cells, and sections 4 and 5 of the true mapping"
+        "Measure what section 3 says of cells and commands, and sections 4 and 5 of the true mapping"
     script:
         "../scripts/call.py"
 
@@ -47,6 +49,25 @@ rule study_visits:
         arguments=lambda w: as_text(seed=study(w).seed),
     message:
         "Measure the expected learning of section 6"
+    script:
+        "../scripts/call.py"
+
+
+rule study_widths:
+    input:
+        scenario=own_scenario,
+    output:
+        "{root}/mapping/widths.parquet",
+    log:
+        "{root}/logs/study_widths.log",
+    threads: 1
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("recalib.study.experiments.constant_widths.constant_widths"),
+        arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),
+    message:
+        "Learn with neighbourhoods whose widths stay as they are, as section 6 compares"
     script:
         "../scripts/call.py"
 

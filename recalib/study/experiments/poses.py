@@ -30,6 +30,7 @@ class Stream(Enum):
     ENSEMBLE = "ensemble"
     TWIN = "twin"
     REPLAY = "replay"
+    WIDTHS = "constant widths"
 
     def draw(
         self,

@@ -5,8 +5,10 @@ from pathlib import Path
 import pandas as pd
 
 from recalib.study.mapping.coupling import couplings
+from recalib.study.mapping.nearness import nearness
 from recalib.study.mapping.propagation import propagation
 from recalib.study.mapping.quantisation import quantisation
+from recalib.study.mapping.solutions import in_scenarios
 
 
 def measure(
@@ -18,10 +20,15 @@ def measure(
     radius: float,
     scales: tuple[float, ...],
     seed: int,
-) -> tuple[pd.DataFrame, pd.DataFrame, pd.DataFrame]:
-    """Coupling, propagation and quantisation; `own` is the scenario with the paper's damage."""
+) -> tuple[pd.DataFrame, ...]:
+    """Coupling, nearness, propagation, quantisation and solutions.
+
+    `own` is the scenario with the paper's damage.
+    """
     return (
         couplings(scenarios, poses, seed),
+        nearness(own, poses, seed),
         propagation(own, balls, points, radius, scales, seed),
         quantisation(seed),
+        in_scenarios(scenarios, poses, seed),
     )

@@ -9,6 +9,7 @@ from recalib.study.configuration.shipped import root_of
 from recalib.study.configuration.study import Study
 from recalib.study.evidence.claims import (
     changes,
+    coarse_widths,
     controller_kept,
     coupling,
     expected_learning,
@@ -22,6 +23,7 @@ from recalib.study.evidence.claims import (
     rigid,
     ritter_slow,
     rough_search,
+    single_valued,
     speed_up,
 )
 from recalib.study.evidence.needs import Request
@@ -30,9 +32,11 @@ from recalib.study.plan.trainings import Trainings
 
 CLAIMS = (
     identity.CLAIM,
+    single_valued.CLAIM,
     grid.CLAIM,
     ritter_slow.CLAIM,
     coupling.CLAIM,
+    coupling.REASON,
     maps.LARGE,
     maps.SEPARATE,
     *maps.WIDTHS.values(),
@@ -41,6 +45,7 @@ CLAIMS = (
     reasons.THETA,
     changes.JACOBIAN,
     reasons.JACOBIAN,
+    coarse_widths.CLAIM,
     expected_learning.CLAIM,
     changes.SCHEDULE,
     rigid.CLAIM,

@@ -19,7 +19,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 
-WORDS = {0.1: "tenth", 0.25: "quarter", 3.0: "three"}
+WORDS = {0.1: "tenth", 0.25: "quarter", 0.5: "half", 2.0: "twice", 3.0: "three"}
 
 
 class Limit(float):
@@ -34,6 +34,11 @@ class Limit(float):
             case "central":
                 return f"{100 * (1 - 2 * self):g} %"
         return super().__format__(how or "g")
+
+
+def of_all(*verdicts: Verdict) -> Verdict:
+    """The verdict on a claim of several parts: that on the first which is not supported."""
+    return next((its for its in verdicts if its is not Verdict.SUPPORTED), Verdict.SUPPORTED)
 
 
 @dataclass

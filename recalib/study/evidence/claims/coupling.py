@@ -1,10 +1,15 @@
-"""Section 4: positions and orientations apart."""
+"""Section 4: positions and orientations apart, and why."""
+
+import numpy as np
 
 from recalib.study.evidence.claims.across import Across
-from recalib.study.evidence.claims.claim import Claim, Limit
-from recalib.study.evidence.verdicts import Comparison
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit, of_all
+from recalib.study.evidence.verdicts import RATIO, Comparison
+from recalib.study.inference.hierarchy import student
+from recalib.study.inference.intervals import Estimate
 
-RATIO = Limit(0.1)
+SMALL = Limit(0.1)
+RISES = RATIO._replace(below=False)  # the paper is right above 1
 
 CLAIM = Claim(
     id="weak-coupling",
@@ -13,10 +18,60 @@ CLAIM = Claim(
     " the same can be said about orientation coordinates with respect to position commands",
     statement="Positions hardly influence orientation commands, nor the reverse.",
     short="at 95 % of poses, at most {percent} of the effect of their own coordinates",
-    limits={"ratio": RATIO, "poses": Limit(0.95)},
+    limits={"ratio": SMALL, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",
     reason="Hardly is an order of magnitude.",
-    across={"the mapping": Across("coupling", "off-diagonal over diagonal", Comparison(RATIO))},
+    across={"the mapping": Across("coupling", "off-diagonal over diagonal", Comparison(SMALL))},
     figures=("figure5",),
+)
+
+
+def measure(evidence, limits):
+    table = evidence.table("mapping/nearness.parquet")
+    table["coupling"] = table[["position", "orientation"]].max(axis=1)
+    own, larger = table[table["size"] == 1], table[table["size"] == limits["size"]]
+    most, least = (
+        its.groupby("draw")["coupling"].quantile(limits["poses"]) for its in (larger, own)
+    )
+    middle = larger.groupby("draw")["condition"].transform("median")
+    near, far = (
+        its.groupby("draw")["coupling"].median()
+        for its in (larger[larger["condition"] > middle], larger[larger["condition"] <= middle])
+    )
+    estimates = {
+        "larger box / workspace": _ratio(most, least),
+        "nearer to / farther from singularities": _ratio(near, far),
+    }
+    poses = table["draw"].nunique() * evidence.facts["coupling_poses"]
+    note = (
+        f"The intervals hold the luck of {table['draw'].nunique()} draws of poses. Of the poses of"
+        f" the larger box, {len(larger) / poses:.0%} are within reach, with condition numbers from"
+        f" {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the workspace the"
+        f" largest is {own['condition'].max():.0f}."
+    )
+    return Finding(estimates, of_all(*map(RISES.verdict, estimates.values())), note=note)
+
+
+def _ratio(ours, theirs) -> Estimate:
+    """The geometric mean of ratios, by draw."""
+    return Estimate(*np.exp(student(np.log(ours / theirs).to_numpy())))
+
+
+REASON = Claim(
+    id="weak-coupling-reason",
+    section="4",
+    quotation="Due to the characteristics of the workspace used (far from singularities and of"
+    " small size relative to that of the robot)",
+    statement="They hardly do since the workspace is small and far from singularities.",
+    short="x {number} in a box of positions twice as long",
+    limits={"size": Limit(2.0), "poses": Limit(0.95)},
+    criterion="With the paper's damage, the larger of both ratios of weak-coupling rises, at"
+    " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"
+    " that box it is larger, in the median, at the half of the poses with the larger condition"
+    " numbers. Both whole intervals are on this side, and not within 10 %.",
+    reason="A cause is shown by varying it. The units stay those of the workspace: a larger box"
+    " changes where poses are, and nothing else.",
+    needs="mapping/nearness.parquet coupling_poses",
+    measure=measure,
 )

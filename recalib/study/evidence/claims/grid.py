@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from recalib.study.evidence.claims.claim import Claim, Finding, Limit
-from recalib.study.evidence.verdicts import RATIO, Comparison, Verdict
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit, of_all
+from recalib.study.evidence.verdicts import RATIO, Comparison
 from recalib.study.inference.hierarchy import student
 from recalib.study.inference.intervals import Estimate
 
@@ -16,9 +16,7 @@ def measure(evidence, limits):
         return Estimate(*np.exp(student((distances["boxes"] - distances[placement]).to_numpy())))
 
     kohonen, least = over("kohonen_10000"), over("kmeans")
-    verdict = RATIO.side(kohonen)
-    if verdict is Verdict.SUPPORTED:
-        verdict = Comparison(limits["worse"]).verdict(least)
+    verdict = of_all(RATIO.side(kohonen), Comparison(limits["worse"]).verdict(least))
     estimates = {
         "grid / after Kohonen's rule": kohonen,
         "grid / least of k-means": least,

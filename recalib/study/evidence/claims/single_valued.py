@@ -1,0 +1,37 @@
+"""Section 3: what the controller between learner and joints spares."""
+
+from recalib.study.evidence.claims.claim import Claim, Finding, Limit
+from recalib.study.evidence.verdicts import Verdict
+
+
+def measure(evidence, limits):
+    table = evidence.table("mapping/solutions.parquet")
+    commands = table["commands"]
+    single = (commands == limits["commands"]).all()
+    note = (
+        f"{len(table)} poses, each reached by {table['joint_solutions'].mean():.1f} joint solutions"
+        f" on average and by {table['joint_solutions'].max()} at most."
+    )
+    return Finding(
+        verdict=Verdict.SUPPORTED if single else Verdict.CONTRADICTED,
+        numbers={"most commands": float(commands.max()), "fewest commands": float(commands.min())},
+        note=note,
+    )
+
+
+CLAIM = Claim(
+    id="single-valued",
+    section="3",
+    quotation="avoids the problem of the original application of having a multivalued inverse"
+    " function, because the controller always chooses the same joint angles for a fixed command",
+    statement="Many joint angles reach a pose, but only one command does.",
+    short="at most {number} command for a pose",
+    limits={"commands": Limit(1.0)},
+    criterion="Of all joint angles found with which the damaged arm reaches a pose, the controller"
+    " chooses exactly {commands:g} solution for the command that asks for it, at every pose of"
+    " every scenario.",
+    reason="A learner needs an inverse with one value. The joint angles of the damaged arm are"
+    " found by Newton's method from 50 random starts for each pose.",
+    needs="mapping/solutions.parquet",
+    measure=measure,
+)

@@ -1,0 +1,75 @@
+"""How many joint angles reach a pose, and how many commands lead there (section 3)?"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.damaged.damage import DamagedArm
+from recalib.nominal.chain import TOLERANCE
+from recalib.nominal.controller import Controller
+from recalib.numerics.randomness import generator
+from recalib.study.scenarios.plants import Resolved
+
+STARTS = 50  # of Newton's method for each pose, anywhere in joint space
+SAME = 1e-6  # rad: joint angles that differ by less are the same
+
+
+def joint_solutions(
+    arm: DamagedArm, pose: np.ndarray, starts: np.ndarray, within: tuple[np.ndarray, np.ndarray]
+) -> np.ndarray:
+    """All joint angles (n, joint) [rad] found for a pose (4, 4) [m] from starts (start, joint).
+
+    They are what the encoders show. Full turns do not count.
+
+    Args:
+        within: lower and upper limits of the joints, each (joint,).
+    """
+    angles, residuals = arm.chain.solve(np.tile(pose, (len(starts), 1, 1)), starts)
+    shown = angles[residuals <= TOLERANCE] - arm.offsets
+    shown = shown[np.all((shown >= within[0]) & (shown <= within[1]), axis=1)]
+    different: list[np.ndarray] = []
+    for one in shown:
+        if not any(are_same(one, other) for other in different):
+            different.append(one)
+    return np.array(different).reshape(-1, starts.shape[1])
+
+
+def are_same(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Whether joint angles (..., joint) [rad] are the same but for full turns."""
+    return np.abs(np.sin((one - other) / 2)).max(axis=-1) <= SAME / 2
+
+
+def solutions(
+    controller: Controller, arm: DamagedArm, desired: np.ndarray, random: np.random.Generator
+) -> pd.DataFrame:
+    """For each of the desired poses (n, 6) how many joint angles reach it, and how many commands.
+
+    A command reaches it if the controller answers with such joint angles. The damaged arm must not
+    be redundant, nor have deflections.
+    """
+    robot = controller.robot
+    workspace, rows = robot.workspace, []
+    poses = workspace.to_poses(desired)
+    for pose, own in zip(poses, controller.solve(poses).angles, strict=True):
+        anywhere = random.uniform(-np.pi, np.pi, (STARTS, len(own)))
+        starts = np.vstack([own, anywhere]) + arm.offsets
+        angles = joint_solutions(arm, pose, starts, (robot.lower, robot.upper))
+        commands = workspace.to_coordinates(robot.arm.forward(angles))
+        answers = controller.targets(commands[None])
+        reach = answers.executed[0] & are_same(answers.angles[0], angles)
+        rows.append({"joint_solutions": len(angles), "commands": int(reach.sum())})
+    return pd.DataFrame(rows)
+
+
+def in_scenarios(scenarios: Sequence[Path], poses: int, seed: int) -> pd.DataFrame:
+    """The same at so many random poses of each scenario, from their files as resolved."""
+    tables = []
+    for scenario in map(Resolved.read, scenarios):
+        controller = scenario.controller()
+        random = generator(seed, "study", "solutions")
+        desired = controller.robot.workspace.sample(random, poses)
+        table = solutions(controller, scenario.arm(controller.robot), desired, random)
+        tables.append(table.assign(scenario=scenario.scenario))
+    return pd.concat(tables)
