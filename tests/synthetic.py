@@ -129,8 +129,11 @@ class Synthetic:
             REFERENCE: self.reference,
             EFFORTS: self.efforts,
         }
-        for name in ("coupling", "propagation", "quantisation", "visits", "replay"):
-            self._tables[f"mapping/{name}.parquet"] = getattr(self, name)
+        for make in (
+            *(self.coupling, self.nearness, self.propagation, self.quantisation),
+            *(self.solutions, self.visits, self.widths, self.replay),
+        ):
+            self._tables[f"mapping/{make.__name__}.parquet"] = make
         for scenario, learner in self.trainings.runs:
             path = f"runs/{scenario}/{learner}.parquet"
             self._tables[path] = partial(self.history, learner, scenario)
@@ -285,6 +288,24 @@ class Synthetic:
         return pd.DataFrame(
             {name: level * rng.uniform(0.5, 1.5, len(names)) for name, level in columns.items()}
         ).assign(scenario=names)
+
+    def nearness(self, larger: float = 2.0, nearer: float = 1.5) -> pd.DataFrame:
+        """`larger`: what a larger box does to the coupling; `nearer`: what half of its poses do."""
+        table = pd.DataFrame(product((1, 2), range(10), range(8)), columns=["size", "draw", "pose"])
+        table["condition"] = 5.0 + table.pop("pose")
+        near = (table["size"] == 2) & (table["condition"] > 8.5)
+        level = 0.05 * (1 + 0.01 * table["draw"])
+        table["orientation"] = level * np.where(table["size"] == 2, larger / nearer, 1)
+        table["orientation"] *= np.where(near, nearer, 1)
+        return table.assign(position=0.01)
+
+    def solutions(self) -> pd.DataFrame:
+        return pd.DataFrame({"scenario": "links", "joint_solutions": [7, 8, 8], "commands": 1})
+
+    def widths(self, wide: int = 5, narrow: int = 300) -> pd.DataFrame:
+        cases = product({"wide": wide, "narrow": narrow}.items(), range(10))
+        rows = [(width, 0.8, seed, its + seed % 2) for (width, its), seed in cases]
+        return pd.DataFrame(rows, columns=["width", "rate", "seed", "iterations"])
 
     def propagation(self, ratio: float = 0.1) -> pd.DataFrame:
         cases = product(("theta", "jacobian"), ("intact", "damaged"), (0.1, 1.0, 10.0), range(3))

@@ -10,8 +10,8 @@ from recalib.numerics.randomness import generator
 from recalib.study.mapping.coupling import coupling
 from recalib.study.scenarios.plants import Resolved
 
-# Of the workspace, along each axis of positions. In a box twice as long a UR10 reaches 96 % of the
-# poses, the nearest of which to a singularity have eight times the condition number.
+# Of the workspace, along each axis of positions. In a box twice as long a UR10 reaches most poses,
+# some of them ten times as near to a singularity, by their condition numbers.
 SIZES = 1, 2
 DRAWS = 10
 

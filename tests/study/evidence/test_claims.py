@@ -66,7 +66,8 @@ def test_without_the_campaign_the_reference_study_decides_what_can_vary(few, tmp
     without = {claim["id"]: claim for claim in Synthetic(tmp_path, few).judge()}
     assert {name for name, its in without.items() if its["verdict"] != "supported"} == UNDECIDED
     fixed = {"grid", "theta-reason", "jacobian-reason", "expected-learning", "rigid"}
-    fixed |= {"initial-error", "controller-kept"}
+    fixed |= {"initial-error", "controller-kept", "single-valued", "coarse-widths"}
+    fixed |= {"weak-coupling-reason"}
     for name in IDS:
         measured, unmeasured = judged[name]["universes"], without[name]["universes"]
         expected = ("cannot vary",) * 2 if name in fixed else ("measured", "not measured")
@@ -216,9 +217,22 @@ def test_contradicting_measurements_change_the_verdict(few, tmp_path):
         ("jacobian-reason", "propagation", balls(1.0)),
         ("expected-learning", "visits", synthetic.visits().assign(ratio=1.2, error=0.1)),
         ("controller-kept", "replay", synthetic.replay().assign(difference=1e-9)),
+        ("single-valued", "solutions", synthetic.solutions().assign(commands=[1, 2, 1])),
+        ("single-valued", "solutions", synthetic.solutions().assign(commands=[1, 0, 1])),
+        ("coarse-widths", "widths", synthetic.widths(narrow=45)),
+        ("coarse-widths", "widths", synthetic.widths(wide=21)),
+        ("weak-coupling-reason", "nearness", synthetic.nearness(larger=0.8)),
+        ("weak-coupling-reason", "nearness", synthetic.nearness(nearer=0.8)),
     ):
         synthetic.write(f"mapping/{name}.parquet", table)
         assert synthetic.verdict(claim) == "contradicted", claim
+
+
+@pytest.mark.parametrize("parts", [{"larger": 1.05}, {"nearer": 1.05}])
+def test_what_changes_the_coupling_by_less_than_ten_percent_is_no_cause(few, tmp_path, parts):
+    synthetic = Synthetic(tmp_path, few)
+    synthetic.write("mapping/nearness.parquet", synthetic.nearness(**parts))
+    assert synthetic.verdict("weak-coupling-reason") == "no effect"
 
 
 def test_a_condition_that_is_met_nowhere_decides_nothing(few, tmp_path):

@@ -12,7 +12,15 @@ from recalib.damaged.disturbances import Noise
 from recalib.loop.training import History
 from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.shipped import DESIGN, SEARCHED
-from recalib.study.experiments import benchmark, campaign, ensemble, real_arm, replay, trials
+from recalib.study.experiments import (
+    benchmark,
+    campaign,
+    constant_widths,
+    ensemble,
+    real_arm,
+    replay,
+    trials,
+)
 from recalib.study.experiments import poses as its
 from recalib.study.experiments.poses import ResultPoses, SearchPoses, Stream, train_for_results
 from recalib.study.experiments.trials import Search, search_for
@@ -199,6 +207,9 @@ def jobs_of(study, rules, folder) -> Iterator[tuple[list[str], partial]]:
         files = "", "", sample(name)
         yield ["twin"], job(real_arm.learn_on_twin, "real_twin", *files, learner=name)
     yield ["replay"], job(replay.replay, "study_replay", resolved(own), sample("improved"))
+    searched = [f"search 1 for {name} widths on {own}" for name in constant_widths.WIDTHS]
+    its = job(constant_widths.constant_widths, "study_widths", resolved(own))
+    yield ["constant widths", *searched], its
 
 
 @pytest.mark.usefixtures("drawn", "without_data")
@@ -219,7 +230,7 @@ def test_every_kind_of_job_draws_by_the_seed_that_it_is_told_from_its_own_stream
             job()
             met = {root[:2] for root in roots} | {of_robots}
             assert met == {*((77, zlib.crc32(its.encode())) for its in streams), of_robots}, streams
-    assert len(tried) == 7
+    assert len(tried) == 8
 
 
 def run_universes(study, monkeypatch):

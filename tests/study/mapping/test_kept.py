@@ -2,14 +2,16 @@
 
 from functools import partial
 
-from recalib.study.mapping import measured, quantisation, visits
+from recalib.study.mapping import measured, nearness, quantisation, solutions, visits
 from tests.kept import plain
 
 
-def test_coupling_propagation_and_quantisation(uneven_scenario, monkeypatch, data_regression):
+def test_what_one_job_measures_of_the_mapping(uneven_scenario, monkeypatch, data_regression):
     monkeypatch.setattr(quantisation, "PLACING", 200)
     few = partial(quantisation.quantisation, shape=(2, 3, 2), iterations=(30, 80), seeds=3)
     monkeypatch.setattr(measured, "quantisation", few)
+    monkeypatch.setattr(nearness, "DRAWS", 2)
+    monkeypatch.setattr(solutions, "STARTS", 20)
     tables = measured.measure(
         [uneven_scenario],
         uneven_scenario,
@@ -20,7 +22,7 @@ def test_coupling_propagation_and_quantisation(uneven_scenario, monkeypatch, dat
         scales=(0.5, 2.0),
         seed=3,
     )
-    names = "coupling", "propagation", "quantisation"
+    names = "coupling", "nearness", "propagation", "quantisation", "solutions"
     data_regression.check(plain(dict(zip(names, tables, strict=True))))
 
 

@@ -11,6 +11,7 @@ from recalib.study.mapping.propagation import (
     grown,
     propagation_errors,
 )
+from recalib.study.mapping.solutions import are_same, joint_solutions, solutions
 from recalib.study.mapping.true_mapping import mapping_jacobians, true_commands
 from recalib.study.mapping.visits import visits
 
@@ -51,6 +52,27 @@ def test_a_rigid_shift_does_not_couple_and_a_link_does(controller, robot, damage
     moved = coupling(controller, apply(robot, [BaseShift((0.05, 0, 0), (0, 0, 0.05))]), desired)
     assert moved.to_numpy().max() < 1e-6
     assert coupling(controller, damaged, desired).to_numpy().max() > 0.005
+
+
+def test_a_pose_has_many_joint_solutions_and_one_command(controller, robot, damaged, desired):
+    table = solutions(controller, damaged, desired[:5], np.random.default_rng(0))
+    assert (table["commands"] == 1).all()
+    assert table["joint_solutions"].max() == 8, "as a wrist, an elbow and a shoulder give"
+
+
+def test_joint_solutions_are_counted_once_and_all_reach_the_pose(controller, robot, damaged):
+    pose = robot.workspace.to_poses(np.zeros((1, 6)))
+    own = controller.solve(pose).angles
+    starts = np.vstack(
+        [own, own + 2 * np.pi, own, np.random.default_rng(1).uniform(-3, 3, (60, 6))]
+    )
+    limits = np.full(6, -9.0), np.full(6, 9.0)
+    found = joint_solutions(damaged, pose[0], starts + damaged.offsets, limits)
+    assert np.allclose(damaged.forward(found), pose, atol=1e-9)
+    apart = are_same(found[:, None], found[None])
+    assert (apart == np.eye(len(found), dtype=bool)).all() and len(found) > 1
+    narrow = found[0] - 1e-3, found[0] + 1e-3
+    assert len(joint_solutions(damaged, pose[0], starts + damaged.offsets, narrow)) == 1
 
 
 def test_the_ball_is_uniform():
