@@ -2,8 +2,8 @@
 
 from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import LearnerSettings, Study
-from recalib.study.plan.trainings import Measuring, measuring, rules, scenario_of, training
+from recalib.study.configuration.study import LearnerSettings, Measuring, Study
+from recalib.study.plan.trainings import measuring, rules, scenario_of, training
 from recalib.study.scenarios.nominal import digest_of
 
 TODAYS, FEW = "geometric", 5  # the learner that is recorded beside the paper's, and its moves

@@ -15,7 +15,6 @@ from recalib.errors import RecalibError
 from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
 from recalib.study.configuration.damages import damages_among, disturbances_among
-from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import ResultPoses, Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
@@ -99,7 +98,7 @@ def write_recording(
     for name, learner in learners.items():
         measure_at = list(range(job.moves + 1))  # of today's: after each move
         if rules := job.learners[name]:
-            measure_at = campaign.measured_at(job.measuring, rules.iterations)
+            measure_at = job.measuring.during(rules.iterations)
         poses = Stream.SCENARIO.draw(
             job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
         )

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from recalib.study.configuration.shipped import SEARCHED
+from recalib.study.configuration.study import Measuring
 from recalib.study.experiments import speed
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.campaign import train_seeds
@@ -12,7 +13,7 @@ from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.replay import replay
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of, search_for
-from recalib.study.plan.trainings import Measuring, budget
+from recalib.study.plan.trainings import budget
 from recalib.study.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.kept import plain
@@ -66,7 +67,7 @@ def test_a_training(name, throughout, study, uneven_scenario, tmp_path, data_reg
         seeds=3,
         first=1,
         last=5,
-        measuring=Measuring(tests=7, every=2, evenly=10, measurements=4),
+        measuring=Measuring(tests=7, measure_every=2, measure_evenly=10, measurements=4),
         throughout=throughout,
         seed=11,
     )

@@ -14,8 +14,8 @@ from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.learners.polynomial import PolynomialLearner
+from recalib.study.configuration.study import Measuring
 from recalib.study.inference.measured import ERRORS
-from recalib.study.plan.trainings import Measuring
 from recalib.study.recording import captions, naming, pictures
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.measurements import enlarged
@@ -46,7 +46,7 @@ LEAST = EVERY[1:2]
 def small(job, study):
     """A recording of few iterations of one of the paper's learners and one of today's."""
     few = study.learners["improved"].model_copy(update={"iterations": 7})
-    measuring = Measuring(tests=5, every=3, evenly=10, measurements=2)
+    measuring = Measuring(tests=5, measure_every=3, measure_evenly=10, measurements=2)
     return job.model_copy(
         update={"learners": {"improved": few, "affine": None}, "measuring": measuring}
     )
