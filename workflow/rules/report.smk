@@ -1,6 +1,5 @@
 """The report: pages of figures and tables. `make report` puts them into one file."""
 
-import hashlib
 import re
 
 from recalib.study.evidence.pages import report as report_
@@ -22,16 +21,10 @@ def read_in(root):
 
 
 def kept_in(root):
-    """Those that are committed, with a digest: not asked for, since other targets write them."""
+    """Those that are committed, and their figures: no inputs, since other targets write them."""
     names = report_.KEPT if root == RESULTS else {}
     both = ((f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in names.items())
-    paths = [path for pair in both for path in pair]
-    there = (ROOT / path for path in paths)
-    return {
-        path: hashlib.sha256(full.read_bytes()).hexdigest()
-        for path, full in zip(paths, there, strict=True)
-        if full.exists()
-    }
+    return [path for pair in both for path in pair if (ROOT / path).exists()]
 
 
 def other_pages_of(root):
@@ -74,7 +67,7 @@ def pictures_of(root):
 def read_by_report(root):
     """Texts, pages and evidence."""
     texts = [*sorted(TEXTS.iterdir()), *pictures_of(root), *read_in(root).values()]
-    return [*texts, *asked(root, report_.NEEDS).inputs]
+    return [*texts, *asked(root, report_.NEEDS).inputs, *kept_in(root)]
 
 
 # How many pages there are is known of each study by itself, hence a rule for each.
@@ -113,7 +106,6 @@ for root_ in STUDIES:
                 "recalib.study.evidence.pages.report.write",
                 reads=lambda w, root=root_: read_by_report(root),
             ),
-            kept=kept_in(root_),
             arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.NEEDS)),
         message:
             "Write the pages of the report"
