@@ -14,7 +14,6 @@ class Recording(Frozen):
 
     scenario: str
     learners: dict[str, LearnerSettings | None]
-    moves: int
     measuring: Measuring
     seed: int
     published: dict[str, float]
@@ -54,7 +53,6 @@ def recording(study: Study, scenario: str) -> Recording:
     return Recording(
         scenario=scenario,
         learners=papers | ({TODAYS: None} if is_own else {}),
-        moves=FEW,
         measuring=measuring(study),
         seed=study.seed,
         published=published if assigned and is_own else {},

@@ -20,7 +20,7 @@ from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plan.competitors import make_peer
-from recalib.study.plan.recordings import Recording
+from recalib.study.plan.recordings import FEW, Recording
 from recalib.study.recording import captions, colours
 from recalib.study.recording.arms import send_arms
 from recalib.study.recording.blueprint import arrange
@@ -96,7 +96,7 @@ def write_recording(
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
-        measure_at = list(range(job.moves + 1))  # of today's: after each move
+        measure_at = list(range(FEW + 1))  # of today's: after each move
         if rules := job.learners[name]:
             measure_at = job.measuring.during(rules.iterations)
         poses = Stream.SCENARIO.draw(

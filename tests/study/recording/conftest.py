@@ -51,7 +51,6 @@ def job(study):
             name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
             for name in ("improved", "ritter")
         },
-        moves=5,
         measuring=Measuring(
             tests=TESTS, measure_every=4, measure_evenly=ITERATIONS, measurements=2
         ),
