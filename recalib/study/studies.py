@@ -3,7 +3,6 @@
 `python -m recalib.study.studies` makes config.yaml, as it now is, the shipped one: `make ship`.
 """
 
-import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from recalib.errors import RecalibError
+from recalib.files.storage import digest
 from recalib.spelling import listed
 from recalib.study.checks.consistency import check
 from recalib.study.configuration.messages import InvalidConfiguration, Mistake, unknown, unlike
@@ -50,10 +50,7 @@ class NameTaken(RecalibError):
 def digests(study: Study) -> dict[str, str]:
     """A digest of each part of a study, without where copies of data lie."""
     parts = json.loads(study.model_dump_json(exclude=PLACES))
-    return {
-        key: hashlib.sha256(json.dumps(part, sort_keys=True).encode()).hexdigest()[:16]
-        for key, part in parts.items()
-    }
+    return {key: digest(json.dumps(part, sort_keys=True).encode()) for key, part in parts.items()}
 
 
 def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
