@@ -10,7 +10,7 @@ import pytest
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.errors import InvalidFile, RecalibError, UnknownName
+from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
@@ -182,11 +182,6 @@ def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, mo
     assert searched == [(tmp_path / "improved.csv", [1, 2, 3])]
     assert found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
     assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
-
-
-def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
-    with pytest.raises(UnknownName, match="hybrid"):
-        remaining_errors("oracle", ur5, recording, recording)
 
 
 def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
