@@ -30,7 +30,6 @@ class Facts(TypedDict, total=False):
     robot: str
     scenario: str
     scenarios: list[str]
-    recordings: list[str]
     elsewhere: dict[str, str]
     published: dict[str, float]
     published_mm: dict[str, float]

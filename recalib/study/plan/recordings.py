@@ -1,4 +1,4 @@
-"""Which recordings a study has, and what is recorded."""
+"""What is recorded of a scenario: each of a study has a recording."""
 
 from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
@@ -30,11 +30,6 @@ def recorded(study: Study) -> list[str]:
     named = study.experiments.learners
     iterations = {name: training(study, name).iterations for name in named}
     return [name for name in named if iterations[name] == min(iterations.values())]
-
-
-def recordings(study: Study) -> list[str]:
-    """The scenarios that are recorded; none of a study without a learner that is recorded."""
-    return list(study.experiments.scenarios if recorded(study) else ())
 
 
 def recording(study: Study, scenario: str) -> Recording:

@@ -65,7 +65,6 @@ def test_trainings_go_by_their_role_in_the_paper(study):
     """Others are keys of the configuration; kept pages have them."""
     own = {name: learner.iterations for name, learner in study.learners.items()}
     roles = {
-        "recordings": [*study.experiments.scenarios],
         "elsewhere": {
             "ur10": "links_encoders",
             "ur5": "links_encoders-ur5",
