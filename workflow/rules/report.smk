@@ -21,15 +21,13 @@ def read_in(root):
 
 
 def kept_in(root):
-    """Those that are committed, and their figures: no inputs, since other targets write them."""
-    names = report_.KEPT if root == RESULTS else {}
-    both = ((f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in names.items())
-    return [path for pair in both for path in pair if (ROOT / path).exists()]
+    """Those that are committed, with their figures: no inputs, since other targets write them."""
+    return report_.KEPT if root == RESULTS else {}
 
 
 def other_pages_of(root):
     """All of them by name."""
-    return [*read_in(root), *(Path(path).stem for path in kept_in(root) if path.endswith(".md"))]
+    return [*read_in(root), *kept_in(root)]
 
 
 def pages_of(root):
@@ -67,7 +65,8 @@ def pictures_of(root):
 def read_by_report(root):
     """Texts, pages and evidence."""
     texts = [*sorted(TEXTS.iterdir()), *pictures_of(root), *read_in(root).values()]
-    return [*texts, *asked(root, report_.NEEDS).inputs, *kept_in(root)]
+    both = [(f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in kept_in(root).items()]
+    return [*texts, *asked(root, report_.NEEDS).inputs, *sum(both, ())]
 
 
 # How many pages there are is known of each study by itself, hence a rule for each.
