@@ -4,7 +4,7 @@ import pytest
 
 from recalib.damaged.plant import Plant
 from recalib.loop.interfaces import Outcome
-from recalib.loop.training import SUMMARIES, corrected, measuring_grid, train
+from recalib.loop.training import SUMMARIES, corrected, train
 from recalib.nominal.poses import position_error
 from tests.learners.test_hierarchical import improved
 
@@ -17,7 +17,7 @@ def poses():
 
 @pytest.fixture(scope="module")
 def history(controller, damaged, poses):
-    return train(Plant(controller, damaged), improved(3), *poses, measuring_grid(60, 4, 200, 50))
+    return train(Plant(controller, damaged), improved(3), *poses, range(0, 61, 4))
 
 
 def test_learning_reduces_both_errors_of_every_run(history):
@@ -107,17 +107,6 @@ def test_the_table_has_a_row_for_each_run_and_measurement(history):
     last = frame[(frame["run"] == 2) & (frame["iteration"] == 60)].iloc[0]
     assert last["position_error_cm"] == 100 * history.position[2, -1, 0]
     assert last["orientation_error_max_deg"] == np.degrees(history.orientation[2, -1, 2])
-
-
-@pytest.mark.parametrize(("iterations", "every"), [(200, 4), (10, 4), (3, 5)])
-def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every):
-    grid = measuring_grid(iterations, every, 200, 50)
-    assert grid[0] == 0 and grid[-1] == iterations and set(np.diff(grid[:-1])) <= {every}
-
-
-def test_long_trainings_are_measured_on_a_logarithmic_grid():
-    grid = measuring_grid(10_000, 4, 200, 50)
-    assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51
 
 
 def test_progress_tells_the_means_over_all_runs(history, controller, damaged, poses):

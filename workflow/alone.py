@@ -18,14 +18,6 @@ NOTES = ".snakemake/identity"  # deleted with all else that Snakemake has noted
 OTHERS = "studies"  # below the shipped study's folder lie those of the others
 
 
-class Busy(RecalibError):
-    """Another run works in the same folder."""
-
-
-class Unknown(RecalibError):
-    """Results whose notes are gone, so that nobody can say from what they were made."""
-
-
 def check_writable(folder: str) -> None:
     """Raise RecalibError where no file can be made; the folder itself need not be there yet."""
     made = Path(folder).absolute()
@@ -35,11 +27,11 @@ def check_writable(folder: str) -> None:
 
 
 def check_known(folders: Iterable[str]) -> None:
-    """Raise Unknown for results whose notes were deleted, or left elsewhere."""
+    """Raise RecalibError for results whose notes were deleted, or left elsewhere."""
     here = _read(NOTES)
     for folder in folders:
         if _read(f"{folder}/{MARK}") not in ("", here):
-            raise Unknown(
+            raise RecalibError(
                 f"{folder} was made by runs that .snakemake knows nothing of, so that nobody can"
                 f" say whether it is up to date; try: remove {folder}, or, if nothing was changed"
                 f" since, {folder}/{MARK}"
@@ -67,7 +59,7 @@ def hold(folders: Iterable[str]) -> None:
     """Keep other runs out of these folders until this process ends, tidy them up, and note whose
     they are.
 
-    The system lets go of them, however the process ends. Raises Busy.
+    The system lets go of them, however the process ends. Raises RecalibError: another run has one.
     """
     for folder in folders:
         Path(folder).mkdir(parents=True, exist_ok=True)
@@ -77,7 +69,7 @@ def hold(folders: Iterable[str]) -> None:
         except BlockingIOError:
             os.close(mark)
             busy = f"another run is at work in {folder}: wait until it has ended"
-            raise Busy(busy) from None
+            raise RecalibError(busy) from None
         os.truncate(mark, 0)
         os.write(mark, _identity().encode("ascii"))
         sweep(folder)

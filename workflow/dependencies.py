@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from recalib.files.storage import digest
 from recalib.study.configuration.shipped import RESULTS
 
 ROOT = Path(__file__).parents[1]
@@ -36,28 +37,28 @@ def calls(
         reads: gives the paths of files; results do not count among them.
     """
 
-    def digest(wildcards: object) -> str:
+    def made_from(wildcards: object) -> str:
         home = function.rpartition(".")[0]
         given = [path for path in map(str, reads(wildcards)) if not path.startswith(f"{RESULTS}/")]
         return "".join([code(home, *also(wildcards)), *map(_digest, given)])
 
-    return {"function": function, "code": digest}
+    return {"function": function, "code": made_from}
 
 
 @cache
 def _digest(path: str) -> str:
     """Of a file; Snakemake says it where there is none."""
     there = Path(path)
-    return hashlib.sha256(there.read_bytes()).hexdigest()[:16] if there.is_file() else ""
+    return digest(there.read_bytes()) if there.is_file() else ""
 
 
 @cache
 def code(*named: str) -> str:
     """A digest of the script, of modules by their dotted names, and of all that they import."""
-    digest = hashlib.sha256()
+    parts = hashlib.sha256()
     for module in modules(*named):
-        digest.update(module.encode() + b"\0" + content(module))
-    return digest.hexdigest()
+        parts.update(module.encode() + b"\0" + content(module))
+    return parts.hexdigest()
 
 
 @cache

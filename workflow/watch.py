@@ -5,7 +5,6 @@ All of it stays on this machine: the browser itself is told to ask for nothing e
 
 import argparse
 import getpass
-import json
 import socket
 import sys
 from collections.abc import Iterator
@@ -16,13 +15,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from rerun.chunk import RrdReader
-
 from recalib.errors import RecalibError
 from recalib.laboratory.viewer.program import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.evidence.pages.report import layout
-from recalib.study.plan.recordings import TODAYS
 from recalib.study.recording.naming import in_words
 from recalib.study.recording.web_viewer import copy_viewer
 from recalib.study.scenarios.plants import Resolved
@@ -48,10 +44,12 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
         (root / "figures").symlink_to(FIGURES)
         copy_viewer(root / "viewer")
         shipped = folder.name == RESULTS
-        shown = [_shown(path, root, shipped) for path in recordings]
+        shown = [_shown(path, root) for path in recordings]
+        arms = ["results/figures/arm_before.png", *["figures/arm_before.png"] * shipped]
         known = {
             "study": SHIPPED if shipped else folder.name,
-            "recordings": sorted(shown, key=lambda its: its["picture"] is None),
+            "arm": next((arm for arm in arms if (root / arm).exists()), ""),
+            "recordings": sorted(shown, key=lambda its: not its["picture"]),
             "report": (folder / "report.html").exists(),
         }
         template = layout().from_string(TEMPLATE.read_text(encoding="utf-8"))
@@ -65,33 +63,16 @@ def site(folder: Path, port: int = 0) -> Iterator[ThreadingHTTPServer]:
             yield server
 
 
-def _shown(recording: Path, root: Path, shipped: bool) -> dict[str, Any]:
-    """What the page shows of a recording: its name, its damages in words, a picture if any.
-
-    Args:
-        shipped: whether the pictures that are committed are of its study.
-    """
-    name, folder = recording.stem, recording.parents[1]
-    scenario = folder / "scenarios" / f"{name}.json"
+def _shown(recording: Path, root: Path) -> dict[str, Any]:
+    """What the page shows of a recording: its name, its damages in words, a picture if any."""
+    name = recording.stem
+    scenario = recording.parents[1] / "scenarios" / f"{name}.json"
     words = ""
     if scenario.exists():
         damages = Resolved.read(scenario).damages
         words = "; ".join(map(in_words, damages)) or "nothing is wrong with this arm"
-    places = [f"results/figures/{name}_before.png"]
-    arms = ["results/figures/arm_before.png", *["figures/arm_before.png"] * shipped]
-    if any((root / arm).exists() for arm in arms) and _is_own(recording):
-        places += arms
-    picture = next((place for place in places if (root / place).exists()), None)
-    return {"name": name, "damages": words, "picture": picture}
-
-
-def _is_own(recording: Path) -> bool:
-    """Whether it is that of its study's own scenario: one of today's learners is in it alone."""
-    its = RrdReader(recording).store().stream()  # of which only what is asked for is read
-    for chunk in its.filter(content="/__properties/run", components="job"):
-        ((job,),) = chunk.to_record_batch()["job"].to_pylist()
-        return TODAYS in json.loads(job)["learners"]
-    return False
+    picture = f"results/figures/{name}_before.png"
+    return {"name": name, "damages": words, "picture": picture if (root / picture).exists() else ""}
 
 
 class _Handler(SimpleHTTPRequestHandler):

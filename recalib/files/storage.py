@@ -1,5 +1,6 @@
 """Files that are read whole or refused, and files that appear whole or not at all."""
 
+import hashlib
 import os
 import stat
 from collections.abc import Iterator
@@ -33,6 +34,11 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
         found = f"it has {size / 1e6:.3g} MB"
         raise InvalidFile(path, f"{found}; expected: at most {most / 1e6:.3g} MB")
     return content
+
+
+def digest(content: bytes) -> str:
+    """Sixteen digits that tell what a file holds from anything else."""
+    return hashlib.sha256(content).hexdigest()[:16]
 
 
 @contextmanager

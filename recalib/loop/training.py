@@ -87,17 +87,6 @@ def measure(
     return position, orientation
 
 
-def measuring_grid(iterations: int, every: int, evenly: int, points: int) -> list[int]:
-    """After how many iterations to measure a training.
-
-    After every so many, in one of up to `evenly` iterations; about `points` times on a logarithmic
-    grid in a longer one.
-    """
-    if iterations <= evenly:
-        return sorted({*range(0, iterations, every), iterations})
-    return sorted({0, *np.geomspace(1, iterations, points).round().astype(int).tolist()})
-
-
 def train(
     plant: Commandable,
     learner: Learner,

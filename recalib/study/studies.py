@@ -3,7 +3,6 @@
 `python -m recalib.study.studies` makes config.yaml, as it now is, the shipped one: `make ship`.
 """
 
-import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from recalib.errors import RecalibError
+from recalib.files.storage import digest
 from recalib.spelling import listed
 from recalib.study.checks.consistency import check
 from recalib.study.configuration.messages import InvalidConfiguration, Mistake, unknown, unlike
@@ -31,36 +31,21 @@ BANDS = "scenario,learner,error,low,high"  # the header of a table of them
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 
-class NotShipped(RecalibError):
-    """A study under the name of the shipped one that differs from it."""
+def digests(study: Study) -> dict[str, str]:
+    """A digest of each part of a study, without where copies of data lie."""
+    parts = json.loads(study.model_dump_json(exclude=PLACES))
+    return {key: digest(json.dumps(part, sort_keys=True).encode()) for key, part in parts.items()}
 
-    def __init__(self, changed: Sequence[str]):
-        self.changed = list(changed)
-        super().__init__(
+
+def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
+    """Raise RecalibError where the study, called as the shipped one, is not the one of the lock."""
+    now = digests(study)
+    if changed := [key for key in now if now[key] != lock.get(key)]:
+        raise RecalibError(
             f"not the shipped study: it differs in {', '.join(changed)}, and the shipped one alone"
             f" may write README, docs and figures; try: `name: my_study` beside the changes, for"
             f" results in {root_of('my_study')}, or `make ship` to ship this one instead"
         )
-
-
-class NameTaken(RecalibError):
-    """Two studies of one name."""
-
-
-def digests(study: Study) -> dict[str, str]:
-    """A digest of each part of a study, without where copies of data lie."""
-    parts = json.loads(study.model_dump_json(exclude=PLACES))
-    return {
-        key: hashlib.sha256(json.dumps(part, sort_keys=True).encode()).hexdigest()[:16]
-        for key, part in parts.items()
-    }
-
-
-def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
-    """Raise NotShipped where the study is not the one of the lock."""
-    now = digests(study)
-    if changed := [key for key in now if now[key] != lock.get(key)]:
-        raise NotShipped(changed)
 
 
 def read_studies(
@@ -75,7 +60,8 @@ def read_studies(
         changes: settings of its command line, laid over them.
         asking: whether to ask the robots: they need not be asked for every job of a cluster.
 
-    Raises InvalidConfiguration, NotShipped, NameTaken.
+    Raises InvalidConfiguration; RecalibError: another study than the shipped one is called as it
+    is, or two studies alike.
     """
     known = sorted((project / OTHERS).glob("*.yaml"))
 
@@ -96,7 +82,7 @@ def read_studies(
         others.insert(0, base)
     for study in others:
         if study != studies.setdefault(root_of(study.name), study):
-            raise NameTaken(f"two studies are called {study.name!r}; try: a name of its own")
+            raise RecalibError(f"two studies are called {study.name!r}; try: a name of its own")
     if shipped := studies.get(root_of(SHIPPED)):
         check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
     return root_of(main.name), studies

@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.errors import UnknownName
+from recalib.errors import InvalidFile, UnknownName
 from recalib.learners.rules import Rules
 from recalib.study.configuration.shipped import SEARCHED
 from recalib.study.configuration.switches import SWITCHES
@@ -124,7 +124,7 @@ def test_a_sample_says_what_it_was_searched_for_and_a_broken_one_is_refused(stud
     assert samples.searched_for(path) == job
     assert samples.read_sample(path).equals(trials)
     path.write_text("round,initial_width\n1,2\n")
-    with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
+    with pytest.raises(InvalidFile, match="improved_200.csv: it holds no sample"):
         samples.read_sample(path)
 
 
@@ -159,7 +159,7 @@ def test_the_winner_of_each_search_is_its_best_trial_the_first_of_two(sample):
 def test_a_sample_without_a_winner_for_each_search_is_refused(spoil, sample):
     path, _ = sample
     path.write_text("\n".join(spoil(path.read_text().splitlines())) + "\n")
-    with pytest.raises(samples.BrokenSample, match="improved_200.csv holds no sample"):
+    with pytest.raises(InvalidFile, match="improved_200.csv: it holds no sample"):
         samples.winners(path)
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from workflow.alone import MARK, NOTES, Busy, Unknown, check_known, check_writable, hold
+from workflow.alone import MARK, NOTES, check_known, check_writable, hold
 
 
 def killed_while_writing(path):
@@ -19,7 +19,7 @@ def killed_while_writing(path):
 def held_elsewhere(folder, answers):
     try:
         answers.put(hold([folder]))
-    except Busy as error:
+    except RecalibError as error:
         answers.put(str(error))
 
 
@@ -72,11 +72,11 @@ def test_results_whose_notes_are_gone_are_refused_until_somebody_decides(tmp_pat
     hold(["results"])
     check_known(["results"])
     shutil.rmtree(notes)
-    with pytest.raises(Unknown, match="^results was .*try: remove results, or, if nothing"):
+    with pytest.raises(RecalibError, match="^results was .*try: remove results, or, if nothing"):
         check_known(["elsewhere", "results"])
     notes.mkdir()
     hold(["other"])  # notes of other runs say as little
-    with pytest.raises(Unknown):
+    with pytest.raises(RecalibError):
         check_known(["other", "results"])
     (tmp_path / "results" / MARK).unlink()
     check_known(["other", "results"])

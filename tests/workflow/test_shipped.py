@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from recalib.errors import RecalibError
 from recalib.study import studies
 from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.studies import LOCK, NameTaken, NotShipped, read_studies, ship
+from recalib.study.studies import LOCK, read_studies, ship
 
 
 @pytest.fixture
@@ -27,7 +28,7 @@ def test_the_shipped_study_is_that_of_the_lock_and_others_stand_beside_it(projec
 
 
 def test_a_changed_study_is_refused_under_the_shipped_name_and_says_what_changed(project):
-    with pytest.raises(NotShipped, match="it differs in seed, robot, and the shipped one alone"):
+    with pytest.raises(RecalibError, match="it differs in seed, robot, and the shipped one alone"):
         read_studies(project, [], {"robot": "ur3", "seed": 5})
     main, found = read_studies(project, [], {"robot": "ur3", "name": "mine"})
     assert main == "results/studies/mine" and found[main].robot == "ur3"
@@ -47,7 +48,7 @@ def test_another_study_can_be_shipped(project):
     config = project / "config.yaml"
     text = config.read_text(encoding="utf-8")
     config.write_text(text.replace("\nseed: 1996", "\nseed: 5"), encoding="utf-8")
-    with pytest.raises(NotShipped):
+    with pytest.raises(RecalibError, match="not the shipped study"):
         read_studies(project, [], {})
     before = json.loads((project / LOCK).read_text(encoding="utf-8"))
     ship(project)
@@ -57,7 +58,7 @@ def test_another_study_can_be_shipped(project):
 
 
 def test_two_studies_of_one_name_are_refused(project):
-    with pytest.raises(NameTaken, match="two studies are called 'ur3'"):
+    with pytest.raises(RecalibError, match="two studies are called 'ur3'"):
         read_studies(project, [], {"name": "ur3", "seed": 5})
 
 

@@ -2,7 +2,7 @@
 
 from recalib.study.configuration.switches import IMPROVED
 from recalib.study.plan.competitors import homes_of
-from recalib.study.plan.recordings import recording as what_is_recorded, recordings
+from recalib.study.plan.recordings import recording as what_is_recorded
 
 
 @cache
@@ -51,8 +51,8 @@ rule recording:
 
 
 def recordings_of(root):
-    """The recordings of a study, if it has learners that are recorded."""
-    return [f"{root}/recordings/{name}.rrd" for name in recordings(STUDIES[root])]
+    """The recordings of a study."""
+    return [f"{root}/recordings/{name}.rrd" for name in STUDIES[root].experiments.scenarios]
 
 
 rule in_browser:

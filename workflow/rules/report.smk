@@ -1,6 +1,5 @@
 """The report: pages of figures and tables. `make report` puts them into one file."""
 
-import hashlib
 import re
 
 from recalib.study.evidence.pages import report as report_
@@ -22,21 +21,13 @@ def read_in(root):
 
 
 def kept_in(root):
-    """Those that are committed, with a digest: not asked for, since other targets write them."""
-    names = report_.KEPT if root == RESULTS else {}
-    both = ((f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in names.items())
-    paths = [path for pair in both for path in pair]
-    there = (ROOT / path for path in paths)
-    return {
-        path: hashlib.sha256(full.read_bytes()).hexdigest()
-        for path, full in zip(paths, there, strict=True)
-        if full.exists()
-    }
+    """Those that are committed, with their figures: no inputs, since other targets write them."""
+    return report_.KEPT if root == RESULTS else {}
 
 
 def other_pages_of(root):
     """All of them by name."""
-    return [*read_in(root), *(Path(path).stem for path in kept_in(root) if path.endswith(".md"))]
+    return [*read_in(root), *kept_in(root)]
 
 
 def pages_of(root):
@@ -74,7 +65,8 @@ def pictures_of(root):
 def read_by_report(root):
     """Texts, pages and evidence."""
     texts = [*sorted(TEXTS.iterdir()), *pictures_of(root), *read_in(root).values()]
-    return [*texts, *asked(root, report_.NEEDS).inputs]
+    both = [(f"docs/{page}.md", f"figures/{figure}.svg") for page, figure in kept_in(root).items()]
+    return [*texts, *asked(root, report_.NEEDS).inputs, *sum(both, ())]
 
 
 # How many pages there are is known of each study by itself, hence a rule for each.
@@ -113,7 +105,6 @@ for root_ in STUDIES:
                 "recalib.study.evidence.pages.report.write",
                 reads=lambda w, root=root_: read_by_report(root),
             ),
-            kept=kept_in(root_),
             arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.NEEDS)),
         message:
             "Write the pages of the report"

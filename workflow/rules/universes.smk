@@ -2,8 +2,9 @@
 
 from functools import cache
 
+from recalib.files.storage import digest
 from recalib.study.configuration import shipped
-from recalib.study.multiverse.design import digest, read_design
+from recalib.study.multiverse.design import read_design
 from recalib.study.multiverse.universe import universe
 
 REPLICATES = 8  # of the reference study
@@ -154,7 +155,7 @@ rule piece:
     localrule: True
     params:
         **calls("recalib.study.multiverse.design.put_together"),
-        arguments=lambda w: as_text(design=digest(ROOT / shipped.DESIGN)),
+        arguments=lambda w: as_text(design=digest((ROOT / shipped.DESIGN).read_bytes())),
         digits=6,
     message:
         "Put piece {wildcards.piece} of the {wildcards.table} together"

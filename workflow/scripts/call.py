@@ -9,7 +9,6 @@ for. What it returns is written into the others, by their suffix.
 import inspect
 import json
 import os
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -101,20 +100,15 @@ def logged(path: Path) -> Iterator[None]:
 def job(snakemake) -> Iterator[None]:
     """Check what is read, note what was written, and say how long it took.
 
-    An error of recalib or of the system, or an interrupt, is shown as a line.
+    An error of recalib or of the system is shown as a line.
     """
     start = time.perf_counter()
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         check(snakemake.input)
         yield
         keep(snakemake.output)
     except (RecalibError, OSError) as error:
         sys.exit(f"{snakemake.rule}: {error}")
-    except KeyboardInterrupt:
-        sys.exit(f"{snakemake.rule}: interrupted")
-    finally:
-        signal.signal(signal.SIGINT, before)
     made = snakemake.output[0] if len(snakemake.output) else snakemake.rule
     print(f"{snakemake.rule}: made {made} in {time.perf_counter() - start:.1f} s", file=sys.stderr)
 

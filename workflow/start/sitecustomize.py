@@ -1,7 +1,7 @@
 """What every job's Python does first: an interrupt ends it at once, as it ends any other program.
 
-Most of a job's start is imports, and Python would answer Ctrl-C there with their traceback.
-`workflow/scripts/call.py` catches an interrupt as soon as there is something to end in order.
+Python would answer Ctrl-C with a traceback. What a job leaves in the making goes when the next run
+begins, as after any other end.
 """
 
 import signal

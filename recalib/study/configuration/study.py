@@ -9,6 +9,7 @@ from collections.abc import Mapping as AnyMapping
 from functools import cached_property
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field
 
 from recalib.study.configuration.damages import Entry
@@ -245,13 +246,9 @@ class Mapping(Part):
     """Factors of the damage."""
 
 
-class TrainingSettings(Part):
-    """How trainings are run and measured."""
+class Measuring(Part):
+    """On how many poses trainings are measured, and when."""
 
-    seeds: Several
-    """Seeds for the winner of each search: two at least, or there is no interval."""
-    seeds_per_job: Times
-    """Seeds that one job trains."""
     tests: Times
     """Random poses for a measurement."""
     measure_every: Count
@@ -260,6 +257,22 @@ class TrainingSettings(Part):
     """Longer trainings are measured on a logarithmic grid."""
     measurements: Several
     """Points of that grid."""
+
+    def during(self, iterations: int) -> list[int]:
+        """After how many iterations to measure a training of so many."""
+        if iterations <= self.measure_evenly:
+            return sorted({*range(0, iterations, self.measure_every), iterations})
+        grid = np.geomspace(1, iterations, self.measurements).round().astype(int)
+        return sorted({0, *grid.tolist()})
+
+
+class TrainingSettings(Measuring):
+    """How trainings are run and measured."""
+
+    seeds: Several
+    """Seeds for the winner of each search: two at least, or there is no interval."""
+    seeds_per_job: Times
+    """Seeds that one job trains."""
 
 
 class Ranges(Part):

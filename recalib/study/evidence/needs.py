@@ -26,7 +26,6 @@ from recalib.study.configuration.shipped import DESIGN, PIECES, RESULTS, SHIPPED
 from recalib.study.configuration.study import Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 from recalib.study.evidence.results import Evidence
-from recalib.study.plan.recordings import recordings
 from recalib.study.plan.trainings import Trainings, elsewhere, ritter_short, training
 
 # Ritter's net with as many cells as both maps: where it is trained, it leads
@@ -43,7 +42,6 @@ FACTS: Mapping[str, Callable[[Study, Trainings], Any]] = {
     "robot": lambda study, _: study.robot,
     "scenario": lambda study, _: study.scenario,
     "scenarios": lambda study, _: list(study.experiments.scenarios),
-    "recordings": lambda study, _: recordings(study),
     "elsewhere": lambda study, _: elsewhere(study),
     "published": lambda study, _: study.paper_damage.published.model_dump(),
     "published_mm": lambda study, _: study.real.published.model_dump(),

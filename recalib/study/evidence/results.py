@@ -2,13 +2,11 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING
 
 import numpy as np
-from pydantic import AfterValidator
 from typing_extensions import TypedDict  # pydantic needs this one before Python 3.12
 
-from recalib.errors import RecalibError
 from recalib.numerics.randomness import generator
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.shipped import DESIGN, FACTORS, RESULTS, SHIPPED, pieces
@@ -25,21 +23,6 @@ if TYPE_CHECKING:
 Words = dict[str, dict[str, str]]  # by factor: what it `asks`, and by level what completes that
 
 
-class Undeclared(RecalibError):
-    """Something that was read without being declared: a change of it would go unnoticed."""
-
-    def __init__(self, what: str):
-        self.what = what
-        super().__init__(f"{what} is read, but not among the declared needs")
-
-
-class Declared(dict):
-    """What was declared, by name. Raises Undeclared for all else."""
-
-    def __missing__(self, name: str) -> NoReturn:
-        raise Undeclared(name)
-
-
 class Facts(TypedDict, total=False):
     """What may be known of a study beside its results; see `recalib.study.evidence.needs`."""
 
@@ -47,7 +30,6 @@ class Facts(TypedDict, total=False):
     robot: str
     scenario: str
     scenarios: list[str]
-    recordings: list[str]
     elsewhere: dict[str, str]
     published: dict[str, float]
     published_mm: dict[str, float]
@@ -80,6 +62,8 @@ class Facts(TypedDict, total=False):
 class Evidence(Frozen):
     """Results by name: what a claim, a figure or a page declared, and may read.
 
+    There is nothing else in it: of what is read and was not declared, a change would go unnoticed.
+
     Attributes:
         root: folder of the study's results.
         files: paths by name: below that folder, or for what is shipped in the project.
@@ -87,8 +71,8 @@ class Evidence(Frozen):
     """
 
     root: str
-    files: Annotated[dict[str, str], AfterValidator(Declared)]
-    facts: Annotated[Facts, AfterValidator(Declared)]
+    files: dict[str, str]
+    facts: Facts
 
     @property
     def inputs(self) -> list[str]:
@@ -106,7 +90,7 @@ class Evidence(Frozen):
         return self.study == SHIPPED
 
     def table(self, name: str) -> "pd.DataFrame":
-        """What a table holds. Raises Undeclared."""
+        """What a table holds."""
         import pandas as pd
 
         return (pd.read_parquet if name.endswith(".parquet") else pd.read_csv)(self.files[name])

@@ -6,17 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from recalib.learners.learned import save
-from recalib.loop.training import measuring_grid
-from recalib.study.configuration.study import LearnerSettings
+from recalib.study.configuration.study import LearnerSettings, Measuring
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.trainings import Measuring
 from recalib.study.scenarios.plants import Resolved
-
-
-def measured_at(measuring: Measuring, iterations: int) -> list[int]:
-    """The iterations after which a training is measured throughout."""
-    return measuring_grid(iterations, measuring.every, measuring.evenly, measuring.measurements)
 
 
 def train_seeds(
@@ -50,7 +43,7 @@ def train_seeds(
     plant = resolved.plant(controller, seed, runs)
     learner = build_tuned(rules, sample, searches)
     poses = Stream.SCENARIO.draw(seed, runs, iterations, measuring.tests, scenario=scope)
-    measure_at = measured_at(measuring, iterations) if throughout else [0, iterations]
+    measure_at = measuring.during(iterations) if throughout else [0, iterations]
     history = train_for_results(plant, learner, poses, measure_at)
     if refused := history.refused[:, -1].sum():
         name = f"{sample.stem} on {scope}"

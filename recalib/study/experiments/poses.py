@@ -4,7 +4,7 @@ The type of a stream of random poses says whether it belongs to a search or to r
 refuses the other. Streams get their names here alone.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, unique
 from typing import Self
@@ -97,15 +97,6 @@ class _Poses:
         if not isinstance(poses, cls):
             raise TypeError(f"{cls.__name__} expected, {type(poses).__name__} found: {poses.name}")
         return poses
-
-    @classmethod
-    def side_by_side(cls, poses: Iterable["SearchPoses | ResultPoses"]) -> Self:
-        """Those of all runs, one group of them after the other. Raises TypeError, as `only`."""
-        parts = [cls.only(part) for part in poses]
-        desired, tests = (
-            np.concatenate([getattr(part, name) for part in parts]) for name in ("desired", "tests")
-        )
-        return cls(", ".join(dict.fromkeys(part.name for part in parts)), desired, tests)
 
 
 class SearchPoses(_Poses):

@@ -22,7 +22,7 @@ from recalib.study.configuration.study import LearnerSettings
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.experiments.tracker import TrackerMeasurements, read_of, read_whole_description
-from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peer
+from recalib.study.plan.competitors import MOVES, TWIN, UNCORRECTED, Peer, peers
 from recalib.study.scenarios.nominal import Nominal
 from recalib.study.scenarios.plants import nominal_robot
 
@@ -96,10 +96,8 @@ def remaining_errors(
     Args:
         robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
         known, unknown: what it learns from, and what it is tested on.
-
-    Raises UnknownName.
     """
-    its = peer(learner)
+    its = peers()[learner]
     if learner == UNCORRECTED:
         errors = unknown.measured - unknown.nominal
     elif its.needs == KINEMATICS:
@@ -166,7 +164,7 @@ def learn_on_twin(
     Returns a row for each number of moves and subset, with the mean error in mm.
     """
     said, robot = _described(description, nominal)
-    twin = identified(peer(TWIN).kind, robot.arm, read_of(robot.arm, fit, said))
+    twin = identified(peers()[TWIN].kind, robot.arm, read_of(robot.arm, fit, said))
     iterations, runs = rules.iterations, range(subsets)
     met = {count // MOVES for count in poses if count // MOVES <= iterations}
     history = train_for_results(

@@ -8,7 +8,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from recalib.errors import RecalibError
+from recalib.errors import InvalidFile
 from recalib.study.configuration.part import Frozen
 from recalib.study.configuration.study import Budget, LearnerSettings, Study
 from recalib.study.plan.trainings import budget, rules, searches
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 COMMENT = "# "
+NO_SAMPLE = "it holds no sample of the search; try: delete it, and it is made anew"
 
 
 class Sought(Frozen):
@@ -40,14 +41,6 @@ def sought(study: Study, training: str) -> Sought:
     )
 
 
-class BrokenSample(RecalibError):
-    """A file that holds no sample of the search."""
-
-    def __init__(self, path: str | Path):
-        self.path = path
-        super().__init__(f"{path} holds no sample of the search; delete it, and it is made anew")
-
-
 def put_together(trials: list[Path], sought: Sought) -> str:
     """The sample of the searches in these files."""
     import pandas as pd
@@ -61,16 +54,16 @@ def sample_of(sought: Sought, trials: "pd.DataFrame") -> str:
 
 
 def searched_for(path: str | Path) -> Sought:
-    """What the sample in a file was searched for. Raises BrokenSample."""
+    """What the sample in a file was searched for. Raises InvalidFile."""
     try:
         with Path(path).open(encoding="utf-8") as lines:
             return Sought.model_validate_json(next(lines).removeprefix(COMMENT))
     except (ValueError, StopIteration):
-        raise BrokenSample(path) from None
+        raise InvalidFile(path, NO_SAMPLE) from None
 
 
 def winners(path: str | Path) -> list[dict[str, float]]:
-    """The trial in a file that each search keeps, in their order. Raises BrokenSample.
+    """The trial in a file that each search keeps, in their order. Raises InvalidFile.
 
     As `best(read_sample(path))`, without a table: every training starts with this.
     """
@@ -85,11 +78,11 @@ def winners(path: str | Path) -> list[dict[str, float]]:
                 trials[trial["search"]].append(trial)
         return [min(its, key=itemgetter("score")) for its in trials.values()]
     except (KeyError, TypeError, ValueError):  # also where a search has no trial
-        raise BrokenSample(path) from None
+        raise InvalidFile(path, NO_SAMPLE) from None
 
 
 def read_sample(path: str | Path) -> "pd.DataFrame":
-    """The trials in a file, a row each. Raises BrokenSample."""
+    """The trials in a file, a row each. Raises InvalidFile."""
     import pandas as pd
 
     searched_for(path)

@@ -1,7 +1,7 @@
 """How fast are moves, in one process and beside a bare loop over Pinocchio?"""
 
-import time
 from pathlib import Path
+from timeit import timeit
 
 import numpy as np
 import pinocchio as pin
@@ -26,13 +26,6 @@ def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
         pin.updateFramePlacement(damaged, other, frame)
 
 
-def seconds(function, *arguments) -> float:
-    """How long a call takes."""
-    start = time.perf_counter()
-    function(*arguments)
-    return time.perf_counter() - start
-
-
 def measure_speed(scenario: Path) -> str:
     """A line for moves, one for the bare loop, and one for their ratio."""
     resolved = Resolved.read(scenario)
@@ -44,8 +37,8 @@ def measure_speed(scenario: Path) -> str:
     # Both in turn, and the ratio pair by pair: the machine may be shared.
     pairs = [
         (
-            seconds(lambda: [plant.execute(command) for command in commands]),
-            seconds(bare_loop, robot, arm, angles),
+            timeit(lambda: [plant.execute(command) for command in commands], number=1),
+            timeit(lambda: bare_loop(robot, arm, angles), number=1),
         )
         for _ in range(REPEATS)
     ]

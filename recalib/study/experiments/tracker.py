@@ -22,10 +22,6 @@ from recalib.study.configuration.study import Source
 PATIENCE = 60  # seconds for the public address to answer
 
 
-class WrongData(RecalibError):
-    """Measurements of the real arm that cannot be had, or are not those that are meant."""
-
-
 @dataclass(frozen=True)
 class TrackerMeasurements:
     """What the tracker saw, in the conventions of the URDF.
@@ -85,7 +81,7 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Tracker
 def fetch(source: Source, table: Path) -> None:
     """Bring a `table`, from a file or from its public address.
 
-    Raises WrongData where it is out of reach or not the one that is meant.
+    Raises RecalibError where it is out of reach or not the one that is meant.
     """
     where = source.file or source.url
     try:
@@ -95,12 +91,12 @@ def fetch(source: Source, table: Path) -> None:
             with urllib.request.urlopen(source.url, timeout=PATIENCE) as reply:
                 content = reply.read()
     except OSError as error:
-        raise WrongData(
+        raise RecalibError(
             f"{where} is out of reach ({error}); a copy on this machine can be"
             " named in real.data, as `file`"
         ) from None
     found = hashlib.sha256(content).hexdigest()
     if found != source.sha256:
-        raise WrongData(f"{where} has SHA-256 {found}; expected {source.sha256}")
+        raise RecalibError(f"{where} has SHA-256 {found}; expected {source.sha256}")
     with whole(table) as path:
         path.write_bytes(content)

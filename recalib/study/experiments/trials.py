@@ -1,7 +1,7 @@
 """Independent searches for the widths and rates of a training, on poses that nothing else uses."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -113,10 +113,13 @@ class Search:
         """The trials with their errors and scores."""
         seeds, iterations, _ = self.poses.desired.shape
         runs = len(trials) * seeds
+        desired, tests = (
+            np.tile(poses, (len(trials), 1, 1)) for poses in (self.poses.desired, self.poses.tests)
+        )
         history = train_on(
             self.robots(runs),
             self.learner(self.rules, search.schedule(trials, self.rules, seeds), runs=runs),
-            SearchPoses.side_by_side([self.poses] * len(trials)),
+            replace(self.poses, desired=desired, tests=tests),
             [iterations],
             error=self.error,
         )

@@ -4,7 +4,6 @@ It is made before the first universe is run, and kept in a file that people can 
 """
 
 import csv
-import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -70,11 +69,6 @@ def _in_words(entries: Sequence[Entry]) -> str:
     """Entries as config.yaml has them, in a line."""
     said = [describe(entry) for entry in entries]
     return yaml.safe_dump(said, default_flow_style=True, sort_keys=False, width=LINE).strip()
-
-
-def digest(path: str | Path) -> str:
-    """Of a file, so that what is measured can say which design it follows."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()[:16]
 
 
 def read_design(path: str | Path) -> list[Designed]:

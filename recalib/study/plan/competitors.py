@@ -8,7 +8,6 @@ one.
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from recalib.errors import UnknownName
 from recalib.learners.kinds import KINDS, POSES, class_of
 from recalib.study.configuration.switches import RITTER
 
@@ -50,20 +49,9 @@ def peers() -> dict[str, Peer]:
     return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
 
 
-def peer(name: str) -> Peer:
-    """The peer of this name. Raises UnknownName."""
-    known = peers()
-    if name not in known:
-        raise UnknownName("peer", name, known)
-    return known[name]
-
-
 def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
-    """The peer of this name, which has learned nothing yet, for a nominal robot.
-
-    Raises UnknownName.
-    """
-    its = peer(name)
+    """The peer of this name, which has learned nothing yet, for a nominal robot."""
+    its = peers()[name]
     if name == UNCORRECTED:
         from recalib.learners.uncorrected import UncorrectedLearner
 

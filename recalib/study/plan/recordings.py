@@ -1,9 +1,9 @@
-"""Which recordings a study has, and what is recorded."""
+"""What is recorded of a scenario: each of a study has a recording."""
 
 from recalib.study.configuration.damages import Assigned
 from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import LearnerSettings, Study
-from recalib.study.plan.trainings import Measuring, measuring, rules, scenario_of, training
+from recalib.study.configuration.study import LearnerSettings, Measuring, Study
+from recalib.study.plan.trainings import measuring, rules, scenario_of, training
 from recalib.study.scenarios.nominal import digest_of
 
 TODAYS, FEW = "geometric", 5  # the learner that is recorded beside the paper's, and its moves
@@ -14,7 +14,6 @@ class Recording(Frozen):
 
     scenario: str
     learners: dict[str, LearnerSettings | None]
-    moves: int
     measuring: Measuring
     seed: int
     published: dict[str, float]
@@ -33,11 +32,6 @@ def recorded(study: Study) -> list[str]:
     return [name for name in named if iterations[name] == min(iterations.values())]
 
 
-def recordings(study: Study) -> list[str]:
-    """The scenarios that are recorded; none of a study without a learner that is recorded."""
-    return list(study.experiments.scenarios if recorded(study) else ())
-
-
 def recording(study: Study, scenario: str) -> Recording:
     """The recording of a scenario: of the study's own, with one of today's learners.
 
@@ -54,7 +48,6 @@ def recording(study: Study, scenario: str) -> Recording:
     return Recording(
         scenario=scenario,
         learners=papers | ({TODAYS: None} if is_own else {}),
-        moves=FEW,
         measuring=measuring(study),
         seed=study.seed,
         published=published if assigned and is_own else {},

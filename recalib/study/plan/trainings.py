@@ -6,8 +6,7 @@ from itertools import product
 from typing import NamedTuple
 
 from recalib.errors import UnknownName
-from recalib.study.configuration.part import Frozen
-from recalib.study.configuration.study import Budget, LearnerSettings, Study
+from recalib.study.configuration.study import Budget, LearnerSettings, Measuring, Study
 from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
 
 
@@ -66,23 +65,10 @@ def budget(study: Study) -> Budget:
     )
 
 
-class Measuring(Frozen):
-    """On how many poses a training is measured, and when."""
-
-    tests: int
-    every: int
-    evenly: int
-    measurements: int
-
-
 def measuring(study: Study) -> Measuring:
     """How trainings are measured."""
-    its = study.training
-    return Measuring(
-        tests=its.tests,
-        every=its.measure_every,
-        evenly=its.measure_evenly,
-        measurements=its.measurements,
+    return Measuring.model_construct(
+        **{name: getattr(study.training, name) for name in Measuring.model_fields}
     )
 
 

@@ -10,12 +10,11 @@ from recalib.damaged.damage import EncoderShift, LinkShortening
 from recalib.nominal.chain import Chain
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.damages import damages_among
-from recalib.study.configuration.study import LearnerSettings
+from recalib.study.configuration.study import LearnerSettings, Measuring
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import errors_of
-from recalib.study.plan.trainings import Measuring
 from recalib.study.scenarios.plants import Resolved, nominal_robot
 
 DIGITS = 12  # of placements: machines differ in how they round sines
@@ -53,7 +52,7 @@ def script(
         "damage": [*amounts.values()],
         "run": run,
         "iterations": learner.iterations,
-        "every": measuring.every,
+        "every": measuring.measure_every,
         "supernet": learner.supernet,
         "subnet": learner.subnet,
         "schedule": build_tuned(learner, sample, [search + 1]).settings()["by_run"][0],

@@ -29,10 +29,6 @@ STEP = 8  # frames of a visit from one picture to the next
 FRAME, LAST = 100, 2000  # milliseconds
 
 
-class ViewerUnavailable(RecalibError):
-    """The viewer does not run here, most often for want of a Vulkan driver."""
-
-
 class _Patient:
     """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
 
@@ -66,7 +62,7 @@ def take_pictures(
         window: its size in pixels.
 
     Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
-    Raises ViewerUnavailable where the viewer does not start or does not load the recording.
+    Raises RecalibError where the viewer does not start or does not load the recording.
     """
     with _client(window) as client:
         _load(client, recording)
@@ -128,7 +124,7 @@ def _client(window: tuple[int, int]) -> Iterator[_Patient]:
         except (ConnectionError, RuntimeError):  # it also ends later, where it first has to draw
             log.seek(0)
             reason = next((line.strip() for line in log if "panicked" in line), "no answer")
-            raise ViewerUnavailable(
+            raise RecalibError(
                 f"the viewer does not run here ({reason}); it needs a Vulkan driver,"
                 " such as Debian's mesa-vulkan-drivers"
             ) from None
@@ -139,7 +135,7 @@ def _load(client: _Patient, recording: Path) -> None:
     deadline = time.monotonic() + PATIENCE
     while (state := client.get_state()).loading or not state.recordings:
         if time.monotonic() > deadline:
-            raise ViewerUnavailable(f"the viewer did not load {recording} within {PATIENCE:.0f} s")
+            raise RecalibError(f"the viewer did not load {recording} within {PATIENCE:.0f} s")
         time.sleep(0.1)
 
 

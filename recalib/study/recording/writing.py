@@ -11,17 +11,16 @@ import rerun as rr
 from rerun.chunk import RrdReader
 from rerun.error_utils import RerunWarning
 
-from recalib.errors import RecalibError
+from recalib.errors import InvalidFile
 from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
 from recalib.study.configuration.damages import damages_among, disturbances_among
-from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import ResultPoses, Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.inference.intervals import typical
 from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.plan.competitors import make_peer
-from recalib.study.plan.recordings import Recording
+from recalib.study.plan.recordings import FEW, Recording
 from recalib.study.recording import captions, colours
 from recalib.study.recording.arms import send_arms
 from recalib.study.recording.blueprint import arrange
@@ -37,14 +36,6 @@ from recalib.study.recording.scene import Scene, log_surroundings, send_target
 from recalib.study.recording.sight import Sight, sight_of
 from recalib.study.recording.watched import Watched, watch
 from recalib.study.scenarios.plants import Resolved
-
-
-class BrokenRecording(RecalibError):
-    """A recording that is not what it should be."""
-
-    def __init__(self, path: Path, reason: str):
-        self.path, self.reason = path, reason
-        super().__init__(f"{path} is no valid recording: {reason}")
 
 
 def record(
@@ -93,13 +84,13 @@ def write_recording(
         seed: of the poses that are visited.
 
     Returns what was watched, by learner. Raises InvalidFile where a mesh of the robot is not found,
-    BrokenRecording where the experiment measured anything else than what was watched.
+    or where the experiment measured anything else than what was watched.
     """
     controller, watched = resolved.controller(), {}
     for name, learner in learners.items():
-        measure_at = list(range(job.moves + 1))  # of today's: after each move
+        measure_at = list(range(FEW + 1))  # of today's: after each move
         if rules := job.learners[name]:
-            measure_at = campaign.measured_at(job.measuring, rules.iterations)
+            measure_at = job.measuring.during(rules.iterations)
         poses = Stream.SCENARIO.draw(
             job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
         )
@@ -122,17 +113,17 @@ def write_recording(
 
 
 def _compare(path: Path, learner: str, shown: Mapping, measured: Mapping) -> None:
-    """Raise BrokenRecording where something else was watched than what had been measured."""
+    """Raise InvalidFile where something else was watched than what had been measured."""
     rows = {moves: row for row, moves in enumerate(shown["moves"])}
     for row, moves in enumerate(measured["moves"]):
         where = f"{learner} after {moves} moves"
         if moves not in rows:
-            raise BrokenRecording(path, f"{where} was measured, but is not shown")
+            raise InvalidFile(path, f"{where} was measured, but is not shown")
         for quantity in ERRORS:
             ours = shown[quantity][rows[moves]]
             theirs = np.asarray(measured[quantity])[row]
             if not np.isclose(ours, theirs, rtol=1e-9, atol=1e-12):
-                raise BrokenRecording(
+                raise InvalidFile(
                     path, f"{where}: {quantity} is {ours}, but was measured as {theirs}"
                 )
 
@@ -168,9 +159,9 @@ def _fill(
 
 
 def check_end(path: Path) -> None:
-    """Raise BrokenRecording where a file ends too early: to Rerun that is a mere warning."""
+    """Raise InvalidFile where a file ends too early: to Rerun that is a mere warning."""
     try:
         with warnings.catch_warnings(action="error", category=RerunWarning):
             RrdReader(path)
     except (RerunWarning, RuntimeError) as error:
-        raise BrokenRecording(path, str(error)) from error
+        raise InvalidFile(path, str(error)) from error

@@ -82,13 +82,7 @@ def assign(
     ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
     poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
     table, nearest = compare(controller, ways, poses, damage.published)
-    return table, Assignment(
-        robot=robot.name,
-        assignments=len(ways),
-        damages=ways[nearest],
-        distance=round(table["distance"][nearest], TIE),
-        within_5_percent=int((table["distance"] <= 0.05).sum()),
-    )
+    return table, Assignment(damages=ways[nearest])
 
 
 def compare(

@@ -82,11 +82,7 @@ class Resolved(Kept):
 class Assignment(Kept):
     """The assignment of the paper's damage that is used, as the rule `assignments` keeps it."""
 
-    robot: str
-    assignments: int
     damages: tuple[Entry, ...]
-    distance: float
-    within_5_percent: int
 
 
 def resolve(

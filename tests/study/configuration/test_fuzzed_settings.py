@@ -13,7 +13,6 @@ from functools import partial
 import numpy as np
 import pytest
 
-from recalib.loop.training import measuring_grid
 from recalib.study.checks.consistency import check
 from recalib.study.checks.geometry import check_robots
 from recalib.study.configuration.messages import InvalidConfiguration
@@ -181,9 +180,8 @@ def assert_sense(study: Study, rules: Rules) -> None:
     its = study.training
     for learner in {learner for _, learner in trainings.runs}:
         iterations = rules_named(study, learner).iterations
-        grid = measuring_grid(
-            iterations, its.measure_every, its.measure_evenly, min(its.measurements, 100)
-        )
+        few = its.model_copy(update={"measurements": min(its.measurements, 100)})
+        grid = few.during(iterations)
         assert grid[0] == 0 and grid[-1] == iterations
     for learner in study.benchmark.learners:
         budgets = [*study.benchmark.moves, *study.benchmark.longer]

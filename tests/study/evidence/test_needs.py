@@ -4,7 +4,7 @@ import pytest
 
 from recalib.study.configuration.shipped import PIECES, REFERENCE, pieces
 from recalib.study.evidence.needs import FACTS, Request
-from recalib.study.evidence.results import Evidence, Undeclared
+from recalib.study.evidence.results import Evidence
 from recalib.study.plan.trainings import Trainings
 from tests.synthetic import Synthetic, without_one
 
@@ -34,7 +34,7 @@ def test_a_piece_that_was_not_declared_is_missed(few, tmp_path):
     declared = [name for name in names if name in evidence.files]
     assert len(declared) > 1, "a table of one piece is there or not"
     less = dict(without_one(evidence))[declared[0]]
-    with pytest.raises(Undeclared, match=declared[0]):
+    with pytest.raises(KeyError, match=declared[0]):
         less.setups("horizon")
 
 
@@ -65,7 +65,6 @@ def test_trainings_go_by_their_role_in_the_paper(study):
     """Others are keys of the configuration; kept pages have them."""
     own = {name: learner.iterations for name, learner in study.learners.items()}
     roles = {
-        "recordings": [*study.experiments.scenarios],
         "elsewhere": {
             "ur10": "links_encoders",
             "ur5": "links_encoders-ur5",

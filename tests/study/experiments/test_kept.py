@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from recalib.study.configuration.shipped import SEARCHED
+from recalib.study.configuration.study import Measuring
 from recalib.study.experiments import speed
 from recalib.study.experiments.benchmark import compete
 from recalib.study.experiments.campaign import train_seeds
@@ -12,7 +13,7 @@ from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.replay import replay
 from recalib.study.experiments.settings import rules_of
 from recalib.study.experiments.trials import Search, best_of, search_for
-from recalib.study.plan.trainings import Measuring, budget
+from recalib.study.plan.trainings import budget
 from recalib.study.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.kept import plain
@@ -66,7 +67,7 @@ def test_a_training(name, throughout, study, uneven_scenario, tmp_path, data_reg
         seeds=3,
         first=1,
         last=5,
-        measuring=Measuring(tests=7, every=2, evenly=10, measurements=4),
+        measuring=Measuring(tests=7, measure_every=2, measure_evenly=10, measurements=4),
         throughout=throughout,
         seed=11,
     )
@@ -127,19 +128,13 @@ def test_what_is_said_of_speed(uneven_scenario, monkeypatch):
         monkeypatch.setattr(speed, name, value)
     spent, looped = iter([2.0, 1.0, 9.0, 3.0, 5.0, 1.0]), []
 
-    def seconds(function, *arguments):
-        function(*arguments)
-        looped.extend(its.shape for its in arguments if isinstance(its, np.ndarray))
+    def timeit(function, number):
+        function()
         return next(spent)
 
-    monkeypatch.setattr(speed, "seconds", seconds)
+    monkeypatch.setattr(speed, "timeit", timeit)
+    monkeypatch.setattr(speed, "bare_loop", lambda *its: looped.append(its[-1].shape))
     moves, bare, ratio = speed.measure_speed(uneven_scenario).splitlines()
     assert moves == "moves, 2 runs side by side: 1 a second"
     assert bare.endswith(" a move: 6 a second") and ratio == "ratio, median of 3 pairs: 3.0"
     assert looped == [(6, 6)] * 3
-
-
-def test_seconds_are_the_difference_of_two_looks_at_the_clock(monkeypatch):
-    clock = iter([3.0, 10.5])
-    monkeypatch.setattr(speed.time, "perf_counter", lambda: next(clock))
-    assert speed.seconds(abs, -1) == 7.5

@@ -53,8 +53,6 @@ def test_a_search_takes_no_poses_of_results():
 def test_results_take_no_poses_of_a_search():
     with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 for"):
         train_for_results(None, None, for_a_search(), [4])
-    with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 for"):
-        ResultPoses.side_by_side([for_results(), for_a_search()])
 
 
 @pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])

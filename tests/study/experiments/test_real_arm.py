@@ -10,7 +10,7 @@ import pytest
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
-from recalib.errors import InvalidFile, UnknownName
+from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
@@ -22,7 +22,7 @@ from recalib.study.experiments.real_arm import (
     remaining_errors,
     with_tool_point,
 )
-from recalib.study.experiments.tracker import WrongData, fetch, read_of, read_whole_description
+from recalib.study.experiments.tracker import fetch, read_of, read_whole_description
 from recalib.study.plan.competitors import peers
 from recalib.study.scenarios.plants import nominal_robot
 from tests.conftest import ROOT
@@ -184,11 +184,6 @@ def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, mo
     assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
 
 
-def test_an_unknown_learner_is_refused_with_the_known_ones(recording, ur5):
-    with pytest.raises(UnknownName, match="hybrid"):
-        remaining_errors("oracle", ur5, recording, recording)
-
-
 def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
     path = tmp_path / "half.toml"
     path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
@@ -224,6 +219,6 @@ def test_another_table_than_the_one_that_is_meant_is_refused(digest, tmp_path):
     its = hashlib.sha256(given.read_bytes()).hexdigest()
     fetch(Source(url="https://there", file=str(given), sha256=its), tmp_path / "own.csv")
     assert (tmp_path / "own.csv").read_text() == "a table"
-    with pytest.raises(WrongData, match=f"has SHA-256 {its}; expected {digest}"):
+    with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
         fetch(Source(url="https://there", file=str(given), sha256=digest), tmp_path / "no.csv")
     assert not (tmp_path / "no.csv").exists()

@@ -7,9 +7,10 @@ from scipy.stats import qmc
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.errors import UnknownName
 from recalib.numerics.randomness import generator
+from recalib.study.configuration.study import Measuring
 from recalib.study.experiments import campaign
 from recalib.study.experiments.poses import Stream
-from recalib.study.plan.trainings import Measuring, scenario_of
+from recalib.study.plan.trainings import scenario_of
 from recalib.study.scenarios.plants import resolve
 from workflow.scripts.call import write
 
@@ -21,6 +22,20 @@ def test_a_scenario_may_name_its_robot(study):
         scenario_of(study, "link")
     with pytest.raises(UnknownName, match="ur10, ur3, ur5 or z1; did you mean ur3"):
         scenario_of(study, "links-ur7")
+
+
+SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50)
+
+
+@pytest.mark.parametrize(("iterations", "every"), [(200, 4), (10, 4), (3, 5)])
+def test_short_trainings_are_measured_evenly_and_at_their_end(iterations, every):
+    grid = SPARSE.model_copy(update={"measure_every": every}).during(iterations)
+    assert grid[0] == 0 and grid[-1] == iterations and set(np.diff(grid[:-1])) <= {every}
+
+
+def test_long_trainings_are_measured_on_a_logarithmic_grid():
+    grid = SPARSE.during(10_000)
+    assert grid[:3] == [0, 1, 2] and grid[-1] == 10_000 and 35 <= len(grid) <= 51
 
 
 def drawn(runs, iterations, scenario="links", **how):
@@ -60,7 +75,7 @@ def test_moves_that_the_controller_refused_by_the_end_are_told(
         monkeypatch.setattr(campaign, name, lambda *_: None)
     write(scenario := tmp_path / "links.json", plan.resolved("links"))
     rules = study.every_learner["improved"]
-    measuring = Measuring(tests=2, every=4, evenly=4, measurements=2)
+    measuring = Measuring(tests=2, measure_every=4, measure_evenly=4, measurements=2)
     files = scenario, tmp_path / "improved.csv", tmp_path / "improved.npz"
     found = campaign.train_seeds(*files, rules, 2, 0, 2, measuring, False, 1)
     assert "improved on links: the controller refused 3 moves" in capsys.readouterr().err

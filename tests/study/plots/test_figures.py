@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from recalib.study.evidence.pages.findings import figures as figures_of_findings
-from recalib.study.evidence.results import Undeclared
 from recalib.study.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
 from recalib.study.plots.registry import FIGURES, draw, drawn
 from recalib.study.plots.steady import LOG, rounded
@@ -52,7 +51,7 @@ def test_a_figure_reads_what_it_declares_and_nothing_else(figure, synthetic, tmp
     ]
     for name, less in without_one(evidence):
         if name in whole[:3] or name in evidence.facts:
-            with pytest.raises(Undeclared), plt.rc_context(STYLE):
+            with pytest.raises(KeyError), plt.rc_context(STYLE):
                 draw(figure, less)
             plt.close("all")
 

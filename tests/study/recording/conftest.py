@@ -11,9 +11,9 @@ from recalib.damaged.nongeometric import Sag
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.rules import IMPROVED, Rules
 from recalib.learners.schedules import Schedule
+from recalib.study.configuration.study import Measuring
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.plan.recordings import Recording
-from recalib.study.plan.trainings import Measuring
 from recalib.study.recording.phases import CLOCK
 from recalib.study.recording.writing import write_recording
 from recalib.study.scenarios.plants import resolve
@@ -51,8 +51,9 @@ def job(study):
             name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
             for name in ("improved", "ritter")
         },
-        moves=5,
-        measuring=Measuring(tests=TESTS, every=4, evenly=ITERATIONS, measurements=2),
+        measuring=Measuring(
+            tests=TESTS, measure_every=4, measure_evenly=ITERATIONS, measurements=2
+        ),
         seed=SEED,
         published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
         meshes_sha256="",

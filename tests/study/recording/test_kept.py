@@ -13,15 +13,16 @@ from PIL import Image
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise, Outliers, Repeatability
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
+from recalib.errors import InvalidFile
 from recalib.learners.polynomial import PolynomialLearner
+from recalib.study.configuration.study import Measuring
 from recalib.study.inference.measured import ERRORS
-from recalib.study.plan.trainings import Measuring
 from recalib.study.recording import captions, naming, pictures
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.measurements import enlarged
 from recalib.study.recording.phases import ARM, CLOCK
 from recalib.study.recording.sight import sight_of
-from recalib.study.recording.writing import BrokenRecording, _compare, write_recording
+from recalib.study.recording.writing import _compare, write_recording
 from tests.kept import plain
 from tests.logged import arranged, logged
 from tests.study.recording.conftest import learner
@@ -46,7 +47,7 @@ LEAST = EVERY[1:2]
 def small(job, study):
     """A recording of few iterations of one of the paper's learners and one of today's."""
     few = study.learners["improved"].model_copy(update={"iterations": 7})
-    measuring = Measuring(tests=5, every=3, evenly=10, measurements=2)
+    measuring = Measuring(tests=5, measure_every=3, measure_evenly=10, measurements=2)
     return job.model_copy(
         update={"learners": {"improved": few, "affine": None}, "measuring": measuring}
     )
@@ -156,7 +157,7 @@ def test_why_a_recording_is_broken_is_as_kept(written, tmp_path, data_regression
     for spoilt in ("moves", *ERRORS):
         measured = {name: its.copy()[1:] for name, its in shown.items()}
         measured[spoilt][1] = measured[spoilt][1] * 2 + 7
-        with pytest.raises(BrokenRecording) as refused:
+        with pytest.raises(InvalidFile) as refused:
             _compare(tmp_path, "affine", shown, measured)
         said[spoilt] = re.sub(r"(\d\.\d{6})\d+", r"\1", refused.value.reason)
     data_regression.check(said)

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from recalib.errors import RecalibError
 from recalib.laboratory.viewer.program import PROGRAM, quiet
 from recalib.study.recording import pictures
 from recalib.study.recording.phases import ARM, BEFORE
-from recalib.study.recording.pictures import ViewerUnavailable, ends, take_pictures
+from recalib.study.recording.pictures import ends, take_pictures
 from tests.conftest import ROOT
 from tests.test_architecture import imported
 
@@ -62,7 +63,7 @@ def test_the_viewer_shows_the_arm_miss_and_hit(recording, tmp_path):
 
 @pytest.mark.skipif(bool(DRIVERS), reason="shows what one without a Vulkan driver is told")
 def test_without_a_driver_one_is_told_of_it(recording, tmp_path):
-    with pytest.raises(ViewerUnavailable, match="needs a Vulkan driver"):
+    with pytest.raises(RecalibError, match="needs a Vulkan driver"):
         take_pictures(recording[0], {tmp_path / "before.png": BEFORE})
     assert not list(tmp_path.iterdir())
 

@@ -20,7 +20,7 @@ from recalib.study.inference.measured import ERRORS, errors_of
 from recalib.study.recording import writing
 from recalib.study.recording.blueprint import arrange
 from recalib.study.recording.sight import sight_of
-from recalib.study.recording.writing import BrokenRecording, check_end, record, write_recording
+from recalib.study.recording.writing import check_end, record, write_recording
 from tests.study.recording.conftest import DAMAGES, SEED, learners
 from workflow.scripts import call
 
@@ -41,7 +41,7 @@ def test_a_recording_is_valid_and_small(recording):
 def test_a_recording_that_ends_too_early_is_refused(recording, tmp_path, share):
     content, cut = recording[0].read_bytes(), tmp_path / "cut.rrd"
     cut.write_bytes(content[: int(share * len(content))])
-    with pytest.raises(BrokenRecording):
+    with pytest.raises(InvalidFile):
         check_end(cut)
 
 
@@ -62,7 +62,7 @@ def test_a_recording_that_differs_from_the_experiment_is_not_written(
     measured = spoilt["ritter"].loc[3, "orientation_error_deg"]
     spoilt["ritter"].loc[3, "orientation_error_deg"] *= 1 + 1e-8
     path = tmp_path / "links_encoders.rrd"
-    with pytest.raises(BrokenRecording, match="ritter after 24 moves") as caught:
+    with pytest.raises(InvalidFile, match="ritter after 24 moves") as caught:
         write_recording(path, job, resolved(DAMAGES), learners(job), spoilt, 0)
     assert f"orientation_error_deg is {measured}" in str(caught.value)
     assert str(spoilt["ritter"].loc[3, "orientation_error_deg"]) in str(caught.value)
@@ -119,7 +119,7 @@ def test_the_typical_search_is_recorded_as_the_experiment_measured_it_with_outli
     ]
     assert typical(errors_of(frame)) == 2
     path = tmp_path / "recordings" / "links_encoders.rrd"
-    with pytest.raises(BrokenRecording, match="improved after 8 moves: position_error_cm is "):
+    with pytest.raises(InvalidFile, match="improved after 8 moves: position_error_cm is "):
         record(path, job, other, [sample], [history])
     assert not path.exists()
     record(path, job, scenario, [sample], [history])

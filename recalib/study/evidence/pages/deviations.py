@@ -3,11 +3,11 @@
 `python -m recalib.study.evidence.pages.deviations` prints the digests that a new entry has to name.
 """
 
-import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
 
+from recalib.files.storage import digest
 from recalib.study.configuration.shipped import DESIGN, DEVIATIONS, FIRST
 from recalib.study.configuration.values import from_file
 from recalib.study.evidence.claims import CLAIMS
@@ -45,18 +45,16 @@ def unnamed(told: Mapping, digests: Mapping[str, str]) -> dict[str, str]:
 def digests(project: Path) -> dict[str, str]:
     """Today's: of criteria, of the rule of verdicts, of choices and of files of designs."""
     found = {
-        claim.id: _digest(json.dumps([claim.statement, claim.criterion, dict(claim.limits)]))
+        claim.id: digest(
+            json.dumps([claim.statement, claim.criterion, dict(claim.limits)]).encode()
+        )
         for claim in CLAIMS
     }
     shipped = json.loads((project / "workflow" / "shipped.json").read_text(encoding="utf-8"))
     found |= {f"config.yaml: {key}": its for key, its in shipped.items() if key not in UNJUDGED}
     for name in REGISTERED:
-        found[name] = _digest((project / name).read_text(encoding="utf-8"))
+        found[name] = digest((project / name).read_bytes())
     return found
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def context(evidence: Evidence) -> dict:

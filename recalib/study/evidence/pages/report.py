@@ -33,7 +33,7 @@ EXPLAINED = "ideas"  # the page of the method
 KEPT = {"guidance": "figure12", "real_arm": "figure13"}
 NEEDS = """
     summary.csv scenarios/*.json search/*.csv claims.json improved learners scenario scenarios
-    recordings elsewhere published iterations tests measure_every assignment_poses coupling_poses
+    elsewhere published iterations tests measure_every assignment_poses coupling_poses
     balls points
 """
 FRONT = "front"  # the text before all pages
