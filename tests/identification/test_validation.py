@@ -63,6 +63,7 @@ def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
 
 
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # what is chosen is asked here
     real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))

@@ -118,6 +118,12 @@ def test_what_is_no_station_is_told(text, says):
         open_station(text)
 
 
+@pytest.fixture
+def swift(monkeypatch):
+    """A simulated arm stands at once."""
+    monkeypatch.setattr("recalib.station.guarded.APART", 0.001)
+
+
 def lived(station: str, folder) -> float:
     """The mean error [mm] away from measured postures after a live calibration."""
     words = [station, "ur10_robot.urdf", "--tool", "tool0", "--yes"]
@@ -127,11 +133,11 @@ def lived(station: str, folder) -> float:
 
 
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
-def test_the_example_in_another_language_is_a_station(tmp_path):
+def test_the_example_in_another_language_is_a_station(swift, tmp_path):
     assert lived(f"node {ROOT / 'examples' / 'station.js'}", tmp_path) < 0.3
 
 
-def test_the_example_in_python_is_a_station(tmp_path, capsys):
+def test_the_example_in_python_is_a_station(swift, tmp_path, capsys):
     assert lived(f"{ROOT / 'examples' / 'station.py'}:BentUR10", tmp_path) < 0.5
     told = capsys.readouterr()
     assert re.search(r"row 14: predicted error by the model 0\.\d+ mm, by the last rows", told.err)
