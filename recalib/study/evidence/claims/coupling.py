@@ -46,7 +46,7 @@ def measure(evidence, limits):
     poses = table["draw"].nunique() * evidence.facts["coupling_poses"]
     note = (
         f"The intervals hold the luck of {table['draw'].nunique()} draws of poses. Of the poses of"
-        f" the larger box, {len(larger) / poses:.0%} are within reach, with condition numbers from"
+        f" the larger box, {100 * len(larger) / poses:.0f} % are within reach, with condition numbers from"
         f" {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the workspace the"
         f" largest is {own['condition'].max():.0f}."
     )
@@ -64,7 +64,7 @@ REASON = Claim(
     quotation="Due to the characteristics of the workspace used (far from singularities and of"
     " small size relative to that of the robot)",
     statement="They hardly do since the workspace is small and far from singularities.",
-    short="x {number} in a box of positions twice as long",
+    short="their influence x {number} in a box of positions twice as long",
     limits={"size": Limit(2.0), "poses": Limit(0.95)},
     criterion="With the paper's damage, the larger of both ratios of weak-coupling rises, at"
     " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"
