@@ -46,8 +46,8 @@ def measure(evidence, limits):
     poses = table["draw"].nunique() * evidence.facts["coupling_poses"]
     note = (
         f"The intervals hold the luck of {table['draw'].nunique()} draws of poses. Of the poses of"
-        f" the larger box, {100 * len(larger) / poses:.0f} % are within reach, with condition numbers from"
-        f" {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the workspace the"
+        f" the larger box, {100 * len(larger) / poses:.0f} % are within reach, with condition"
+        f" numbers from {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the workspace the"
         f" largest is {own['condition'].max():.0f}."
     )
     return Finding(estimates, of_all(*map(RISES.verdict, estimates.values())), note=note)
