@@ -37,7 +37,7 @@ CLAIM = Claim(
     " the mapping in all the input space at a coarse level of resolution. Instead, when the"
     " neighborhoods are small [...] many more iterations are required",
     statement="Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in many.",
-    short="narrow ones need {number} times as many",
+    short="{number} times as many",
     limits={"few": FEW, "many": MANY},
     criterion="With constant widths, both errors of the improved system are halved after at most"
     " {few} iterations where neighbourhoods are as wide as half of the workspace, and after"

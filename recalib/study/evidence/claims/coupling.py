@@ -17,7 +17,7 @@ CLAIM = Claim(
     quotation="changes in position coordinates influence very slowly the orientation commands, and"
     " the same can be said about orientation coordinates with respect to position commands",
     statement="Positions hardly influence orientation commands, nor the reverse.",
-    short="at 95 % of poses, at most {percent} of the effect of their own coordinates",
+    short="at 95 % of poses, at most {percent} of their own coordinates' effect",
     limits={"ratio": SMALL, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",
@@ -47,8 +47,8 @@ def measure(evidence, limits):
     note = (
         f"The intervals hold the luck of {table['draw'].nunique()} draws of poses. Of the poses of"
         f" the larger box, {100 * len(larger) / poses:.0f} % are within reach, with condition"
-        f" numbers from {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the workspace the"
-        f" largest is {own['condition'].max():.0f}."
+        f" numbers from {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the"
+        f" workspace the largest is {own['condition'].max():.0f}."
     )
     return Finding(estimates, of_all(*map(RISES.verdict, estimates.values())), note=note)
 
@@ -64,7 +64,7 @@ REASON = Claim(
     quotation="Due to the characteristics of the workspace used (far from singularities and of"
     " small size relative to that of the robot)",
     statement="They hardly do since the workspace is small and far from singularities.",
-    short="their influence x {number} in a box of positions twice as long",
+    short="x {number} in a box twice as long",
     limits={"size": Limit(2.0), "poses": Limit(0.95)},
     criterion="With the paper's damage, the larger of both ratios of weak-coupling rises, at"
     " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"

@@ -34,7 +34,7 @@ CLAIM = Claim(
     " cm and 4.7 degrees, respectively",
     statement="This damage gives initial errors of {published[position_error_cm]} cm and"
     " {published[orientation_error_deg]} degrees.",
-    short="possible here: {percent} of such damages give a smaller position error",
+    short="{percent} of such damages give a smaller position error",
     published="{published[position_error_cm]} cm, {published[orientation_error_deg]} degrees",
     limits={"tail": Limit(0.025)},
     criterion="Both published errors lie inside the central {tail:central} of those of all"

@@ -77,22 +77,20 @@ CELLS = {
         section="4",
         quotation=words,
         statement=f"The {kind} map can spare cells for {kind}s.",
-        short=f"error x {{number}} against sparing cells for {other}s",
+        short="error x {number} against sparing the others",
         criterion=f"The {kind} error with 2 x 2 x 2 cells in the {net} over that with 2 x 2 x 2"
         " in the other net is below 1, both tuned.",
         reason="What needs fewer cells loses less by having fewer. " + EQUIVALENT,
         across={"improved system": Across(f"cells_{kind}", "error, fewer here / in the other net")},
     )
-    for kind, other, net, words in (
+    for kind, net, words in (
         (
             "position",
-            "orientation",
             "supernet",
             "the position network needs less units in the supernet",
         ),
         (
             "orientation",
-            "position",
             "subnets",
             "the orientation network saves neurons at the subnet level",
         ),

@@ -19,7 +19,7 @@ CLAIM = Claim(
     quotation="was not as quick as expected, even if the neighborhood widths were tuned in order to"
     " maximize learning speed",
     statement="Ritter's map is slow, even with its widths tuned.",
-    short="{percent} of its initial error remains after 200 iterations",
+    short="{percent} of its initial error remains",
     limits={"left": LEFT},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"
     " a {left:word} of the initial ones.",

@@ -25,7 +25,7 @@ CLAIM = Claim(
     quotation="avoids the problem of the original application of having a multivalued inverse"
     " function, because the controller always chooses the same joint angles for a fixed command",
     statement="Many joint angles reach a pose, but only one command does.",
-    short="at most {number} command for a pose",
+    short="{number} command for a pose",
     limits={"commands": Limit(1.0)},
     criterion="Of all joint angles found with which the damaged arm reaches a pose, the controller"
     " chooses exactly {commands:g} solution for the command that asks for it, at every pose of"
