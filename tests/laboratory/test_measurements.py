@@ -49,6 +49,16 @@ def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, 
     assert read.targets is read.sockets is read.nominal is None
 
 
+def test_a_table_that_was_pasted_twice_is_refused_and_a_row_that_repeats_is_not(gantry, write):
+    columns = joints() | positions()
+    twice = {name: [*cells, *cells] for name, cells in columns.items()}
+    message = "10 of its 20 rows are copies of others, first row 11 of row 1; expected: rows that"
+    with pytest.raises(InvalidFile, match=message):
+        read_measurements(write(twice), gantry)
+    once = {name: [*cells, cells[-1]] for name, cells in columns.items()}
+    assert len(read_measurements(write(once), gantry)) == ROWS + 1
+
+
 def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     turn = Rotation.from_rotvec([0.3, -0.2, 0.9])
     for names, numbers in (

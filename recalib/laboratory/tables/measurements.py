@@ -28,6 +28,7 @@ TARGET, TIMES = "target", "time"
 LABELS = TARGET, "socket"
 MEASURED = [*(name for group in VECTORS for name in group), *LABELS, TIMES, PICTURE]
 SKEW = 0.01  # of a quaternion's length, as instruments round it
+COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
 STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
 Vectors = Mapping[tuple[str, ...], np.ndarray | None]
 
@@ -83,10 +84,12 @@ def read_measurements(
 
     Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, there
     twice or useless; a cell that is no number or too large for an arm; too few rows; nothing
-    measured. UnsuitableRobot: a joint that is called as a column of measurements.
+    measured; rows pasted twice. UnsuitableRobot: a joint that is called as a column of
+    measurements.
     """
     _check_names(arm)
-    read = _read(read_table(path, description.columns if description else None), arm)
+    table = read_table(path, description.columns if description else None)
+    read = _read(table, arm)
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
     if len(read) < FEWEST:
@@ -97,6 +100,7 @@ def read_measurements(
         raise InvalidFile(path, "it has both positions and sockets; expected: one of them")
     if (np.ptp(read.coordinates, axis=0) < STILL).all():
         raise InvalidFile(path, "no joint moves in it; expected: rows of different postures")
+    _check_copies(table)
     return read
 
 
@@ -135,6 +139,20 @@ def measurements_so_far(
     if read.positions is None:
         raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
     return read
+
+
+def _check_copies(table: Table) -> None:
+    """Raise InvalidFile where many rows are copies: they would count as measured anew."""
+    first: dict[tuple[str, ...], int] = {}
+    rows = enumerate(zip(*table.cells.values(), strict=True), 1)
+    copies = [(row, its) for row, cells in rows if (its := first.setdefault(cells, row)) != row]
+    if len(copies) > COPIES * len(table):
+        row, other = copies[0]
+        raise InvalidFile(
+            table.path,
+            f"{len(copies)} of its {len(table)} rows are copies of others, first row {row} of row"
+            f" {other}; expected: rows that were measured one by one",
+        )
 
 
 def _check_names(arm: Arm) -> None:
