@@ -102,8 +102,9 @@ BRINGS = {
     "experiments.benchmark experiments.ensemble experiments.real_arm experiments.trials": ARMS
     | {"pandas"},
     "experiments.campaign": ARMS - {"scipy.spatial"},
-    "experiments.replay mapping.measured multiverse.efforts multiverse.horizon"
-    " multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"} | {"pandas"},
+    "experiments.constant_widths experiments.replay mapping.measured multiverse.efforts"
+    " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"}
+    | {"pandas"},
     "experiments.tracker": ARMS - {"numba"},
     "recording.in_browser": ARMS - {"scipy.spatial"} | {"pandas"},
     "recording.pictures": {"rerun"},
