@@ -27,7 +27,7 @@ class Motion:
 
     Attributes:
         frames: (frame,) those of all phases.
-        angles: (frame, joint) rad that the controller believes in.
+        angles: (frame, joint) rad that the controller assumes.
         departures: (2, pose) frames in which a move to a pose starts, in the first and the third
             phase.
         iterations: (measurement,) done until the measurements.

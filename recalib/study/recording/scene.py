@@ -4,7 +4,7 @@
     /workspace, /desired           the box of positions, and the shown test poses in it
     /<learner>/<robot>             the meshes of the real arm that this learner moves
     /<learner>/links               where its links are
-    /<learner>/believed            the arm that its controller believes in, as a skeleton
+    /<learner>/believed            the arm that its controller assumes, as a skeleton
     /<learner>/wrong               where the arm is not what its controller believes
     /<learner>/target              the pose that the arm is sent to, and a caption
     /<learner>/achieved            where the real arm lands
