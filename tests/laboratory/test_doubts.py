@@ -11,6 +11,7 @@ from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.identification.parameters import Parameter
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.report.doubts import doubts
@@ -29,15 +30,23 @@ NAMES = {
 }
 
 
-def result(errors: dict, chosen: str = HYBRID, found: tuple = (), times=None) -> SimpleNamespace:
-    """A calibration with these errors [m] by way and kind."""
+def result(
+    errors: dict, chosen: str = HYBRID, found: tuple = (), times=None, parameters=()
+) -> SimpleNamespace:
+    """A calibration with these errors [m] by way and kind, and parameters of geometry."""
+    geometry = SimpleNamespace(parameters={its.name: its for its in parameters})
     validation = SimpleNamespace(
         chosen=chosen,
         mean_error=lambda way, kind: errors[way, kind],
     )
     rows = Observations(np.zeros((ROWS, 6)), times=times)
     return SimpleNamespace(
-        validation=validation, faults=found, observations=rows, scales={}, **NAMES
+        validation=validation,
+        faults=found,
+        observations=rows,
+        geometry=geometry,
+        scales={},
+        **NAMES,
     )
 
 
@@ -54,6 +63,22 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
     assert " ".join(doubts(result(errors))).startswith(said)
     assert bool([*doubts(result(errors))]) == bool(said)
     assert not [*doubts(result(errors, GEOMETRIC))]
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "value", "doubted"),
+    [
+        ("offset of wrist", "deg", -41.3, True),
+        ("offset of wrist", "deg", 19.0, False),
+        ("offset of rail", "mm", 41.3, False),
+        ("rotation z of wrist", "deg", 41.3, False),
+    ],
+)
+def test_an_offset_that_is_too_large_for_an_encoder_is_doubted(name, unit, value, doubted):
+    its = Parameter(name, unit, value, 0.1), Parameter("offset of elbow", "deg", 3.0, 0.1)
+    said = [*doubts(result({}, GEOMETRIC, parameters=its))]
+    sentence = "Careful: the offset of wrist would be -41 deg; is each column of the table"
+    assert [line.startswith(sentence) for line in said] == [True] * doubted
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from recalib.laboratory.tables.fault_words import in_words
 RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
 TOGETHER = 0.3  # the part of residuals that may remain, were all links longer by one factor
 OUTVOTED = 0.5  # of the rows of a sight: were more outliers, something of it is not as described
+SLIPPED = 20.0  # deg: five times what an encoder is expected to slip by
 CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
 
@@ -20,6 +21,7 @@ def doubts(result: Calibrated) -> Iterator[str]:
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
+    yield from _slipped(result)
     yield from _resized(result)
     validation = result.validation
     if validation.chosen != HYBRID:
@@ -30,6 +32,21 @@ def doubts(result: Calibrated) -> Iterator[str]:
         yield (
             f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
             f" leaves {geometry:.3g} mm, so most of the gain is a pattern of these rows only."
+        )
+
+
+def _slipped(result: Calibrated) -> Iterator[str]:
+    """The joint offset that is too large for an encoder, if there is one."""
+    offsets = [
+        its
+        for name, its in result.geometry.parameters.items()
+        if name.startswith("offset of ") and its.unit == "deg"
+    ]
+    largest = max(offsets, key=lambda its: abs(its.value), default=None)
+    if largest and abs(largest.value) > SLIPPED:
+        yield (
+            f"Careful: the {largest.name} would be {largest.value:.0f} deg; is each column of the"
+            " table that of its joint, and its zero that of the URDF?"
         )
 
 
