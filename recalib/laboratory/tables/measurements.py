@@ -150,7 +150,7 @@ def _check_copies(table: Table) -> None:
         row, other = copies[0]
         raise InvalidFile(
             table.path,
-            f"{len(copies)} of its {len(table)} rows are copies of others, first row {row} of row"
+            f"{len(copies)} of its {len(table)} rows are copies of others, such as row {row} of row"
             f" {other}; expected: rows that were measured one by one",
         )
 

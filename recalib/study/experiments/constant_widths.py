@@ -11,7 +11,7 @@ import pandas as pd
 
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.schedules import Schedule
-from recalib.study.configuration.study import LearnerSettings
+from recalib.study.configuration.study import LearnerSettings, Measuring
 from recalib.study.experiments.poses import ResultPoses, SearchPoses, Stream, train_on
 from recalib.study.experiments.settings import rules_of
 from recalib.study.scenarios.plants import Resolved
@@ -20,8 +20,8 @@ from recalib.study.scenarios.plants import Resolved
 WIDTHS = {"wide": 1.0, "narrow": 1 / 3}
 RATES = np.array([0.1, 0.2, 0.4, 0.8])
 LEFT = 0.5  # of both errors: a coarse mapping
-ITERATIONS, TESTS, SEEDS = 1000, 50, 10
-MEASURED = sorted({0, *np.geomspace(1, ITERATIONS, 60).round().astype(int).tolist()})
+ITERATIONS, SEEDS = 1000, 10
+MEASURING = Measuring(tests=50, measure_every=1, measure_evenly=1, measurements=60)
 
 
 def halved_after(
@@ -42,7 +42,7 @@ def halved_after(
     schedule = Schedule(width, dict.fromkeys(its.maps, (width, width)), rates, rates)
     learner = HierarchicalLearner(its, schedule, runs=len(rates))
     plant = resolved.plant(resolved.controller(), seed, range(len(rates)))
-    history = train_on(plant, learner, poses, MEASURED)
+    history = train_on(plant, learner, poses, MEASURING.during(poses.desired.shape[1]))
     errors = np.stack([history.position_error, history.orientation_error])
     halved = np.all(errors <= LEFT * errors[..., :1], axis=0)
     return np.where(
@@ -59,14 +59,14 @@ def constant_widths(scenario: Path, rules: LearnerSettings, seed: int) -> pd.Dat
             seed,
             range(len(trials)),
             ITERATIONS,
-            TESTS,
+            MEASURING.tests,
             number=1,
             training=f"{name} widths",
             scenario=resolved.scenario,
         )
         found = halved_after(resolved, rules, width, trials, searched, seed)
         rate = RATES[np.log(found).reshape(len(RATES), SEEDS).mean(axis=1).argmin()]
-        poses = Stream.WIDTHS.draw(seed, range(SEEDS), ITERATIONS, TESTS)
+        poses = Stream.WIDTHS.draw(seed, range(SEEDS), ITERATIONS, MEASURING.tests)
         iterations = halved_after(resolved, rules, width, np.full(SEEDS, rate), poses, seed)
         its = {"width": name, "rate": rate, "seed": range(SEEDS), "iterations": iterations}
         tables.append(pd.DataFrame(its))

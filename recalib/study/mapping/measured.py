@@ -1,14 +1,17 @@
 """What sections 3 to 5 say of the cells and of the true mapping, in one job."""
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
 
-from recalib.study.mapping.coupling import couplings
+from recalib.numerics.randomness import generator
+from recalib.study.mapping.coupling import coupling
 from recalib.study.mapping.nearness import nearness
 from recalib.study.mapping.propagation import propagation
 from recalib.study.mapping.quantisation import quantisation
-from recalib.study.mapping.solutions import in_scenarios
+from recalib.study.mapping.solutions import solutions
+from recalib.study.scenarios.plants import Resolved
 
 
 def measure(
@@ -26,9 +29,26 @@ def measure(
     `own` is the scenario with the paper's damage.
     """
     return (
-        couplings(scenarios, poses, seed),
+        _in_each(scenarios, poses, seed, "coupling", lambda *its, **_: coupling(*its)),
         nearness(own, poses, seed),
         propagation(own, balls, points, radius, scales, seed),
         quantisation(seed),
-        in_scenarios(scenarios, poses, seed),
+        _in_each(scenarios, poses, seed, "solutions", solutions),
     )
+
+
+def _in_each(
+    scenarios: Sequence[Path],
+    poses: int,
+    seed: int,
+    name: str,
+    measure: Callable[..., pd.DataFrame],
+) -> pd.DataFrame:
+    """What is measured at so many random poses of each scenario, from their files as resolved."""
+    tables = []
+    for scenario in map(Resolved.read, scenarios):
+        controller, rng = scenario.controller(), generator(seed, "study", name)
+        desired = controller.robot.workspace.sample(rng, poses)
+        table = measure(controller, scenario.arm(controller.robot), desired, random=rng)
+        tables.append(table.assign(scenario=scenario.scenario))
+    return pd.concat(tables)

@@ -30,6 +30,7 @@ def nearness(scenario: Path, poses: int, seed: int) -> pd.DataFrame:
     resolved, tables = Resolved.read(scenario), []
     controller = resolved.controller()
     robot, workspace = controller.robot, controller.robot.workspace
+    arm = resolved.arm(robot)
     for size in SIZES:
         for draw in range(DRAWS):
             desired = workspace.sample(generator(seed, "study", "nearness", draw), poses)
@@ -38,6 +39,6 @@ def nearness(scenario: Path, poses: int, seed: int) -> pd.DataFrame:
             desired, angles = desired[solution.reached], solution.angles[solution.reached]
             _, jacobians = robot.arm.forward_and_jacobian(angles)
             condition = np.linalg.cond(jacobians / workspace.half_ranges[:, None])
-            table = coupling(controller, resolved.arm(robot), desired)
+            table = coupling(controller, arm, desired)
             tables.append(table.assign(size=size, draw=draw, condition=condition))
     return pd.concat(tables).dropna()

@@ -1,16 +1,11 @@
 """How many joint angles reach a pose, and how many commands lead there (section 3)?"""
 
-from collections.abc import Sequence
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.chain import TOLERANCE
 from recalib.nominal.controller import Controller
-from recalib.numerics.randomness import generator
-from recalib.study.scenarios.plants import Resolved
 
 STARTS = 50  # of Newton's method for each pose, anywhere in joint space
 SAME = 1e-6  # rad: joint angles that differ by less are the same
@@ -21,7 +16,7 @@ def joint_solutions(
 ) -> np.ndarray:
     """All joint angles (n, joint) [rad] found for a pose (4, 4) [m] from starts (start, joint).
 
-    They are what the encoders show. Full turns do not count.
+    They are what the encoders show; those that differ by full turns count once.
 
     Args:
         within: lower and upper limits of the joints, each (joint,).
@@ -61,15 +56,3 @@ def solutions(
         reach = answers.executed[0] & are_same(answers.angles[0], angles)
         rows.append({"joint_solutions": len(angles), "commands": int(reach.sum())})
     return pd.DataFrame(rows)
-
-
-def in_scenarios(scenarios: Sequence[Path], poses: int, seed: int) -> pd.DataFrame:
-    """The same at so many random poses of each scenario, from their files as resolved."""
-    tables = []
-    for scenario in map(Resolved.read, scenarios):
-        controller = scenario.controller()
-        random = generator(seed, "study", "solutions")
-        desired = controller.robot.workspace.sample(random, poses)
-        table = solutions(controller, scenario.arm(controller.robot), desired, random)
-        tables.append(table.assign(scenario=scenario.scenario))
-    return pd.concat(tables)

@@ -29,7 +29,7 @@ CLAIM = Claim(
 
 def measure(evidence, limits):
     table = evidence.table("mapping/nearness.parquet")
-    table["coupling"] = table[["position", "orientation"]].max(axis=1)
+    table = table.assign(coupling=table[["position", "orientation"]].max(axis=1))
     own, larger = table[table["size"] == 1], table[table["size"] == limits["size"]]
     most, least = (
         its.groupby("draw")["coupling"].quantile(limits["poses"]) for its in (larger, own)
@@ -48,7 +48,8 @@ def measure(evidence, limits):
         f"The intervals hold the luck of {table['draw'].nunique()} draws of poses. Of the poses of"
         f" the larger box, {100 * len(larger) / poses:.0f} % are within reach, with condition"
         f" numbers from {larger['condition'].min():.0f} to {larger['condition'].max():.0f}; in the"
-        f" workspace the largest is {own['condition'].max():.0f}."
+        f" workspace the largest is {own['condition'].max():.0f}. Size and distance from"
+        " singularities were not varied apart."
     )
     return Finding(estimates, of_all(*map(RISES.verdict, estimates.values())), note=note)
 
@@ -64,7 +65,7 @@ REASON = Claim(
     quotation="Due to the characteristics of the workspace used (far from singularities and of"
     " small size relative to that of the robot)",
     statement="They hardly do since the workspace is small and far from singularities.",
-    short="x {number} in a box twice as long",
+    short="coupling x {number} in a box twice as long",
     limits={"size": Limit(2.0), "poses": Limit(0.95)},
     criterion="With the paper's damage, the larger of both ratios of weak-coupling rises, at"
     " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"

@@ -8,9 +8,10 @@ def measure(evidence, limits):
     table = evidence.table("mapping/solutions.parquet")
     commands = table["commands"]
     single = (commands == limits["commands"]).all()
+    angles = table["joint_solutions"]
     note = (
-        f"{len(table)} poses, each reached by {table['joint_solutions'].mean():.1f} joint solutions"
-        f" on average and by {table['joint_solutions'].max()} at most."
+        f"{len(table):,} poses, each reached by {angles.mean():.1f} joint solutions on average and"
+        f" by {angles.max()} at most."
     )
     return Finding(
         verdict=Verdict.SUPPORTED if single else Verdict.CONTRADICTED,
