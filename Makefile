@@ -13,10 +13,11 @@ RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
-# images of containers often forbid Python to keep what it compiled: each process would do it again
-PYTEST = PYTHONDONTWRITEBYTECODE= .venv/bin/python -m pytest
+PYTEST = .venv/bin/python -m pytest
 LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --no-emit-index-url \
   --python-version 3.11 --custom-compile-command "make lock"
+# images of containers often forbid Python to keep what it compiled: each job would do it again
+export PYTHONDONTWRITEBYTECODE =
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
 .PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench latency report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
