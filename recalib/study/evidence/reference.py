@@ -94,7 +94,7 @@ def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dic
         found = sign * moved.sum()
         exchanged = (random.integers(2, size=(FLIPS, len(moved))) * 2 - 1) @ moved
         p = (1 + (np.abs(exchanged) >= abs(found)).sum()) / (1 + FLIPS)
-        rows.append({"statement": WIDTHS[kind].statement, "trials": len(moved), "p": p})
+        rows.append({"claim": WIDTHS[kind].id, "trials": len(moved), "p": p})
     return rows
 
 

@@ -74,7 +74,7 @@ def test_widths_that_matter_are_told_from_an_exchange_of_them(slope):
 def test_widths_that_do_not_matter_are_not():
     rows = width_order(trials(0.0), np.random.default_rng(1))
     assert min(row["p"] for row in rows) > 0.01
-    assert len({row["statement"] for row in rows}) == 2
+    assert len({row["claim"] for row in rows}) == 2
 
 
 def test_what_one_search_would_find_has_students_prediction_interval():

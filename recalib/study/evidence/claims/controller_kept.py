@@ -24,7 +24,7 @@ CLAIM = Claim(
     limits={"difference": Limit(0.0)},
     criterion="Fed with a table of commands and measured poses instead of a robot, the learner"
     " learns bit for bit the same.",
-    reason="Then nothing else can have reached it.",
+    reason="Then it has learned from nothing else.",
     needs="mapping/replay.parquet",
     measure=measure,
 )

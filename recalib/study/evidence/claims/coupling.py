@@ -21,7 +21,7 @@ CLAIM = Claim(
     limits={"ratio": SMALL, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",
-    reason="Hardly is an order of magnitude.",
+    reason="*Hardly* is an order of magnitude.",
     across={"the mapping": Across("coupling", "off-diagonal over diagonal", Comparison(SMALL))},
     figures=("figure5",),
 )
@@ -71,8 +71,7 @@ REASON = Claim(
     " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"
     " that box it is larger, in the median, at the half of the poses with the larger condition"
     " numbers. Both whole intervals are on this side, and not within 10 %.",
-    reason="A cause is shown by varying it. The units stay those of the workspace: a larger box"
-    " changes where poses are, and nothing else.",
+    reason="Units stay those of the workspace, so a larger box changes only where poses are.",
     needs="mapping/nearness.parquet coupling_poses",
     measure=measure,
 )

@@ -31,8 +31,7 @@ CLAIM = Claim(
     limits={"left": LEFT},
     criterion="Both errors end below a {left:word} of the initial ones after {iterations}"
     " iterations.",
-    reason="The curves cannot be compared number by number; an order of magnitude is the least that"
-    " a figure would show.",
+    reason="An order of magnitude is the least that a figure would show.",
     needs="runs/{scenario}/{improved}.parquet seed iterations",
     measure=measure,
     across={"improved system": Across("remaining", "larger remaining share", Comparison(LEFT))},

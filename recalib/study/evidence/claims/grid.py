@@ -35,8 +35,7 @@ CLAIM = Claim(
     limits={"worse": Limit(1.1)},
     criterion="The quantisation error of the regular grid is below that of cells placed by"
     " Kohonen's rule, and at most {worse} times the least that k-means finds.",
-    reason="To minimise is to be at the least that is known, within a tenth. The Kohonen step is"
-    " what the paper leaves out.",
+    reason="Kohonen's rule is the step that the paper leaves out.",
     needs="mapping/quantisation.parquet",
     measure=measure,
 )

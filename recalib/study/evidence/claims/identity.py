@@ -32,8 +32,7 @@ CLAIM = Claim(
     limits={"error": ERROR},
     criterion="The improved system's errors on the intact robot stay below {error} cm and {error}"
     " degrees in every measurement.",
-    reason="Rounding and the controller's tolerance leave far less, and no instrument on a robot"
-    " sees as much.",
+    reason="Rounding and the controller's tolerance cause far smaller errors.",
     needs="runs/intact/{improved}.parquet runs/intact/{short}.parquet iterations",
     measure=measure,
     across={"improved system": Across("intact", "largest error [cm, degrees]", Comparison(ERROR))},

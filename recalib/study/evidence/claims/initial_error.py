@@ -39,8 +39,8 @@ CLAIM = Claim(
     limits={"tail": Limit(0.025)},
     criterion="Both published errors lie inside the central {tail:central} of those of all"
     " assignments of the damage on our robot.",
-    reason="The robot, the links, the encoders and the signs are not published, so only"
-    " plausibility can be tested.",
+    reason="Robot, links, encoders and signs are not published, so only plausibility can be"
+    " tested.",
     needs="assignments/{robot}.parquet published",
     measure=measure,
     figures=("figure10",),

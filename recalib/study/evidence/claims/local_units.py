@@ -12,7 +12,6 @@ CLAIM = Claim(
     short="error x {number}",
     criterion="The error of radial units that share increments of their commands over that of"
     " those that share values is below 1, both tuned.",
-    reason="Radial units without Jacobians are the smallest other kind of local unit. Increments"
-    " are the improvement that carries the paper's own system.",
+    reason="Radial units without Jacobians are the simplest other kind of local unit.",
     across={"radial units": Across("radial", "error with increments / with values")},
 )

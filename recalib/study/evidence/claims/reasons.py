@@ -64,8 +64,8 @@ def claim(kind: str, **said) -> Claim:
         criterion="The new update is better in at least {share:percent} of the balls in which the"
         " condition holds, over all scales of the damage and both starts. Better: E_upd below"
         " E_clas. The condition: f' varies less about f than about a constant, whichever constant.",
-        reason="The paper calls it easy to prove. Its integrals use the winner's own values for the"
-        " constants; the condition is free of them.",
+        reason="The paper's integrals have the winner's own values as constants; the condition does"
+        " not depend on them.",
         needs="mapping/propagation.parquet",
         measure=lambda evidence, limits: found(evidence, limits, kind),
         figures=("figure7",),

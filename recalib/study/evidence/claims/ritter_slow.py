@@ -23,9 +23,7 @@ CLAIM = Claim(
     limits={"left": LEFT},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"
     " a {left:word} of the initial ones.",
-    reason="The paper shows 200 iterations of its improvement; a learner that keeps a {left:word}"
-    " of the error there is not quick. Where a setup starts the map at random, the initial errors"
-    " are its own, and larger than those of the uncorrected arm.",
+    reason="A map that starts at random has larger initial errors than the uncorrected arm.",
     needs="runs/{scenario}/{short}.parquet iterations seed",
     measure=measure,
     across={

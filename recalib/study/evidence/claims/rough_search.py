@@ -16,7 +16,7 @@ CLAIM = Claim(
     limits={"left": LEFT},
     criterion="With the best of {rough_trials} quasi-random trials, both errors end below"
     " a {left:word} of the initial ones.",
-    reason="It is the criterion of Figure 1, whose parameters were found so.",
+    reason="Figure 1, whose parameters were found so, has the same criterion.",
     needs="rough_trials",
     across={
         "improved system": Across("remaining_rough", "larger remaining share", Comparison(LEFT))

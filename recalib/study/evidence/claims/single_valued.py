@@ -31,8 +31,7 @@ CLAIM = Claim(
     criterion="Of all joint angles found with which the damaged arm reaches a pose, the controller"
     " chooses exactly {commands:g} solution for the command that asks for it, at every pose of"
     " every scenario.",
-    reason="A learner needs an inverse with one value. The joint angles of the damaged arm are"
-    " found by Newton's method from 50 random starts for each pose.",
+    reason="For each pose, Newton's method from 50 random starts finds the joint angles.",
     needs="mapping/solutions.parquet",
     measure=measure,
 )

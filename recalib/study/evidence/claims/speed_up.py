@@ -43,9 +43,9 @@ CLAIM = Claim(
     " most."
     " Ritter's net has as many cells as both maps together; both are tuned for each number of"
     " iterations with the same effort.",
-    reason="So the paper counts neurons, and so a comparison is fair. The other eleven ways to ask"
-    " stand in the table of findings. Over the setups, both numbers of cells are in one mean, and"
-    f" it is compared with {LONG:g}: more than 10,000 iterations over 200.",
+    reason='The paper counts neurons so, and equal effort is fair. It also says "near to 2 orders'
+    ' of magnitude". The mean over the setups holds both numbers of cells and is compared with'
+    f" {LONG:g}: more than 10,000 iterations over 200.",
     needs="runs/{scenario}/{ladder}.parquet seed iterations",
     measure=measure,
     across={

@@ -106,16 +106,21 @@ def _campaign(evidence: Evidence) -> dict:
 def _said(claim: dict) -> dict:
     """A judged claim, with what its home says of it besides."""
     home = next(its for its in CLAIMS if its.id == claim["id"])
-    figures = [figure.removeprefix("figure") for figure in home.figures]
+    numbers = [figure.removeprefix("figure") for figure in home.figures]
     return claim | {
         "reason": home.reason.format(**home.limits),
-        "figures": " and ".join(f"Figure {figure}" for figure in figures),
+        "figures": f"Figure{'s' * (len(numbers) > 1)} {' and '.join(numbers)}" if numbers else "",
     }
 
 
 def _where(factors: Words, row: dict) -> dict:
     words = factors[row["factor"]]
-    return row | {"where": f"{words['asks']} {level_in_words(words, row['level'])}"}
+    answer = level_in_words(words, row["level"])
+    return row | {
+        "asks": words["asks"],
+        "answer": answer,
+        "where": f"{words['asks']} {answer}",
+    }
 
 
 def figures() -> list[str]:
@@ -153,7 +158,7 @@ def context(evidence: Evidence) -> dict:
         "widths": width_order(sample, evidence.rng("exchange of widths")),
         "once": spread_of_luck(reference, ONCE),
         "replicates": len(reference),
-        "first_campaign": evidence.table(COUNTED).to_dict("records"),
+        "held": evidence.table(COUNTED).set_index("what")["holds"].to_dict(),
         "iterations": evidence.facts["iterations"],
         "ritter_iterations": ritter.max(),
         "figures": figures(),

@@ -112,20 +112,18 @@ def of_others(claim: Mapping) -> list[str]:
 
 def over_setups(its: Mapping) -> str:
     """Mean, heterogeneity and luck over the alternative setups."""
-    if its["status"] != "measured":
-        return its["status"]
     low, high = map(short, its["another_setup"])
     text = (
-        f"mean {ranged(its['mean'], its['mean_interval'])},"
+        f"{ranged(its['mean'], its['mean_interval'])};"
         f" heterogeneity {ranged(its['heterogeneity'], its['heterogeneity_interval'])},"
-        f" luck {ranged(its['luck'], its['luck_interval'])}; prediction for another setup:"
-        f" {low if low == high else f'{low} to {high}'}"
+        f" luck {short(its['luck'])},"
+        f" another setup {low if low == high else f'{low} to {high}'}"
     )
     if its["setups_left_out"]:
-        text += f"; known in {its['setups']} of {its['setups'] + its['setups_left_out']} setups"
+        text += f"; known in {its['setups']} of {its['setups'] + its['setups_left_out']}"
     if "holds" in its:
         text += (
-            f"; holds in {its['holds']} of {its['setups']} setups"
+            f"; holds in {its['holds']} of {its['setups']}"
             f" ({its['holds_by_luck_alone']:.1f} expected from luck alone)"
         )
     return text
@@ -137,15 +135,13 @@ def level_in_words(words: Mapping[str, str], level: object) -> str:
 
 
 def depends(factors: Words, its: Mapping) -> str:
-    """The choice that moves a claim's number most, and by how much; empty where none is known."""
-    if its["status"] != "measured":
-        return ""
+    """The choice that moves a claim's number most, and by how much; empty if not beyond chance."""
     its = its["depends_on"]
     if its["effect"] <= its["chance"]:
-        return "No choice has an effect beyond chance."
+        return ""
     words, effect = factors[its["factor"]], ranged(its["effect"], its["interval"])
     least, largest = (level_in_words(words, its[key]) for key in ("from", "to"))
-    return f"Largest effect: {effect} where {words['asks']} {largest}, compared with {least}."
+    return f" Largest effect: {effect} where {words['asks']} {largest}, not {least}."
 
 
 def amounts(entry: Mapping) -> str:
