@@ -34,7 +34,8 @@ CLAIM = Claim(
     limits={"deviation": Limit(0.05), "errors": Limit(3.0), "away": Limit(3.0)},
     criterion="Monte Carlo agrees within {deviation:percent} and {errors:word} of its standard"
     " errors for all cells at least {away} sigma from the border.",
-    reason="Three sigma hold 99.7 % of a Gaussian. The formula is equation (10).",
+    reason="No schedule would show a deviation below {deviation:percent}. Three sigma hold 99.7 %"
+    " of a Gaussian. The formula is equation (10).",
     needs="mapping/visits.parquet",
     measure=measure,
     figures=("figure8",),

@@ -23,7 +23,8 @@ CLAIM = Claim(
     limits={"left": LEFT},
     criterion="After {iterations} iterations, tuned for them, both errors are still above"
     " a {left:word} of the initial ones.",
-    reason="A map that starts at random has larger initial errors than the uncorrected arm.",
+    reason="A learner that keeps a {left:word} of the error is not quick. A map that"
+    " starts at random has larger initial errors than the uncorrected arm.",
     needs="runs/{scenario}/{short}.parquet iterations seed",
     measure=measure,
     across={
