@@ -40,7 +40,7 @@ class Commands:
     """What to send.
 
     Attributes:
-        joints: (n, joints) rad, or m where a joint slides, in which the controller has to believe.
+        joints: (n, joints) rad, or m where a joint slides, that the controller has to assume.
         poses: (n, 4, 4) m, which its nominal kinematics give them in the base: the fake poses.
         beyond: (n, joints) whether a joint leaves the range that was learned from.
         turned: (n,) rad, how far from a desired rotation an arm of fewer than six joints stays.

@@ -39,7 +39,7 @@ class Measurements:
 
     Attributes:
         count: n, how many there are.
-        coordinates: (n, joints) rad, or m where a joint slides, in which the controller believed.
+        coordinates: (n, joints) rad, or m where a joint slides, that the controller reported.
         positions: (n, 3) m of a target in the instrument's frame; None where there are none.
         rotations: (n, 3, 3) of the target in the instrument's frame; None likewise.
         nominal: (n, 3) m, where the positions should have been; None likewise.
