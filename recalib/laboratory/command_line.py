@@ -104,7 +104,7 @@ def _correct(given: argparse.Namespace) -> int:
     in_instrument = given.frame == "instrument"
     desired = read_desired(given.desired, correction.arm, in_instrument)
     commands = correct(correction, desired, in_instrument)
-    write_postures(given.out, correction.arm, commands.joints, commands.poses)
+    write_postures(given.out, correction.arm, commands.joints, commands.poses, fake=True)
     ends = unidentifiable_ends(correction)
     if ends and not in_instrument:
         _warn(

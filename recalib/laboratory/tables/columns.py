@@ -22,6 +22,7 @@ _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
 POSE = "x [mm]", "y [mm]", "z [mm]", "rx [deg]", "ry [deg]", "rz [deg]"  # as we write poses
+MARK = "_fake"  # of the columns of poses that are commands
 FARTHEST = {  # that an arm could reach, and that a clock could show
     ANGLE: (4 * np.pi, "720 deg"),
     LENGTH: (10.0, "10 m"),

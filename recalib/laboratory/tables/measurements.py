@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting, UnsuitableRobot
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.laboratory.tables.columns import NUMBER, Table, read_table, table_of
+from recalib.laboratory.tables.columns import MARK, NUMBER, Table, read_table, table_of
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
@@ -110,13 +110,15 @@ def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = Fals
     Args:
         in_instrument: the poses or positions are those of targets in the instrument's frame.
 
-    Raises InvalidFile as `read_measurements` does, but one row is enough; and where a column says
-    nothing of what is desired.
+    Raises InvalidFile as `read_measurements` does, but one row is enough; where a column says
+    nothing of what is desired; and where rows are commands, which are corrected already.
     """
     _check_names(arm)
     table = read_table(path)
     if TARGET in table and not in_instrument:
         raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
+    if f"x{MARK}" in table:
+        raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
     desired = [name for group in DESIRED for name in group]
     table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE])
     read = _read(table, arm)
