@@ -120,7 +120,7 @@ def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = Fals
     if f"x{MARK}" in table:
         raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
     desired = [name for group in DESIRED for name in group]
-    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE])
+    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE], _moved_by(arm))
     read = _read(table, arm)
     if read.coordinates is None and read.positions is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
@@ -169,7 +169,7 @@ def _check_names(arm: Arm) -> None:
 
 def _read(table: Table, arm: Arm) -> Measurements:
     path = table.path
-    table.check_columns([*arm.joints, *MEASURED])
+    table.check_columns([*arm.joints, *MEASURED], _moved_by(arm))
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -239,8 +239,13 @@ def _columns(arm: Arm) -> str:
     return ", ".join(f"{joint} [{units[kind]}]" for joint, kind in pairs)
 
 
+def _moved_by(arm: Arm) -> str:
+    """Why others than these joints have no columns, as where an inner link is taken for the tool."""
+    return f" ({arm.tool} is moved by {listed(arm.joints, 'and')})"
+
+
 def _lacking(arm: Arm, joint: str) -> str:
-    return f"the column of joint {joint!r} is missing; expected: {_columns(arm)}"
+    return f"the column of joint {joint!r} is missing; {arm.tool} is moved by {_columns(arm)}"
 
 
 def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
