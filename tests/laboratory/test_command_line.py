@@ -112,12 +112,14 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
 
 
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
-    columns = {"swing [deg]": [0, 100], "lift [deg]": [-40, -40], "elbow [deg]": [63, 63]}
+    columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
-    assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
+    assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in told
+    beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", told).groups()
+    assert float(low) > -52 and float(beyond) == pytest.approx(100 - float(high), abs=3)
 
 
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):

@@ -240,7 +240,7 @@ def _columns(arm: Arm) -> str:
 
 
 def _moved_by(arm: Arm) -> str:
-    """Why others than these joints have no columns, as where an inner link is taken for the tool."""
+    """Why other joints have no columns, as where the tool is an inner link."""
     return f" ({arm.tool} is moved by {listed(arm.joints, 'and')})"
 
 
