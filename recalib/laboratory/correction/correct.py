@@ -84,18 +84,17 @@ def beyond_measured(correction: Correction, commands: Commands) -> str | None:
     rows = np.flatnonzero(commands.beyond.any(axis=1))
     if not len(rows):
         return None
-    arm, (low, high) = (
-        correction.arm,
-        (correction.learned.min(axis=0), correction.learned.max(axis=0)),
-    )
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     parts = commands.beyond / np.maximum(high - low, STILL)
     row, joint = np.unravel_index(parts.argmax(), parts.shape)
-    scale, unit = (1e3, "mm") if arm.slides[joint] else (180 / np.pi, "deg")
-    names = listed(np.array(arm.joints)[commands.beyond.any(axis=0)], "and")
+    scale, unit = (1e3, "mm") if correction.arm.slides[joint] else (180 / np.pi, "deg")
+    low, high, far = (scale * its[joint] for its in (low, high, commands.beyond[row]))
+    joints = correction.arm.joints
+    names = listed(np.array(joints)[commands.beyond.any(axis=0)], "and")
     return (
-        f"{len(rows)} of {len(commands.beyond)} commands leave the measured range of {names}; the farthest is"
-        f" row {row + 1}, with {arm.joints[joint]} {scale * commands.beyond[row, joint]:.3g} {unit}"
-        f" beyond {scale * low[joint]:.4g} to {scale * high[joint]:.4g} {unit}"
+        f"{len(rows)} of {len(commands.beyond)} commands leave the measured range of {names}; the"
+        f" farthest is row {row + 1}, with {joints[joint]} {far:.3g} {unit} beyond {low:.4g} to"
+        f" {high:.4g} {unit}"
     )
 
 
