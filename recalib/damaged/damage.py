@@ -44,7 +44,7 @@ class DamagedArm:
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
         Args:
-            angles: (n, joint) rad in which the controller believes.
+            angles: (n, joint) rad that the controller assumes.
         """
         return self.chain.forward(self.standing(angles)[None])[0]
 
@@ -62,7 +62,7 @@ class DamagedArm:
         matter.
 
         Args:
-            angles: (n, joint) rad in which the controller believes.
+            angles: (n, joint) rad that the controller assumes.
         """
         shifted = angles + self.offsets
         if not self.deflections:

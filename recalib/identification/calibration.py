@@ -49,7 +49,7 @@ class Calibration:
         Where a frame was unknown, the arm's own base or tool is nominal.
 
         Args:
-            joints: (n, joints) rad, m in which the controller believes.
+            joints: (n, joints) rad, m that the controller assumes.
         """
         return self._moved(self._arm.forward(self._standing(joints)), joints)
 
@@ -65,7 +65,7 @@ class Calibration:
         """Poses (n, 4, 4) of targets in the frame of the instrument [m]: what it should measure.
 
         Args:
-            joints: (n, joints) rad, m in which the controller believes.
+            joints: (n, joints) rad, m that the controller assumes.
             targets: (n,) the numbers of the sights; the first unless given.
         """
         poses = self.model.predict(self.estimate.parameters, joints, targets)
@@ -199,7 +199,7 @@ def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
 def angles_for(
     calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
 ) -> np.ndarray:
-    """Joint coordinates (run, n, joints) [rad, m] to believe in for the arm to reach poses.
+    """Joint coordinates (run, n, joints) [rad, m] to send for the arm to reach poses.
 
     By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
     the best angles that were met.

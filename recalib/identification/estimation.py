@@ -34,7 +34,7 @@ DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pat
 SPARSITY = 0.05
 # The common scale of all parameters is held by this many more, as large as the model expects.
 COMMON = 20.0
-# The noise of position and of orientation are believed to be alike, as by so many measurements.
+# The noise of position and of orientation are assumed to be alike, as by so many measurements.
 SHARED = 10.0
 MEDIAN = chdtri(3, 0.5)  # of the squared length of a residual whose components are normal
 FIRST_NOISE = 1e-4  # m, rad

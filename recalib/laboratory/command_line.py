@@ -96,7 +96,11 @@ def _calibrate(given: argparse.Namespace) -> int:
 def _correct(given: argparse.Namespace) -> int:
     import numpy as np
 
-    from recalib.laboratory.correction.correct import correct, unidentifiable_ends
+    from recalib.laboratory.correction.correct import (
+        beyond_measured,
+        correct,
+        unidentifiable_ends,
+    )
     from recalib.laboratory.report.files import read_correction, write_postures
     from recalib.laboratory.tables.measurements import read_desired
 
@@ -104,7 +108,7 @@ def _correct(given: argparse.Namespace) -> int:
     in_instrument = given.frame == "instrument"
     desired = read_desired(given.desired, correction.arm, in_instrument)
     commands = correct(correction, desired, in_instrument)
-    write_postures(given.out, correction.arm, commands.joints, commands.poses)
+    write_postures(given.out, correction.arm, commands.joints, commands.poses, fake=True)
     ends = unidentifiable_ends(correction)
     if ends and not in_instrument:
         _warn(
@@ -118,13 +122,8 @@ def _correct(given: argparse.Namespace) -> int:
             f"an arm of {len(correction.arm.joints)} joints reaches positions; rotations stay up to"
             f" {turned.max():.2g} deg from those desired, the most in row {turned.argmax() + 1}"
         )
-    rows = np.flatnonzero(commands.beyond.any(axis=1))
-    if len(rows):
-        names = np.array(correction.arm.joints)[commands.beyond.any(axis=0)]
-        _warn(
-            f"{len(rows)} of {len(commands.joints)} commands, first in row {rows[0] + 1}, leave the"
-            f" measured range: {', '.join(names)}"
-        )
+    if beyond := beyond_measured(correction, commands):
+        _warn(beyond)
     print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
     return DONE

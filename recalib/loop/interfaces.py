@@ -106,5 +106,5 @@ class ForwardKinematics(Protocol):
         """Poses (n, 4, 4) of the tool in the base frame [m].
 
         Args:
-            angles: (n, joint) rad in which the controller believes.
+            angles: (n, joint) rad that the controller assumes.
         """

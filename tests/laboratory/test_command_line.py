@@ -71,7 +71,7 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     sent = read(out)
     commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
     assert np.allclose(commanded, joints, atol=1e-6)
-    fake = 1e-3 * np.array([sent[f"{axis} [mm]"] for axis in "xyz"]).T
+    fake = 1e-3 * np.array([sent[f"{axis}_fake [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
     told = capsys.readouterr()
     assert "leave the measured range" not in told.err
@@ -79,6 +79,10 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
         f"10 commands in {out}: joint coordinates, and the poses that\n"
         "the nominal kinematics give them, of link_4 in base\n"
     )
+
+    again = folder / "twice.csv"
+    assert main(["correct", str(calibrated), str(out), f"--out={again}"]) == REFUSED
+    assert "its commands are corrected already; expected: des" in capsys.readouterr().err
 
 
 def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
@@ -108,12 +112,14 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
 
 
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
-    columns = {"swing [deg]": [0, 100], "lift [deg]": [-40, -40], "elbow [deg]": [63, 63]}
+    columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
-    assert "1 of 2 commands, first in row 2, leave the measured range: swing" in told
+    assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in told
+    beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", told).groups()
+    assert float(low) > -52 and float(beyond) == pytest.approx(100 - float(high), abs=3)
 
 
 def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, capsys):

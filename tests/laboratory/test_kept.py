@@ -210,7 +210,9 @@ def test_corrections_and_proposals_are_as_kept(name, made, tmp_path, data_regres
     proposals = *proposals, propose(correction, 2, positions)
     found = {
         "unidentifiable": unidentifiable_ends(correction),
-        "commands": [[coarse(one.joints, 3), coarse(one.poses, 3), one.beyond] for one in commands],
+        "commands": [
+            [coarse(one.joints, 3), coarse(one.poses, 3), one.beyond > 0] for one in commands
+        ],
         "solved": [coarse(part, 3) for part in solve(correction, positions)[::2]],
         "proposals": [
             [coarse(one.joints, 3), coarse(one.uncertainty, 2), one.worthwhile] for one in proposals

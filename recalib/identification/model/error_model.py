@@ -220,7 +220,7 @@ class ErrorModel:
 
         Args:
             parameters: (P,) of the model.
-            joints: (n, joints) rad, m in which the controller believes.
+            joints: (n, joints) rad, m that the controller assumes.
             terms: (n, term, joints) theirs.
         """
         return joints + np.einsum("ntj,tj->nj", terms, self._coefficients(parameters))
@@ -232,7 +232,7 @@ class ErrorModel:
 
         Args:
             parameters: (P,) of the model.
-            joints: (n, joints) rad, m in which the controller believes.
+            joints: (n, joints) rad, m that the controller assumes.
             targets: (n,) the numbers of the sights; the first unless given.
         """
         standing = self.standing(parameters, joints, self.terms(joints))

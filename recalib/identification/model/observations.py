@@ -28,7 +28,7 @@ class Observations:
     """What was measured of an arm.
 
     Attributes:
-        joints: (n, joints) rad, or m where a joint slides, in which the controller believed.
+        joints: (n, joints) rad, or m where a joint slides, that the controller reported.
         measured: poses (n, 4, 4) or positions (n, 3) [m] of a target in the instrument's frame;
             None where a ball sat in sockets.
         targets: (n,) the number of the target, or of the ball; 0 unless given. Where there are

@@ -15,10 +15,11 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.correction.archive import Correction
-from recalib.laboratory.tables.measurements import Measurements
+from recalib.laboratory.tables.measurements import STILL, Measurements
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.poses import orientation_error, position_error
+from recalib.spelling import listed
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
@@ -40,9 +41,10 @@ class Commands:
     """What to send.
 
     Attributes:
-        joints: (n, joints) rad, or m where a joint slides, in which the controller has to believe.
+        joints: (n, joints) rad, or m where a joint slides, that the controller has to assume.
         poses: (n, 4, 4) m, which its nominal kinematics give them in the base: the fake poses.
-        beyond: (n, joints) whether a joint leaves the range that was learned from.
+        beyond: (n, joints) rad, or m where a joint slides, by how much it leaves the range that was
+            learned from; zero up to a twentieth of that range.
         turned: (n,) rad, how far from a desired rotation an arm of fewer than six joints stays.
     """
 
@@ -72,9 +74,28 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
         targets = _targets(correction, desired) if in_instrument else None
         turned = orientation_error(_poses(correction.calibration, found, targets), goals)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
-    margin = MARGIN * (high - low)
-    beyond = (found < low - margin) | (found > high + margin)
+    outside = np.maximum(low - found, found - high)
+    beyond = np.where(outside > MARGIN * (high - low), outside, 0.0)
     return Commands(found, correction.arm.forward(found), beyond, turned)
+
+
+def beyond_measured(correction: Correction, commands: Commands) -> str | None:
+    """The commands that leave the range that was learned from, and the farthest, in words."""
+    rows = np.flatnonzero(commands.beyond.any(axis=1))
+    if not len(rows):
+        return None
+    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    parts = commands.beyond / np.maximum(high - low, STILL)
+    row, joint = np.unravel_index(parts.argmax(), parts.shape)
+    scale, unit = (1e3, "mm") if correction.arm.slides[joint] else (180 / np.pi, "deg")
+    low, high, far = (scale * its[joint] for its in (low, high, commands.beyond[row]))
+    joints = correction.arm.joints
+    names = listed(np.array(joints)[commands.beyond.any(axis=0)], "and")
+    return (
+        f"{len(rows)} of {len(commands.beyond)} commands leave the measured range of {names}; the"
+        f" farthest is row {row + 1}, with {joints[joint]} {far:.3g} {unit} beyond {low:.4g} to"
+        f" {high:.4g} {unit}"
+    )
 
 
 def reach(correction: Correction, desired: Measurements, in_instrument: bool) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""A live calibration in the Rerun viewer: the arm, what is believed of it, the predicted error."""
+"""A live calibration in the Rerun viewer: the arm, what is estimated of it, the predicted error."""
 
 from pathlib import Path
 

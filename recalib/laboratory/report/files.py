@@ -19,7 +19,7 @@ from recalib.laboratory.correction.archive import Correction, load_correction
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.parameters import described
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
-from recalib.laboratory.tables.columns import POSE, write_table
+from recalib.laboratory.tables.columns import MARK, POSE, write_table
 from recalib.nominal.kinematics import Arm
 
 CORRECTION, HAND_EYE = "correction.npz", "hand_eye.toml"
@@ -83,19 +83,28 @@ def read_correction(calibration: Path) -> Correction:
     return load_correction(calibration if calibration.is_file() else calibration / CORRECTION)
 
 
-def write_postures(path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray) -> None:
+def write_postures(
+    path: Path, arm: Arm, joints: np.ndarray, poses: np.ndarray, fake: bool = False
+) -> None:
     """Write joint coordinates (n, joints) and poses (n, 4, 4) in the columns that we read.
+
+    Args:
+        fake: the poses are commands, in columns that `read_desired` refuses: they would be
+            corrected twice.
 
     Raises InvalidFile where something is there already, or nothing can be put there.
     """
     scales = [1e3 if slides else 180 / np.pi for slides in arm.slides]
     units = ["mm" if slides else "deg" for slides in arm.slides]
     names = [f"{joint} [{unit}]" for joint, unit in zip(arm.joints, units, strict=True)]
+    headings = [*names, *POSE]
+    if fake:
+        headings = [*names, *(heading.replace(" ", f"{MARK} ") for heading in POSE)]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
     numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
     texts = ([f"{number:.9f}" for number in row] for row in numbers)
     with new(path) as made:
-        write_table(made, (dict(zip([*names, *POSE], row, strict=True)) for row in texts))
+        write_table(made, (dict(zip(headings, row, strict=True)) for row in texts))
 
 
 def _write_calibration(folder: Path, result: Calibrated) -> None:

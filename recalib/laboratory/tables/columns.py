@@ -22,6 +22,7 @@ _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
 POSE = "x [mm]", "y [mm]", "z [mm]", "rx [deg]", "ry [deg]", "rz [deg]"  # as we write poses
+MARK = "_fake"  # of the columns of poses that are commands
 FARTHEST = {  # that an arm could reach, and that a clock could show
     ANGLE: (4 * np.pi, "720 deg"),
     LENGTH: (10.0, "10 m"),
@@ -92,11 +93,12 @@ class Table:
             place = f"row {row + 1} of column {self.headings[column]!r}"
             raise InvalidFile(self.path, f"{place} is {found}; {valid}")
 
-    def check_columns(self, valid: Collection[str]) -> None:
-        """Raise InvalidFile where a column is not among the valid ones."""
+    def check_columns(self, valid: Collection[str], note: str = "") -> None:
+        """Raise InvalidFile where a column is not among the valid ones; a note says why it is."""
         for column in self.cells:
             if column not in valid:
-                raise InvalidFile(self.path, f"unknown column {column!r}; {instead(column, valid)}")
+                unknown = f"unknown column {column!r}{note}"
+                raise InvalidFile(self.path, f"{unknown}; {instead(column, valid)}")
 
 
 def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:

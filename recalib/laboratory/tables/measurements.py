@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting, UnsuitableRobot
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.laboratory.tables.columns import NUMBER, Table, read_table, table_of
+from recalib.laboratory.tables.columns import MARK, NUMBER, Table, read_table, table_of
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
@@ -39,7 +39,7 @@ class Measurements:
 
     Attributes:
         count: n, how many there are.
-        coordinates: (n, joints) rad, or m where a joint slides, in which the controller believed.
+        coordinates: (n, joints) rad, or m where a joint slides, that the controller reported.
         positions: (n, 3) m of a target in the instrument's frame; None where there are none.
         rotations: (n, 3, 3) of the target in the instrument's frame; None likewise.
         nominal: (n, 3) m, where the positions should have been; None likewise.
@@ -110,15 +110,17 @@ def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = Fals
     Args:
         in_instrument: the poses or positions are those of targets in the instrument's frame.
 
-    Raises InvalidFile as `read_measurements` does, but one row is enough; and where a column says
-    nothing of what is desired.
+    Raises InvalidFile as `read_measurements` does, but one row is enough; where a column says
+    nothing of what is desired; and where rows are commands, which are corrected already.
     """
     _check_names(arm)
     table = read_table(path)
     if TARGET in table and not in_instrument:
         raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
+    if f"x{MARK}" in table:
+        raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
     desired = [name for group in DESIRED for name in group]
-    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE])
+    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE], _moved_by(arm))
     read = _read(table, arm)
     if read.coordinates is None and read.positions is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
@@ -167,7 +169,7 @@ def _check_names(arm: Arm) -> None:
 
 def _read(table: Table, arm: Arm) -> Measurements:
     path = table.path
-    table.check_columns([*arm.joints, *MEASURED])
+    table.check_columns([*arm.joints, *MEASURED], _moved_by(arm))
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
@@ -237,8 +239,13 @@ def _columns(arm: Arm) -> str:
     return ", ".join(f"{joint} [{units[kind]}]" for joint, kind in pairs)
 
 
+def _moved_by(arm: Arm) -> str:
+    """Why other joints have no columns, as where the tool is an inner link."""
+    return f" ({arm.tool} is moved by {listed(arm.joints, 'and')})"
+
+
 def _lacking(arm: Arm, joint: str) -> str:
-    return f"the column of joint {joint!r} is missing; expected: {_columns(arm)}"
+    return f"the column of joint {joint!r} is missing; {arm.tool} is moved by {_columns(arm)}"
 
 
 def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:

@@ -69,7 +69,7 @@ def _log_marker(scene: Scene, entity: str, marker: Marker, visuals: dict[str, li
 
 
 def _log_base(scene: Scene, base: pin.SE3) -> None:
-    """Where the base is believed to stand, and where it stands."""
+    """Where the controller assumes the base, and where it stands."""
     unit = unit_of(scene.workspace)
     for name, placement, colour in (
         ("believed", pin.SE3.Identity(), BELIEVED),

@@ -5,7 +5,7 @@
     /<learner>/<robot>             the meshes of the real arm that this learner moves
     /<learner>/links               where its links are
     /<learner>/believed            the arm that its controller assumes, as a skeleton
-    /<learner>/wrong               where the arm is not what its controller believes
+    /<learner>/wrong               where the arm is not what its controller assumes
     /<learner>/target              the pose that the arm is sent to, and a caption
     /<learner>/achieved            where the real arm lands
     /<learner>/miss                lines to there from the desired positions

@@ -84,7 +84,7 @@ class Plant {
     this.offsets = damage.slice(links.length);
   }
 
-  // Angles at which the joints stand, of those in which the controller believes.
+  // Angles at which the joints stand, of those that the controller assumes.
   standing(angles) {
     return angles.map((angle, j) => angle + this.offsets[j]);
   }
@@ -94,7 +94,7 @@ class Plant {
     return this.arm.forward(this.standing(angles ?? this.controller.home));
   }
 
-  // Joint angles to believe in that take this very arm to a pose, if it is known.
+  // Joint angles to send that take this very arm to a pose, if it is known.
   anglesFor(pose, near) {
     const standing = this.arm.inverse(pose, this.standing(near));
     return this.controller.within(standing?.map((angle, j) => angle - this.offsets[j]) ?? null);
