@@ -48,15 +48,20 @@ class Chain(NamedTuple):
         return cls(*map(np.concatenate, zip(*chains, strict=True)))
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (arm, posture, 4, 4) of the tools [m] at joint angles (arm, posture, n) [rad]."""
+        """Poses (arm, posture, 4, 4) of the tools [m] at joint angles (arm, posture, n) [rad].
+
+        Raises ValueError: angles of other arms or joints.
+        """
+        self._check(angles, len(self.slides))
         return _forward(self, angles)
 
     def jacobians(self, angles: np.ndarray) -> np.ndarray:
         """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad].
 
         From joint velocities to linear [m/s] and angular [rad/s] velocity of the tool along the
-        base's axes.
+        base's axes. Raises ValueError: angles of other joints.
         """
+        self._check(angles)
         return _jacobians(self, angles)
 
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -70,9 +75,21 @@ class Chain(NamedTuple):
             start: (posture, n) rad nearby.
 
         Returns the angles and the error of each (posture,), the largest number of its residual
-        in m and rad: above TOLERANCE, the pose was not reached.
+        in m and rad: above TOLERANCE, the pose was not reached. It is infinite where the pose or
+        the start holds nan.
+
+        Raises ValueError: angles of other joints, or not one start for each pose.
         """
-        return _solve(self, poses, start)
+        self._check(start)
+        if poses.shape != (len(start), 4, 4):
+            raise ValueError(f"poses are {poses.shape}; expected: ({len(start)}, 4, 4)")
+        return _solve(self, poses, start.astype(float))
+
+    def _check(self, angles: np.ndarray, *arms: int) -> None:
+        """Raise ValueError unless angles are (*arms, posture, n): compiled loops do not look."""
+        expected = *arms, np.atleast_2d(angles).shape[-2], self.slides.shape[1]
+        if angles.shape != expected:
+            raise ValueError(f"joint angles are {angles.shape}; expected: {expected}")
 
 
 @compiled
@@ -179,7 +196,7 @@ def _solve(chain: Chain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarr
             if largest < error[index]:
                 _copy(angles, found[index])
                 error[index] = largest
-            if error[index] <= TOLERANCE:
+            if error[index] <= TOLERANCE or np.isnan(largest):
                 break
             _move(chain, reached, origins, directions, jacobian)
             if joints == 6:
@@ -255,6 +272,8 @@ def _longest(vector: np.ndarray) -> float:
     for number in vector:
         if not abs(number) <= longest:
             longest = abs(number)
+            if np.isnan(longest):
+                break
     return longest
 
 

@@ -119,7 +119,8 @@ class Arm:
             placements.append(regressor)
         reached, tools = np.array(poses), np.zeros((len(angles), 6, 6))
         tools[:, :3, :3] = tools[:, 3:, 3:] = reached[:, :3, :3]
-        return reached, np.array(joints), np.concatenate([np.array(placements), tools], axis=-1)
+        by_joint = np.array(joints).reshape(len(angles), 6, self.model.nv)  # of one joint, too
+        return reached, by_joint, np.concatenate([np.array(placements), tools], axis=-1)
 
     def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
         """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""

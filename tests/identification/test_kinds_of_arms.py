@@ -10,6 +10,8 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import JOINT_ERRORS, NO_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD
 from recalib.identification.model.observations import Distance, Observations
+from recalib.identification.validation import BLOCKWISE, GEOMETRIC, validate
+from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from tests.arms import GANTRY, SCARA, urdf
 from tests.identification.real import Real, aligned, geometry_of
 
@@ -28,6 +30,17 @@ def test_joints_that_slide_are_identified(text, what, load):
     nominal = identify(ErrorModel(arm, NO_ERRORS, model.frames), observations)
     after, before = (real.error(partial(model.predict, its.parameters)) for its in (found, nominal))
     assert after < 4e-4 and before > 3 * after
+
+
+@pytest.mark.parametrize("slides", [False, True], ids=["turns", "slides"])
+def test_an_arm_of_one_joint_is_calibrated(slides):
+    arm = arm_of_table([Row("only", a=0.5, slides=slides)])
+    rng = np.random.default_rng(0)
+    joints = rng.uniform(-1, 1, (40, 1))
+    measured = arm.forward(joints + 0.02)[:, :3, 3] + rng.normal(0, 1e-4, (40, 3))
+    found = validate(arm, Observations(joints, measured))
+    assert found.chosen == GEOMETRIC
+    assert found.mean_error(BLOCKWISE, GEOMETRIC) < 3e-4
 
 
 def test_what_a_joint_or_an_arm_cannot_have_is_held_at_zero(load):

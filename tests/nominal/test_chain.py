@@ -72,3 +72,37 @@ def test_a_posture_does_not_depend_on_those_beside_it(arms):
             alone = chain.solve(poses[[index]], angles[[index]] + 0.1)
             for whole, part in zip(solved, alone, strict=True):
                 assert np.array_equal(whole[[index]], part)
+
+
+def test_angles_of_other_arms_or_joints_are_refused(arms):
+    # compiled loops would read beyond the arrays
+    _, chain = arms[0]
+    poses, start = chain.forward(np.zeros((1, 2, 6)))[0], np.zeros((2, 6))
+    for wrong in ((1, 2, 5), (1, 2, 7), (2, 2, 6), (2, 6)):
+        with pytest.raises(ValueError, match=r"expected: \(1, 2, 6\)"):
+            chain.forward(np.zeros(wrong))
+    for ask in (chain.jacobians, lambda angles: chain.solve(poses, angles)):
+        for wrong in ((2, 7), (6,)):
+            with pytest.raises(ValueError, match=r"expected: \([12], 6\)"):
+                ask(np.zeros(wrong))
+    with pytest.raises(ValueError, match=r"expected: \(2, 4, 4\)"):
+        chain.solve(poses[:1], start)
+
+
+def test_a_start_of_whole_numbers_does_not_round_what_is_found(arms):
+    _, chain = arms[0]
+    angles = np.array([[0.1, -1.2, 1.3, 0.4, 0.5, 0.6]])
+    poses, start = chain.forward(angles[None])[0], np.array([[0, -1, 1, 0, 0, 1]])
+    found, errors = chain.solve(poses, start)
+    np.testing.assert_array_equal(found, chain.solve(poses, start.astype(float))[0])
+    np.testing.assert_allclose(chain.forward(found[None])[0], poses, rtol=0, atol=1e-9)
+    assert start.dtype == int
+    assert errors.max() < 1e-9
+
+
+def test_a_pose_or_a_start_that_is_no_number_is_not_reached(arms):
+    _, chain = arms[0]
+    start = np.array([[0.1, -1.2, 1.3, 0.4, 0.5, 0.6]] * 3)
+    poses = chain.forward(start[None])[0]
+    poses[0, 0, 3] = start[1, 2] = np.nan  # all other numbers of the first residual are zero
+    np.testing.assert_array_equal(chain.solve(poses, start)[1] < 1e-9, [False, False, True])

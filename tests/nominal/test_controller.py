@@ -40,6 +40,12 @@ def test_a_command_gives_the_same_angles_whatever_comes_before_and_beside_it(som
     assert np.array_equal(alone[0, 0], together[1, 7])
 
 
+def test_a_command_that_is_no_number_is_refused_alone(some):
+    commands = np.zeros((1, 3, 6))
+    commands[0, 0], commands[0, 1, 2] = np.nan, np.nan  # as of a learner that diverges
+    np.testing.assert_array_equal(some.targets(commands).executed, [[False, False, True]])
+
+
 def test_neighbouring_commands_stay_on_the_branch_of_home(some):
     path = np.linspace(-1, 1, 401)[:, None] * np.array([1, -1, 1, -1, 1, -1])
     angles = some.targets(path[None]).angles[0]

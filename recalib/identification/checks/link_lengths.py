@@ -25,6 +25,6 @@ def link_lengths(nominal: Arm, identified: Arm) -> tuple[np.ndarray, np.ndarray]
     for link, placement in enumerate(placements[1]):
         columns[link, :, link] = -free[link]
         columns[link, :, link + 1] = placement.rotation @ free[link + 1]
-    slopes = columns.reshape(found.size, -1)
+    slopes = columns.reshape(found.size, 3 * len(free))
     moves = slopes @ np.linalg.lstsq(slopes, (right - found).ravel(), rcond=PARALLEL)[0]
     return np.linalg.norm(right, axis=1), np.linalg.norm(found + moves.reshape(-1, 3), axis=1)
