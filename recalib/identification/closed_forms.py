@@ -102,11 +102,12 @@ def _placed(
     turned = turn @ tool[:, :3, :3]
     goal = observations.positions - tool[:, :3, 3] @ turn.T
     system = _by_number(turned, observations.targets)
-    if known is None:
-        unit = np.tile(np.eye(3), (len(observations), 1, 1))
-        found = _least_squares(np.concatenate([unit, system], axis=-1), goal).reshape(-1, 3)
-        base, points = np.eye(4), found[1:]
-        base[:3, :3], base[:3, 3] = turn, found[0]
+    if known is None:  # what the instrument and the targets explain alike is the instrument's
+        alike, middle = system.mean(axis=0), goal.mean(axis=0)
+        points = _smallest(system - alike, goal - middle)
+        base = np.eye(4)
+        base[:3, :3], base[:3, 3] = turn, middle - alike @ points
+        points = points.reshape(-1, 3)
     else:
         base, points = known, _least_squares(system, goal - known[:3, 3]).reshape(-1, 3)
     targets = np.tile(np.eye(4), (len(points), 1, 1))
@@ -162,3 +163,10 @@ def _by_number(blocks: np.ndarray, numbers: np.ndarray) -> np.ndarray:
 def _least_squares(system: np.ndarray, goal: np.ndarray) -> np.ndarray:
     """The smallest solution (m,) of a system (n, 3, m) for a goal (n, 3)."""
     return np.linalg.lstsq(system.reshape(goal.size, -1), goal.ravel(), rcond=OPEN)[0]
+
+
+def _smallest(turned: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    """The same where the system is of rotations, about their mean: it may be zero altogether."""
+    left, values, right = np.linalg.svd(turned.reshape(goal.size, -1), full_matrices=False)
+    told = values > OPEN * np.sqrt(2 * len(goal))
+    return right[told].T @ (left[:, told].T @ goal.ravel() / values[told])

@@ -11,7 +11,7 @@ from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.observations import Observations
 from recalib.nominal.arms import load_arm
-from tests.arms import SCARA
+from tests.arms import GANTRY, SCARA
 from tests.identification.real import ARMS, Real, geometry_of
 
 
@@ -32,12 +32,19 @@ def test_instrument_and_target_may_be_anywhere_whatever_a_few_outliers_say(posit
 
 @pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
 def test_an_arm_that_turns_its_tool_about_one_axis_is_placed(load, positions):
-    """How high it stands and where the target sits are one: neither goes far for nothing."""
+    """How high it stands and where the target sits are one: the target is at the tool link."""
     real = Real(nominal := load(SCARA), 7)
     geometry = geometry_of(nominal, observations := real.observe(30, positions))
     assert real.error(geometry.predict) < 5e-4
     target = initial_frames(nominal, observations).targets[0, :3, 3]
-    assert np.abs(target - real.targets[0, :3, 3]).max() < 1.2
+    assert np.abs(target - [*real.targets[0, :2, 3], 0.0]).max() < 0.03
+
+
+@pytest.mark.parametrize("positions", [False, True], ids=["poses", "positions"])
+def test_of_an_arm_that_never_turns_its_tool_the_target_is_at_the_tool_link(load, positions):
+    real = Real(nominal := load(GANTRY), 7)
+    frames = initial_frames(nominal, real.observe(30, positions))
+    assert np.abs(frames.targets[0, :3, 3]).max() < 0.03
 
 
 def test_a_target_that_is_rare_among_many_rows_is_placed_too(panda):

@@ -14,6 +14,7 @@ from recalib.laboratory.report.parameters import described
 from recalib.laboratory.report.summary import summary
 from recalib.laboratory.tables.knowledge import WrongKnowledge
 from recalib.laboratory.tables.measurements import Measurements
+from tests.arms import SCARA
 from tests.laboratory.conftest import (
     NOISE,
     OFFSETS,
@@ -21,6 +22,7 @@ from tests.laboratory.conftest import (
     in_degrees,
     in_millimetres,
     postures,
+    to_instrument,
     true_positions,
     write,
 )
@@ -140,6 +142,20 @@ def test_a_range_beyond_the_limits_of_the_urdf_is_told(folder, calibrated):
     told = summary(calibrate_arm(narrow, folder / "measurements.csv"))
     assert re.search(r"swing was .*, beyond its limits in the URDF, -114.6 to 0.0\n", told)
     assert told.count("beyond its limits") == 1
+
+
+def test_how_high_a_scara_stands_is_told_to_be_unknown(load, tmp_path):
+    (tmp_path / "scara.urdf").write_text(SCARA)
+    arm, random = load(SCARA), np.random.default_rng(4)
+    joints = random.uniform([-1, 0.3, 0, -2], [1, 1.8, 0.3, 2], (30, 4))
+    positions = arm.forward(joints + np.array([0.01, 0.02, 0.003, -0.02]))[:, :3, 3]
+    columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
+    columns["quill [m]"] = columns.pop("quill [rad]")
+    write(tmp_path / "seen.csv", columns | in_millimetres(to_instrument(positions)))
+    result = calibrate_arm(tmp_path / "scara.urdf", tmp_path / "seen.csv")
+    told = "not identifiable from any posture: shift z of target or shift z of base; try: describe"
+    assert f"{told} [target]\n" in summary(result)
+    assert abs(result.places[1].pose[2, 3]) < 0.01
 
 
 def test_a_distance_of_another_scale_is_doubted(in_sockets):

@@ -53,6 +53,7 @@ def changed(joints: np.ndarray, column: int, value) -> np.ndarray:
     return other
 
 
+MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 MISTAKES = {
     "a sign": (lambda q, p: (changed(q, 2, np.negative), p), "the sign of elbow_joint"),
     "a zero": (
@@ -109,14 +110,35 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
     [
         (lambda poses: np.linalg.inv(poses), "poses of the instrument in the target's frame"),
         (lambda poses: with_turns(poses, poses.swapaxes(1, 2)), "rotations of something else"),
+        (lambda poses: with_turns(MIRROR @ poses, poses), "positions of which an axis points"),
     ],
-    ids=["inverse", "transposed"],
+    ids=["inverse", "transposed", "mirrored"],
 )
 def test_so_are_poses_of_something_else(spoil, words, arm):
     real = Real(arm, 2)
     joints = real.postures(40)
     with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
         checked_frames(arm, Observations(joints, spoil(real.poses(joints))))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [
+        (lambda q: q[:, [0, 1, 2, 4, 3, 5]], "the columns of wrist_1_joint and wrist_2_joint exch"),
+        (lambda q: changed(q, 5, np.negative), "the sign of wrist_3_joint"),
+        (
+            lambda q: changed(q, 0, np.negative),
+            "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by -180 deg",
+        ),
+    ],
+    ids=["exchanged", "the last sign", "the first sign"],
+)
+def test_of_poses_joints_are_blamed_that_hardly_move_positions(spoil, words, arm):
+    """With them, positions alone are explained: that looks as if the rotations were wrong."""
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
+        checked_frames(arm, Observations(spoil(joints), real.poses(joints)))
 
 
 def with_turns(poses: np.ndarray, others: np.ndarray) -> np.ndarray:

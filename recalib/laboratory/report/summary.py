@@ -144,14 +144,15 @@ def _notes(result: Calibrated) -> Iterator[str]:
         f"95 % of positions should lie within {1e3 * result.validation.radius:.3g} mm, also in"
         f" places away from those measured (held out: {covered:.0f} %)"
     )
-    lasting: list[str] = []
-    passing: list[str] = []
-    for words, other_postures_tell in unidentifiable_directions(result):
-        (passing if other_postures_tell else lasting).append(words)
+    directions = unidentifiable_directions(result)
+    passing = [words for words, other_postures_tell in directions if other_postures_tell]
     for words in passing[:MOST]:
         yield f"identifiable from other postures: {words}"
-    for words in lasting:
-        if words.startswith("offset"):
+    lasting = [one for one in zip(result.unidentifiable, directions, strict=True) if one[0].lasting]
+    for one, (words, _) in lasting:
+        if result.geometry.model.free[one.parameter]:  # instrument and target make up for it
+            yield f"not identifiable from any posture: {words}; try: describe [target]"
+        elif words.startswith("offset"):
             yield f"not identifiable from any posture: {words}"
     yield f"parameters not identifiable from such measurements, kept small: {len(lasting)}"
     limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit

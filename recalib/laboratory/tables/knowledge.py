@@ -80,18 +80,25 @@ def _mistake(arm: Arm, observations: Observations) -> str | None:
     measured = observations.measured
     if measured is None or observations.targets.any():
         return None
-    if observations.kinds == 2:
-        others = {
-            "rotations of something else, or a quaternion in another order: positions alone are"
-            " explained": observations.positions,
+    if observations.kinds == 1:
+        return likely_mistake(arm, observations.joints, measured, FARTHEST, most_steps=1)
+    with suppress(NoInitialEstimate):
+        initial_frames(arm, replace(observations, measured=np.linalg.inv(measured)))
+        return (
             "poses of the instrument in the target's frame; expected: of the target in the"
-            " instrument's": np.linalg.inv(measured),
-        }
-        for words, other in others.items():
-            with suppress(NoInitialEstimate):
-                initial_frames(arm, replace(observations, measured=other))
-                return words
-    return likely_mistake(arm, observations.joints, observations.positions, FARTHEST, most_steps=1)
+            " instrument's"
+        )
+    # what explains whole poses is likelier than what explains their positions alone
+    for its in (measured, observations.positions):
+        if mistake := likely_mistake(arm, observations.joints, its, FARTHEST, most_steps=1):
+            return mistake
+    with suppress(NoInitialEstimate):
+        initial_frames(arm, replace(observations, measured=observations.positions))
+        return (
+            "rotations of something else, or a quaternion in another order: positions alone are"
+            " explained"
+        )
+    return None
 
 
 def frames_by_sights(

@@ -15,8 +15,10 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import RecalibError
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.frames import Frames
+from recalib.identification.model.linearisation import LEVER, displacements
 from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
+from recalib.spelling import listed
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
 EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
@@ -28,6 +30,7 @@ UNITS = {  # of positions that are wrong, by what makes them right
     1e2: "in metres that say cm",
     1e3: "in metres that say mm",
 }
+SAME = 1e-6  # a difference of such parts by which mistakes cannot be told apart
 ENOUGH = 40  # rows to try mistakes on
 QUARTERS = 90, -90, 180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
@@ -90,7 +93,7 @@ def check_nominal(
 def likely_mistake(
     arm: Arm,
     coordinates: np.ndarray,
-    positions: np.ndarray,
+    measured: np.ndarray,
     alike: float = ALIKE,
     most_steps: int = 2,
 ) -> str | None:
@@ -101,30 +104,33 @@ def likely_mistake(
 
     Args:
         coordinates: (n, joints) rad, or m where a joint slides.
-        positions: (n, 3) m, of a point somewhere on the tool, from somewhere.
-        alike: m that the mistake may leave.
+        measured: (n, 3) m, positions of a point somewhere on the tool, from somewhere; or poses
+            (n, 4, 4), whose rotations are right.
+        alike: m that the mistake may leave; a turn counts by `LEVER`.
         most_steps: mistakes at once.
 
     Returns it in words; None where nothing explains it.
     """
-    rows = np.unique(np.linspace(0, len(positions) - 1, ENOUGH).astype(int))
-    coordinates, nominal = coordinates[rows], positions[rows]
-    plain = _rms(_fit(arm.forward(coordinates), nominal)[1])
+    rows = np.unique(np.linspace(0, len(measured) - 1, ENOUGH).astype(int))
+    coordinates, measured = coordinates[rows], measured[rows]
+    plain = _rms(_fit(arm.forward(coordinates), measured)[1])
     steps = list(_steps(arm))
     for count in range(1, most_steps + 1):
         fits = []
         for chosen in combinations(steps, count):
-            joints, positions = coordinates, nominal
+            joints, righted = coordinates, measured.copy()
+            positions = righted if measured.ndim == 2 else righted[:, :3, 3]
             for _, of_joints, of_positions in chosen:
-                joints, positions = of_joints(joints), of_positions(positions)
-            _, gaps = _fit(arm.forward(joints), positions)
+                joints, positions[:] = of_joints(joints), of_positions(positions)
+            _, gaps = _fit(arm.forward(joints), righted)
             spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
             words = " and ".join(name for name, *_ in chosen)
             part = _rms(gaps) / spread if spread > 0 else np.inf
             fits.append((part, _rms(gaps), gaps.max(), words))
-        part, rms, largest, words = min(fits)
+        part, rms, largest, _ = min(fits)
         if largest <= alike and part < EXPLAINED and rms < EXPLAINED * plain:
-            return words
+            # as the sign of a joint and a half turn of the next one, behind a base of any turn
+            return listed([words for its, *_, words in fits if its <= part + SAME], "or")
     return None
 
 
@@ -156,8 +162,10 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
 def _gaps(
     poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, target: np.ndarray
 ) -> np.ndarray:
-    """Distances (n,) [m] between nominal positions and where frames (4, 4) put the target."""
-    return np.linalg.norm((base @ poses @ target)[:, :3, 3] - nominal, axis=1)
+    """Distances (n,) [m] from nominal positions or poses to where frames (4, 4) put the target."""
+    residuals = displacements(base @ poses @ target, nominal)
+    residuals[:, 3:] *= LEVER
+    return np.linalg.norm(residuals, axis=1)
 
 
 def _rms(gaps: np.ndarray) -> float:
@@ -170,7 +178,7 @@ def _fit(
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> tuple[Frames, np.ndarray]:
-    """The frames that explain nominal positions best, as far as unknown, and the gaps (n,) [m]."""
+    """The frames, as far as unknown, that explain positions or poses best, and gaps (n,) [m]."""
     rows = Observations(np.empty((len(nominal), 0)), nominal)
     fits = [
         (frames, _gaps(poses, nominal, frames.base, frames.targets[0]))
