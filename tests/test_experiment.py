@@ -3,6 +3,7 @@ import pandas as pd
 import pytest
 
 from recalib.damaged.plant import Plant
+from recalib.errors import InvalidSetting
 from recalib.loop.interfaces import Outcome
 from recalib.loop.training import SUMMARIES, corrected, train
 from recalib.nominal.poses import position_error
@@ -116,3 +117,13 @@ def test_progress_tells_the_means_over_all_runs(history, controller, damaged, po
     assert [its[0] for its in seen] == [0, 8]
     assert [its[1] for its in seen] == pytest.approx(100 * means[0])
     assert [its[2] for its in seen] == pytest.approx(np.degrees(means[1].mean(axis=0)))
+
+
+def test_each_measurement_that_is_asked_for_is_made_once_or_refused(controller, damaged, poses):
+    desired, tests = poses[0][:, :4], poses[1]
+    history = train(Plant(controller, damaged), improved(3), desired, tests, iter([4, 0, 4]))
+    assert history.iterations.tolist() == [0, 4]
+    assert history.position.shape == (3, 2, len(SUMMARIES))
+    for wrong in ([0, 5], [-1, 4], []):
+        with pytest.raises(InvalidSetting, match="measure_at .*expected: numbers from 0 to 4"):
+            train(Plant(controller, damaged), improved(3), desired, tests, wrong)

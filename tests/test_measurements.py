@@ -170,8 +170,11 @@ def spoilt(values, bad):
         (lambda q, p: (spoilt(q, np.nan), p), r"joint angles of measurement 7 .*12\.6 \(rad\)"),
         (lambda q, p: (q, spoilt(p, np.nan)), r"measurement 7 .*10 \(m in the base frame\)"),
         (lambda q, p: (q, 1e3 * p[:, :3, 3]), r"measurement 0 .*10 \(m in the base frame\)"),
+        (lambda q, p: (q, p.swapaxes(1, 2)), r"measurement 0 .*a rotation and a position, above"),
+        (lambda q, p: (q, p @ np.diag([-1, 1, 1, 1])), r"measurement 0 .*a rotation"),
+        (lambda q, p: (q, p @ np.diag([1.02] * 3 + [1])), r"measurement 0 .*a rotation"),
     ],
-    ids=["NaN", "no pose", "mm"],
+    ids=["NaN", "no pose", "mm", "transposed", "mirrored", "scaled"],
 )
 def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
     with pytest.raises(BadMeasurement, match=said):

@@ -60,7 +60,7 @@ class Disturbances:
     def of_joints(
         self, generators: Sequence[np.random.Generator], shape: tuple[int, int]
     ) -> np.ndarray:
-        """By how much each joint misses its angle, (run, *shape) rad.
+        """By how much each joint misses its angle, (run, *shape) rad. It means nothing of slides.
 
         Args:
             generators: one for each run.

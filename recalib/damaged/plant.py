@@ -54,6 +54,7 @@ class Plant:
             poses, executed = self.achieve_targets(targets)
         else:
             stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1:])
+            stops[..., self._controller.robot.arm.slides] = 0  # an angle is no length
             poses, executed = self.achieve_targets(targets._replace(angles=targets.angles + stops))
             poses = self._disturbances.measure(self._generators, poses)
         self.moves += executed.shape[1]

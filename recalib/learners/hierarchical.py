@@ -110,7 +110,7 @@ class HierarchicalLearner:
         """For each run theta and Jacobian of each map, as `HierarchicalMap` describes them."""
         return [
             {
-                name: {"theta": net.theta.all[run], "jacobian": net.jacobian.all[run]}
+                name: {"theta": net.theta.all[run].copy(), "jacobian": net.jacobian.all[run].copy()}
                 for name, net in self.maps.items()
             }
             for run in self._runs

@@ -72,7 +72,7 @@ class PolynomialLearner(Observer):
     def state(self) -> list[State]:
         """For each run the coefficients (F, 6) and their spread (F, F)."""
         return [
-            {"coefficients": coefficients, "spread": spread}
+            {"coefficients": coefficients.copy(), "spread": spread.copy()}
             for coefficients, spread in zip(self._coefficients, self._spread, strict=True)
         ]
 

@@ -66,7 +66,7 @@ class Savable(Learner, Protocol):
         """What it was made with, in the types of JSON; a list, `by_run`, of what runs differ in."""
 
     def state(self) -> list[State]:
-        """What each run has learned: enough to go on from there."""
+        """What each run has learned: enough to go on from there, whatever is learned later."""
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned, in a learner made with the same settings."""

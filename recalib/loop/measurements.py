@@ -17,6 +17,7 @@ OUTSIDE = 5.0
 WRAPPED = 2.0
 MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so close together
 SKEW = 0.01  # of a rotation matrix, as instruments round it
+POSE = "a rotation and a position, above a row of 0, 0, 0, 1"
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
 
 
@@ -78,8 +79,8 @@ def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:
         valid = "a matrix (4, 4)"
     elif not np.isfinite(measured).all():
         valid = "numbers"
-    elif not _is_rotation(measured) or not np.array_equal(measured[3], [0, 0, 0, 1]):
-        valid = "a rotation and a position, above a row of 0, 0, 0, 1"
+    elif not are_poses(measured):
+        valid = POSE
     elif np.linalg.norm(measured[:3, 3] - expected[:3, 3]) > FARTHEST:
         valid = f"m in the base frame, at most {FARTHEST:g} m from the workspace's centre"
     else:
@@ -87,6 +88,9 @@ def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:
     raise BadMeasurement("the robot", np.ravel(measured), valid)
 
 
-def _is_rotation(pose: np.ndarray) -> bool:
-    turn = pose[:3, :3]
-    return bool(np.abs(turn @ turn.T - np.eye(3)).max() < SKEW and np.linalg.det(turn) > 0)
+def are_poses(matrices: np.ndarray) -> np.ndarray:
+    """Whether matrices (..., 4, 4) are poses, (...): none is transposed, mirrored or scaled."""
+    turns = matrices[..., :3, :3]
+    skew = np.abs(turns @ turns.swapaxes(-2, -1) - np.eye(3)).max(axis=(-2, -1))
+    ends = (matrices[..., 3, :] == [0, 0, 0, 1]).all(axis=-1)
+    return ends & (skew < SKEW) & (np.linalg.det(turns) > 0)

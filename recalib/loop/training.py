@@ -3,12 +3,13 @@
 Afterwards its commands are `corrected`.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
 
+from recalib.errors import InvalidSetting
 from recalib.loop.interfaces import Commandable, Learner
 from recalib.nominal.poses import Workspace, pose_errors
 
@@ -92,7 +93,7 @@ def train(
     learner: Learner,
     desired: np.ndarray,
     tests: np.ndarray,
-    measure_at: Sequence[int],
+    measure_at: Iterable[int],
     progress: Callable[[int, float, float], None] = lambda *_: None,
     error: str = "norm",
 ) -> History:
@@ -103,19 +104,23 @@ def train(
         learner: that drives them.
         desired: (run, iteration, 6) poses to learn from; for one robot, (iteration, 6).
         tests: (run, pose, 6) poses to measure on; for one robot, (pose, 6).
-        measure_at: numbers of iterations after which learning is interrupted for a measurement; 0
-            is before the first.
+        measure_at: numbers of iterations after which learning is interrupted for a measurement, in
+            any order; 0 is before the first.
         progress: called after each measurement with the iteration and the mean errors over runs in
             cm and degrees.
         error: of a pose; see `recalib.nominal.poses.pose_errors`.
+
+    Raises InvalidSetting: a measurement after more iterations than there are, or none at all.
     """
     if desired.ndim == 2:
         poses = desired[None], tests[None]
         return train(plant, learner, *poses, measure_at, progress, error).of_run(0)
-    iterations = desired.shape[1]
+    iterations, times = desired.shape[1], sorted({*measure_at})
+    if not times or not 0 <= times[0] <= times[-1] <= iterations:
+        raise InvalidSetting("measure_at", times, f"numbers from 0 to {iterations}, at least one")
     position, orientation, moves, refused = [], [], [], []
     for iteration in range(iterations + 1):
-        if iteration in measure_at:
+        if iteration in times:
             errors = measure(plant, learner, tests, error)
             position.append(errors[0])
             orientation.append(errors[1])
@@ -125,7 +130,7 @@ def train(
         if iteration < iterations:
             learner.learn(desired[:, iteration], plant.execute, iteration / iterations)
     by_run = (np.stack(measured, axis=1) for measured in (refused, position, orientation))
-    return History(np.array(sorted(measure_at)), np.array(moves), *by_run)
+    return History(np.array(times), np.array(moves), *by_run)
 
 
 def corrected(learner: Learner, workspace: Workspace, poses: np.ndarray) -> np.ndarray:

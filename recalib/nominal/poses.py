@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from recalib.errors import UnknownName
+from recalib.errors import InvalidSetting, UnknownName
 from recalib.numerics.compiled import compiled
 
 COORDINATES = "roll_pitch_yaw", "rotation_vector"  # of orientations
@@ -30,7 +30,7 @@ class Workspace:
             angles in rad.
         coordinates: of orientations: roll_pitch_yaw or rotation_vector.
 
-    Raises UnknownName.
+    Raises UnknownName, and InvalidSetting where orientations in it have several coordinates.
     """
 
     centre: np.ndarray
@@ -40,6 +40,15 @@ class Workspace:
     def __post_init__(self) -> None:
         if self.coordinates not in COORDINATES:
             raise UnknownName("coordinates of orientations", self.coordinates, COORDINATES)
+        roll, pitch, yaw = turns = np.abs(self.half_ranges[ORIENTATION])
+        if self._vectors:
+            unique, most = np.linalg.norm(turns) < np.pi, "a diagonal below 180 deg"
+        else:
+            unique = pitch < np.pi / 2 and max(roll, yaw) < np.pi
+            most = "a pitch below 90 deg, roll and yaw below 180 deg"
+        if not unique:  # other coordinates would come back than were commanded
+            found = [round(turn, 3) for turn in np.degrees(turns).tolist()]
+            raise InvalidSetting("half_ranges of orientation", found, most)
 
     def to_poses(self, coordinates: np.ndarray) -> np.ndarray:
         """Poses (..., 4, 4) at the coordinates (..., 6)."""

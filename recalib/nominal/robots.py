@@ -104,7 +104,7 @@ def load_robot(
 
     Raises UnknownName (URDF, tool link, joint, coordinates), UnsuitableRobot (see `load_arm`), and
     InvalidSetting (a joint without a home, a home beyond a joint's limits, a workspace without
-    size).
+    size, or with orientations of several coordinates).
     """
     path, limits = find_urdf(urdf), limits or {}
     arm = load_arm(path, tool)

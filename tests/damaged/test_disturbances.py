@@ -5,7 +5,10 @@ from scipy.spatial.transform import Rotation
 from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
 from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
+from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error
+from recalib.nominal.robots import load_robot
+from tests.arms import RAILED
 
 
 def generators(*seeds) -> list[np.random.Generator]:
@@ -64,6 +67,25 @@ def test_a_plant_stops_beside_its_poses_by_what_its_joints_do(controller, damage
     expected = damaged.forward(angles.reshape(-1, 6)).reshape(*commands.shape[:2], 4, 4)
     there = controller.robot.workspace.to_coordinates(expected)
     np.testing.assert_allclose(outcome.achieved, there, rtol=0, atol=1e-12)
+
+
+def test_a_joint_that_slides_does_not_miss_its_place_by_an_angle(tmp_path, commands):
+    path = tmp_path / "railed.urdf"
+    path.write_text(RAILED)
+    joints = "rail", "pan", "lift", "elbow", "bend", "twist", "turn"
+    home = dict(zip(joints, [0.1, 0.0, -0.8, 1.4, 0.5, 0.3, 0.2], strict=True))
+    controller = Controller(load_robot(path, "link_7", home, [0.05] * 3, [0.1] * 3), np.inf)
+    stops = []
+
+    class Arm:
+        def forward(self, angles):
+            stops.append(angles)
+            return controller.robot.arm.forward(angles)
+
+    plant = Plant(controller, Arm(), Disturbances(repeatability=Repeatability(1e-3)), generators(7))
+    plant.execute(commands[:1])
+    missed = stops[-1] - controller.targets(commands[:1]).angles[0]
+    assert missed.std(axis=0) == pytest.approx([0, *[1e-3] * 6], rel=0.4)
 
 
 def test_executing_is_disturbed_and_measuring_is_not(controller, damaged, commands):

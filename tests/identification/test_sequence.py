@@ -1,9 +1,15 @@
 """A lag, a drift and a jump are named, on paths and in random orders; clean arms are left alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from recalib.identification.calibration import calibrate
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, faults
+from recalib.identification.model.error_model import OFFSETS
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.optics import Optics
 from tests.identification.honesty import ROWS, Session, with_targets
 from tests.identification.real import Real, geometry_of
 
@@ -55,6 +61,20 @@ def test_what_several_targets_of_a_posture_share_is_no_fault(ur10):
     """Gears that no model holds move all targets of a posture: rows of it are one."""
     seen = with_targets(Real(ur10, 2, targets=3, gears=np.radians(0.03)), 40)
     geometry = geometry_of(ur10, seen)
+    assert faults(geometry, seen, geometry.estimate.weights > 0.1) == []
+
+
+@pytest.mark.parametrize("by_cameras", [True, False], ids=["a single picture", "a stopped clock"])
+def test_where_no_time_passes_nothing_is_late_and_nothing_drifts(by_cameras, ur10):
+    seen = Real(ur10, 1).observe(30, False)
+    seen = replace(seen, times=np.zeros(30))
+    if by_cameras:
+        each = np.tile(np.eye(6), (30, 1, 1))
+        optics = Optics(1e-8 * each, each[..., :0], each[:, :0, :0], each[:, 0, :0], each)
+        second = np.arange(30) == 29
+        seen = replace(seen, targets=second.astype(int), optics=optics, times=None)
+    frames = Frames(targets=np.tile(np.eye(4), (2, 1, 1)))
+    geometry = calibrate(ur10, (OFFSETS,), seen, frames)
     assert faults(geometry, seen, geometry.estimate.weights > 0.1) == []
 
 

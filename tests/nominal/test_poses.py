@@ -1,3 +1,5 @@
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -5,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import UnknownName
+from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.poses import (
     COORDINATES,
     Workspace,
@@ -73,6 +75,28 @@ def test_the_centre_has_zero_coordinates_and_the_axes_are_those_documented():
 def test_unknown_coordinates_are_refused_with_the_known_ones():
     with pytest.raises(UnknownName, match="expected: roll_pitch_yaw or rotation_vector"):
         Workspace(CENTRE, HALF_RANGES, "quaternion")
+
+
+@pytest.mark.parametrize(
+    ("numbers", "turns", "most"),
+    [
+        ("roll_pitch_yaw", [10, 90, 10], "a pitch below 90 deg"),
+        ("roll_pitch_yaw", [180, 10, 10], "roll and yaw below 180 deg"),
+        ("rotation_vector", [105, 105, 105], "a diagonal below 180 deg"),
+    ],
+)
+def test_a_workspace_in_which_orientations_have_several_coordinates_is_refused(
+    numbers, turns, most
+):
+    def box(turns):
+        return Workspace(CENTRE, np.array([0.1, 0.1, 0.1, *np.radians(turns)]), numbers)
+
+    with pytest.raises(InvalidSetting, match=f"half_ranges of orientation is .*{most}"):
+        box(turns)
+    workspace = box(0.98 * np.array(turns))
+    corners = np.array([*product((-1, 1), repeat=6)], dtype=float)
+    again = workspace.to_coordinates(workspace.to_poses(corners))
+    np.testing.assert_allclose(again, corners, rtol=0, atol=1e-9)
 
 
 @given(vectors, vectors, st.floats(0.001, 3.1))

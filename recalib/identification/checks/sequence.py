@@ -139,10 +139,12 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_
     known = slice(3 * observations.kinds)  # the rotation of a point is not measured
     moved = observations.whitened(_moved(poses, instruments)[:, known])
     slipped = observations.whitened(_slipped(poses)[:, known, known])
-    passed = np.empty(len(observations))
+    passed = np.zeros(len(observations))
     for number in np.unique(observations.series):
         rows = np.flatnonzero(observations.series == number)
         its, clock = observations[rows], times[rows]
+        if clock[0] == clock[-1]:  # a camera that took one picture: nothing is late or drifts
+            continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
         yield _Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
         yield _Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])

@@ -5,7 +5,7 @@ import numpy as np
 from recalib.errors import BadMeasurement
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.observations import Observations
-from recalib.loop.measurements import FARTHEST
+from recalib.loop.measurements import FARTHEST, POSE, are_poses
 
 TURNED = 4 * np.pi  # rad either way: beyond what joints do, or not in radians
 
@@ -41,6 +41,11 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
             row = wrong.argmax()
             valid = f"numbers up to {most:.3g} ({unit})"
             raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
+    if observations.measured is not None and observations.kinds == 2:
+        proper = are_poses(observations.measured)
+        if not proper.all():
+            row = proper.argmin()
+            raise BadMeasurement(f"measurement {row}", np.ravel(observations.measured[row]), POSE)
     for what, numbers, most in (
         ("target", observations.targets, len(model.frames.sights)),
         ("socket", observations.sockets, len(model.frames.sockets)),
