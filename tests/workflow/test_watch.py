@@ -93,7 +93,7 @@ def test_the_page_says_in_words_what_was_recorded_and_shows_a_picture(one_record
     with served(one_recorded) as address, urlopen(address) as answer:
         page = answer.read().decode()
     for part in (
-        ">on and stone on the z1</a>",
+        ">on and stone on the Z1</a>",
         "<small>wrist 1: 1 cm short; wrist 3: encoder 3 deg</small>",
         '<img src="results/figures/on_stone-z1_before.png"',
         '<a href="results/report.html">The report of this study</a>',

@@ -3,6 +3,7 @@
 import pytest
 
 from recalib.study.evidence.pages import report
+from recalib.study.evidence.pages.words import one
 from recalib.study.plots.registry import FIGURES, drawn
 from tests.conftest import ROOT
 from tests.synthetic import unread
@@ -43,6 +44,8 @@ def test_tables_hold_what_the_results_say(known, figures, synthetic):
     assert "5 cm, -5 cm, 4.3 cm" in damages
     assert "matplotlib" in report.page("versions", known, figures)
     claims = report.page("claims", known, figures)
+    shown = [one(claim, label) for claim in known["claims"] for label in claim["measured"]]
+    assert all(f"{number}</span>" in claims for number in shown)
     supported = [each["verdict"] for each in known["claims"]].count("supported")
     assert f"{supported} supported" in claims.replace("\n", " ")
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from recalib.files.storage import whole
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.pages.words import one, ranged
 from recalib.study.evidence.results import Evidence
 
 if TYPE_CHECKING:
@@ -95,13 +96,15 @@ def layout() -> "Environment":
     """Where the texts of the pages lie."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-    return Environment(
+    texts = Environment(
         loader=FileSystemLoader(TEXTS),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    texts.globals |= {"one": one, "ranged": ranged}  # digits as on all pages
+    return texts
 
 
 def page(name: str, known: dict, figures: dict[str, str]) -> str:
