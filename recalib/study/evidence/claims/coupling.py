@@ -17,7 +17,7 @@ CLAIM = Claim(
     quotation="changes in position coordinates influence very slowly the orientation commands, and"
     " the same can be said about orientation coordinates with respect to position commands",
     statement="Positions hardly influence orientation commands, nor the reverse.",
-    short="at 95 % of poses, at most {percent} of their own coordinates' effect",
+    short="cross effect at most {percent} of the direct one, at 95 % of poses",
     limits={"ratio": SMALL, "poses": Limit(0.95)},
     criterion="At {poses:percent} of the poses of every scenario, the off-diagonal blocks of the"
     " true mapping's Jacobian have at most a {ratio:word} of the norm of the diagonal ones.",
@@ -65,7 +65,7 @@ REASON = Claim(
     quotation="Due to the characteristics of the workspace used (far from singularities and of"
     " small size relative to that of the robot)",
     statement="They hardly do since the workspace is small and far from singularities.",
-    short="coupling x {number} in a box twice as long",
+    short="cross effect x {number} in a box twice as long",
     limits={"size": Limit(2.0), "poses": Limit(0.95)},
     criterion="With the paper's damage, the larger of both ratios of weak-coupling rises, at"
     " {poses:percent} of the poses, in a box {size:word} as long along each axis of positions. In"
