@@ -45,6 +45,7 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
     said = _campaign(evidence)
     assert (said["setups"], said["replicates"], said["factors"], said["homes"]) == (2, 2, 2, 5)
     assert said["smallest_effect"] == pytest.approx(0.1)
+    assert said["found_among"] == {"heterogeneity": 0.3, "share": 0.49}
     assert said["smallest_heterogeneity"] == 0.2 and said["none"]["found"] == 0.03
     assert _campaign(SimpleNamespace(setups=lambda table: None)) == {}
 

@@ -90,6 +90,8 @@ def _campaign(evidence: Evidence) -> dict:
     design, power = evidence.table(shipped.DESIGN), evidence.table(shipped.POWER)
     none = power[(power["effect"] == 1) & (power["heterogeneity"] == 0)].iloc[0]
     found = power[power["heterogeneity"] == 0].set_index("effect")["supported"]
+    smallest = found[found >= ENOUGH].index.max()
+    among = power[power["effect"] == smallest].set_index("heterogeneity")["supported"]
     own = power[power["effect"] == 1].set_index("heterogeneity")["found"]
     return {
         "setups": outcomes["universe"].nunique(),
@@ -98,7 +100,8 @@ def _campaign(evidence: Evidence) -> dict:
         "homes": design["homes_refused"].sum(),
         "power": power.to_dict("records"),
         "none": none,
-        "smallest_effect": 1 - found[found >= ENOUGH].index.max(),
+        "smallest_effect": 1 - smallest,
+        "found_among": {"heterogeneity": among.index.max(), "share": among[among.index.max()]},
         "smallest_heterogeneity": own[own >= ENOUGH].index.min(),
     }
 
