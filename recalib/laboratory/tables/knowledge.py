@@ -82,22 +82,13 @@ def _mistake(arm: Arm, observations: Observations) -> str | None:
         return None
     if observations.kinds == 1:
         return likely_mistake(arm, observations.joints, measured, FARTHEST, most_steps=1)
-    with suppress(NoInitialEstimate):
-        initial_frames(arm, replace(observations, measured=np.linalg.inv(measured)))
-        return (
-            "poses of the instrument in the target's frame; expected: of the target in the"
-            " instrument's"
-        )
     # what explains whole poses is likelier than what explains their positions alone
     for its in (measured, observations.positions):
         if mistake := likely_mistake(arm, observations.joints, its, FARTHEST, most_steps=1):
             return mistake
     with suppress(NoInitialEstimate):
         initial_frames(arm, replace(observations, measured=observations.positions))
-        return (
-            "rotations of something else, or a quaternion in another order: positions alone are"
-            " explained"
-        )
+        return "rotations of something else, or written otherwise: positions alone are explained"
     return None
 
 
