@@ -26,7 +26,7 @@ from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.places import INSTRUMENT, Place, found_places
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.fault_words import in_words
-from recalib.laboratory.tables.knowledge import check_distances, frames_by_sights
+from recalib.laboratory.tables.knowledge import check_distances, frames_by_sights, mistake_in
 from recalib.laboratory.tables.measurements import OBSERVED, read_measurements
 from recalib.laboratory.tables.nominal_checks import check_nominal
 from recalib.laboratory.tables.observations import observations_of
@@ -52,6 +52,7 @@ class Calibrated:
         instruments: their names, in the order of their numbers.
         scales: of boards, of distances between sockets or of all positions, by links as long as the
             URDF has them.
+        mistake: what is likely wrong with the rows, in words; see `mistake_in`.
     """
 
     urdf: Path
@@ -66,6 +67,7 @@ class Calibrated:
     validation: Validation
     instruments: tuple[str, ...] = INSTRUMENT
     scales: Mapping[str, Scale] = field(default_factory=dict)
+    mistake: str | None = None
 
     @property
     def arm(self) -> Arm:
@@ -233,11 +235,13 @@ def calibrate_arm(
         pairs = [(sockets[one], sockets[other]) for one, other, *_ in observations.distances]
         scaled = tuple(f"the distance between {one} and {other}" for one, other in pairs)
     check_distances(arm, observations, frames, sockets)
+    mistake = mistake_in(arm, observations)
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
         session = observations, frames, tables, instruments, _ends(targets, observations)
         reasons = [in_words(fault, *session) for fault in error.faults]
+        reasons += [f"likely: {mistake}"] if mistake else []
         ranges = rows_of(observations, names) if len(tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     return Calibrated(
@@ -253,6 +257,7 @@ def calibrate_arm(
         validation,
         instruments,
         dict(zip(scaled, scales(arm, observations[validation.counted], frames), strict=True)),
+        mistake,
     )
 
 

@@ -1,10 +1,12 @@
 """What makes a calibration doubtful stands in its first line."""
 
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.scales import Scale
@@ -16,6 +18,7 @@ from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RAND
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import summary
+from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
 
 ROWS = 60
@@ -46,6 +49,7 @@ def result(
         observations=rows,
         geometry=geometry,
         scales={},
+        mistake=None,
         **NAMES,
     )
 
@@ -71,13 +75,14 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
         ("offset of wrist", "deg", -41.3, True),
         ("offset of wrist", "deg", 19.0, False),
         ("offset of rail", "mm", 41.3, False),
-        ("rotation z of wrist", "deg", 41.3, False),
+        ("turn z behind wrist", "deg", -41.3, True),
+        ("turn z of target", "deg", 41.3, False),
     ],
 )
-def test_an_offset_that_is_too_large_for_an_encoder_is_doubted(name, unit, value, doubted):
+def test_an_offset_or_a_turn_of_a_link_that_is_too_large_is_doubted(name, unit, value, doubted):
     its = Parameter(name, unit, value, 0.1), Parameter("offset of elbow", "deg", 3.0, 0.1)
     said = [*doubts(result({}, GEOMETRIC, parameters=its))]
-    sentence = "Careful: the offset of wrist would be -41 deg; is each column of the table"
+    sentence = f"Careful: the {name} would be -41 deg; is each column of the table"
     assert [line.startswith(sentence) for line in said] == [True] * doubted
 
 
@@ -127,6 +132,32 @@ def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
     found.scales = {"positions": scale}
     told = " ".join(doubts(found))
     assert said in told and bool(told) == bool(said)
+
+
+@pytest.mark.parametrize(
+    ("mirrored", "said"),
+    [
+        (False, "mistake, without which the URDF explains it far better: the zero of elbow_joint"),
+        (True, "residuals of the best fit are .*; likely: positions of which an axis points the"),
+    ],
+)
+def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, said, tmp_path):
+    """In a small part of the workspace the frames make up for much of it."""
+    arm, random = load_arm("ur10_robot.urdf", "tool0"), np.random.default_rng(0)
+    joints = np.array([0, -1.4, 2.1, -2.2, -1.6, 0.3]) + random.uniform(-0.15, 0.15, (30, 6))
+    poses = arm.forward(joints + random.normal(0, 0.01, 6))
+    if mirrored:
+        poses[:, 1, 3] *= -1
+    else:
+        joints[:, 2] -= np.pi / 2
+    turns = Rotation.from_matrix(poses[:, :3, :3]).as_quat()
+    columns = dict(zip(("qx", "qy", "qz", "qw"), turns.T, strict=True))
+    write(tmp_path / "rows.csv", table(arm, joints, poses[:, :3, 3]) | columns)
+    try:
+        told = summary(calibrate_arm("ur10_robot.urdf", tmp_path / "rows.csv", tool="tool0"))
+    except Untrustworthy as error:
+        told = str(error)
+    assert re.search(said, told)
 
 
 def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:

@@ -1,6 +1,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib.identification.initial_estimate import NoInitialEstimate
 from recalib.identification.model.observations import Observations
@@ -53,6 +54,8 @@ def changed(joints: np.ndarray, column: int, value) -> np.ndarray:
     return other
 
 
+WXYZ = [3, 0, 1, 2]
+euler = Rotation.from_euler
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 MISTAKES = {
     "a sign": (lambda q, p: (changed(q, 2, np.negative), p), "the sign of elbow_joint"),
@@ -109,10 +112,32 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
     ("spoil", "words"),
     [
         (lambda poses: np.linalg.inv(poses), "poses of the instrument in the target's frame"),
-        (lambda poses: with_turns(poses, poses.swapaxes(1, 2)), "rotations of something else"),
+        (
+            lambda poses: with_turns(poses, poses[::-1]),
+            "rotations of something else, or written otherwise: pos",
+        ),
+        (
+            lambda poses: with_turns(poses, poses.swapaxes(1, 2)),
+            "rotations of the instrument in the target's frame",
+        ),
+        (
+            lambda poses: reread(poses, lambda its: Rotation.from_quat(its.as_quat()[:, WXYZ])),
+            "a quaternion in the order qw, qx, qy, qz",
+        ),
+        (
+            lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("XYZ"))),
+            "roll, pitch and yaw about axes that turn along",
+        ),
+        (
+            lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("xyz")[:, ::-1])),
+            "roll, pitch and yaw in reverse order",
+        ),
         (lambda poses: with_turns(MIRROR @ poses, poses), "positions of which an axis points"),
     ],
-    ids=["inverse", "transposed", "mirrored"],
+    ids=[
+        *("inverse", "other rows", "transposed", "quaternion", "moving axes", "reversed"),
+        "mirrored",
+    ],
 )
 def test_so_are_poses_of_something_else(spoil, words, arm):
     real = Real(arm, 2)
@@ -139,6 +164,13 @@ def test_of_poses_joints_are_blamed_that_hardly_move_positions(spoil, words, arm
     joints = real.postures(40)
     with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
         checked_frames(arm, Observations(spoil(joints), real.poses(joints)))
+
+
+def reread(poses: np.ndarray, change) -> np.ndarray:
+    """Poses (n, 4, 4) whose rotations were taken for others."""
+    changed = poses.copy()
+    changed[:, :3, :3] = change(Rotation.from_matrix(poses[:, :3, :3])).as_matrix()
+    return changed
 
 
 def with_turns(poses: np.ndarray, others: np.ndarray) -> np.ndarray:

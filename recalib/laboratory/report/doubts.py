@@ -17,11 +17,17 @@ CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of 
 
 def doubts(result: Calibrated) -> Iterator[str]:
     """Sentences, the gravest first; none where rows and lines agree."""
+    if result.mistake:
+        yield (
+            "Careful: the table likely has a mistake, without which the URDF explains it far"
+            f" better: {result.mistake}."
+        )
     session = result.observations, result.frames, result.tables, result.instruments, result.ends
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
-    yield from _slipped(result)
+    if not result.mistake:
+        yield from _slipped(result)
     yield from _resized(result)
     validation = result.validation
     if validation.chosen != HYBRID:
@@ -36,13 +42,13 @@ def doubts(result: Calibrated) -> Iterator[str]:
 
 
 def _slipped(result: Calibrated) -> Iterator[str]:
-    """The joint offset that is too large for an encoder, if there is one."""
-    offsets = [
+    """The joint offset or turn of a link that is too large for one, if there is one."""
+    turns = [
         its
         for name, its in result.geometry.parameters.items()
-        if name.startswith("offset of ") and its.unit == "deg"
+        if (name.startswith("offset of ") or " behind " in name) and its.unit == "deg"
     ]
-    largest = max(offsets, key=lambda its: abs(its.value), default=None)
+    largest = max(turns, key=lambda its: abs(its.value), default=None)
     if largest and abs(largest.value) > SLIPPED:
         yield (
             f"Careful: the {largest.name} would be {largest.value:.0f} deg; is each column of the"

@@ -62,7 +62,7 @@ def checked_frames(
             without[wrong] = initial_frames(arm, observations, **right)
             errors[wrong] = median_error(without[wrong], tool, observations)
     if not without:
-        mistake = _mistake(arm, observations)
+        mistake = mistake_in(arm, observations) or _of_rotations(arm, observations)
         raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
     likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
     wrong = min(likely, key=lambda names: (len(names), errors[names]))
@@ -75,29 +75,28 @@ def checked_frames(
     )
 
 
-def _mistake(arm: Arm, observations: Observations) -> str | None:
-    """What may be wrong with rows that nothing explains, in words; None where nothing is likely."""
+def mistake_in(arm: Arm, observations: Observations) -> str | None:
+    """A mistake without which the nominal arm explains rows far better, in words.
+
+    None where there is none, and of balls in sockets or several targets.
+    """
     measured = observations.measured
     if measured is None or observations.targets.any():
         return None
-    if observations.kinds == 1:
-        return likely_mistake(arm, observations.joints, measured, FARTHEST, most_steps=1)
-    with suppress(NoInitialEstimate):
-        initial_frames(arm, replace(observations, measured=np.linalg.inv(measured)))
-        return (
-            "poses of the instrument in the target's frame; expected: of the target in the"
-            " instrument's"
-        )
     # what explains whole poses is likelier than what explains their positions alone
-    for its in (measured, observations.positions):
+    for its in (measured, observations.positions)[: observations.kinds]:
         if mistake := likely_mistake(arm, observations.joints, its, FARTHEST, most_steps=1):
             return mistake
+    return None
+
+
+def _of_rotations(arm: Arm, observations: Observations) -> str | None:
+    """That only the rotations are wrong, in words; None where it is not so."""
+    if observations.kinds == 1:
+        return None
     with suppress(NoInitialEstimate):
         initial_frames(arm, replace(observations, measured=observations.positions))
-        return (
-            "rotations of something else, or a quaternion in another order: positions alone are"
-            " explained"
-        )
+        return "rotations of something else, or written otherwise: positions alone are explained"
     return None
 
 

@@ -105,7 +105,7 @@ def likely_mistake(
     Args:
         coordinates: (n, joints) rad, or m where a joint slides.
         measured: (n, 3) m, positions of a point somewhere on the tool, from somewhere; or poses
-            (n, 4, 4), whose rotations are right.
+            (n, 4, 4).
         alike: m that the mistake may leave; a turn counts by `LEVER`.
         most_steps: mistakes at once.
 
@@ -114,15 +114,15 @@ def likely_mistake(
     rows = np.unique(np.linspace(0, len(measured) - 1, ENOUGH).astype(int))
     coordinates, measured = coordinates[rows], measured[rows]
     plain = _rms(_fit(arm.forward(coordinates), measured)[1])
-    steps = list(_steps(arm))
+    steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
         for chosen in combinations(steps, count):
-            joints, righted = coordinates, measured.copy()
-            positions = righted if measured.ndim == 2 else righted[:, :3, 3]
-            for _, of_joints, of_positions in chosen:
-                joints, positions[:] = of_joints(joints), of_positions(positions)
+            joints, righted = coordinates, measured
+            for _, of_joints, of_measured in chosen:
+                joints, righted = of_joints(joints), of_measured(righted)
             _, gaps = _fit(arm.forward(joints), righted)
+            positions = righted if righted.ndim == 2 else righted[:, :3, 3]
             spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
             words = " and ".join(name for name, *_ in chosen)
             part = _rms(gaps) / spread if spread > 0 else np.inf
@@ -135,13 +135,13 @@ def likely_mistake(
 
 
 def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
-    """Mistakes in words, and what undoes each: of joint coordinates, and of positions."""
+    """Mistakes in words, and what undoes each: of joint coordinates, and of what was measured."""
     count = len(arm.joints)
     yield "joint columns in degrees that say rad", np.radians, np.asarray
     yield "joint columns in radians that say deg", np.degrees, np.asarray
     for factor, words in UNITS.items():
-        yield f"positions {words}", np.asarray, partial(np.multiply, factor)
-    yield "positions of which an axis points the other way", np.asarray, np.negative
+        yield f"positions {words}", np.asarray, partial(_scaled, factor)
+    yield "positions of which an axis points the other way", np.asarray, partial(_scaled, -1.0)
     for joint, name in enumerate(arm.joints):
         signs = np.where(np.arange(count) == joint, -1.0, 1.0)
         yield f"the sign of {name}", partial(np.multiply, signs), np.asarray
@@ -157,6 +157,43 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", exchanged, np.asarray
     yield "the joint columns in reverse order", np.fliplr, np.asarray
+
+
+def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
+    """The same of rotations that were measured, whichever columns they are in."""
+    inverse = "poses of the instrument in the target's frame; expected: of the target in the"
+    yield f"{inverse} instrument's", np.asarray, np.linalg.inv
+    for words, change in (
+        ("rotations of the instrument in the target's frame", Rotation.inv),
+        (
+            "a quaternion in the order qw, qx, qy, qz",
+            lambda its: Rotation.from_quat(np.roll(its.as_quat(), -1, axis=1)),
+        ),
+        (
+            "roll, pitch and yaw about axes that turn along",
+            lambda its: Rotation.from_euler("XYZ", its.as_euler("xyz")),
+        ),
+        (
+            "roll, pitch and yaw in reverse order",
+            lambda its: Rotation.from_euler("xyz", its.as_euler("xyz")[:, ::-1]),
+        ),
+    ):
+        yield words, np.asarray, partial(_turned, change)
+
+
+def _scaled(factor: float, measured: np.ndarray) -> np.ndarray:
+    """Positions (n, 3), or poses (n, 4, 4) with positions, that are so many times as large."""
+    scaled = measured.copy()
+    places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
+    places *= factor
+    return scaled
+
+
+def _turned(change: Callable[[Rotation], Rotation], poses: np.ndarray) -> np.ndarray:
+    """Poses (n, 4, 4) with other rotations."""
+    turned = poses.copy()
+    turned[:, :3, :3] = change(Rotation.from_matrix(poses[:, :3, :3])).as_matrix()
+    return turned
 
 
 def _gaps(
