@@ -45,6 +45,16 @@ def test_a_learner_refuses_what_is_no_number_and_keeps_what_it_knew(name, bad, e
     assert np.array_equal(learner.command(TESTS), before)
 
 
+@pytest.mark.parametrize("name", [name for name in KINDS if name != "hierarchical"])
+def test_a_refused_command_that_is_no_number_spoils_nothing(name, makers):
+    learner, other = makers[name](runs=RUNS), makers[name](runs=RUNS)
+    sent, executed = np.stack([DESIRED, -DESIRED], axis=1), np.array([[True, False]] * RUNS)
+    for its, refused in ((learner, np.nan), (other, 0.5)):
+        commands = np.where(executed[..., None], sent, refused)
+        its.observe(commands, np.where(executed[..., None], 0.9 * sent, 0.0), executed)
+    assert np.array_equal(learner.command(TESTS), other.command(TESTS))
+
+
 UNIT = np.eye(6)[3]  # of the coordinates that a learner sees, along one of them
 SPOILT = {
     "an outlier of 30 units": lambda achieved, step: achieved + 30 * UNIT * (step == 5),

@@ -39,10 +39,11 @@ def test_the_gain_is_over_white_noise_less_what_hyperparameters_gain_by_chance()
     assert process.gain == pytest.approx(found - norm.logpdf(outputs).sum() - schwarz)
 
 
-def test_hyperparameters_are_sought_when_the_points_have_doubled_up_to_where_they_tell_little():
+def test_hyperparameters_are_sought_at_powers_of_two_up_to_where_more_points_tell_little():
     sought = [points for points in range(1, 1000) if is_time_to_search(points - 1, points)]
     assert sought == [1, 2, 4, 8, 16, 32, 64, 128]
-    assert is_time_to_search(40, 1000) and not is_time_to_search(40, 63)
+    assert is_time_to_search(40, 1000) and is_time_to_search(63, 64)
+    assert not is_time_to_search(32, 63) and not is_time_to_search(128, 1000)
 
 
 def test_the_unit_and_the_origin_of_outputs_and_the_origin_of_inputs_do_not_matter():

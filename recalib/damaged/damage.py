@@ -29,6 +29,8 @@ Along = Literal["line", "axis"]  # in which a link is shortened
 class DamagedArm:
     """The arm that really moves: its kinematics, and what its encoders hide.
 
+    All damages are done before it is asked where it goes: see `apply`.
+
     Attributes:
         arm: the damaged kinematics.
         offsets: (joint,) rad by which each joint stands beyond the angle that its encoder reports.

@@ -53,9 +53,14 @@ class Disturbances:
 
     @classmethod
     def of(cls, parts: Iterable[Noise | Repeatability | Outliers]) -> "Disturbances":
-        """Those that are among the parts, one of a kind."""
-        by_name: dict[str, Any] = {type(part).__name__.lower(): part for part in parts}
-        return cls(**by_name)  # of what kind each is, its name says
+        """Those that are among the parts. Raises InvalidSetting: two of a kind."""
+        by_name: dict[str, Any] = {}
+        for part in parts:
+            name = type(part).__name__.lower()  # which says of what kind each is
+            if name in by_name:
+                raise InvalidSetting(name, "there twice", "once in a list of damages")
+            by_name[name] = part
+        return cls(**by_name)
 
     def of_joints(
         self, generators: Sequence[np.random.Generator], shape: tuple[int, int]

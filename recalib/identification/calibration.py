@@ -238,7 +238,7 @@ def calibrate(
         frames: at both ends of the arm; the instrument's is that of its base, and the target its
             tool, unless given.
         last: a calibration from fewer measurements, to start from. The hyperparameters of its
-            process are kept until the number of measurements has doubled.
+            process, or that it needs none, are kept until `is_time_to_search`.
         weights: (n,) of the observations, in the first step; see `identify`.
 
     Raises BadMeasurement: no numbers, or grossly off; or none at all.

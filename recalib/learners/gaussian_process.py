@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class GaussianProcessLearner(Refitting):
     """The correction, command minus achieved pose, as a Gaussian process of the achieved pose.
 
-    Hyperparameters are sought anew whenever the number of moves has doubled, up to
+    Hyperparameters are sought anew whenever the number of moves passes a power of two, up to
     `regression.MOST` of them.
 
     Args:

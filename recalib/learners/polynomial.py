@@ -56,7 +56,9 @@ class PolynomialLearner(Observer):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
             gain = reach / (1 + reach @ features.swapaxes(1, 2)) * executed[:, [move], None]
-            residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
+            missed = (commands - achieved)[:, [move]]
+            missed = np.where(executed[:, [move], None], missed, 0)  # what was refused may be nan
+            residuals = missed - features @ self._coefficients
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 

@@ -24,7 +24,10 @@ ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is consta
 
 
 def is_time_to_search(before: int, points: int) -> bool:
-    """Whether to search hyperparameters anew: the points have doubled since there were `before`."""
+    """Whether to search hyperparameters anew.
+
+    It is time when the number of points passes a power of two, unless it was `MOST` or more before.
+    """
     return points.bit_length() > before.bit_length() and before < MOST
 
 

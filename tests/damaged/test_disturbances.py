@@ -36,6 +36,13 @@ def test_outliers_are_as_many_and_as_far_as_asked_for():
     assert np.allclose(misses[misses > 0], 0.05)
 
 
+def test_two_disturbances_of_a_kind_are_refused():
+    parts = Noise(1e-3, 0.0), Repeatability(1e-4)
+    assert Disturbances.of(parts) == Disturbances(*parts)
+    with pytest.raises(InvalidSetting, match="noise is 'there twice'; expected: once in a list"):
+        Disturbances.of([*parts, Noise(2e-3, 0.0)])
+
+
 def test_joints_stop_beside_their_angle():
     stops = Disturbances(repeatability=Repeatability(1e-4)).of_joints(generators(5, 6), (3000, 6))
     assert stops.shape == (2, 3000, 6)

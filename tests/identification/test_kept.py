@@ -379,3 +379,8 @@ def test_why_rows_are_refused_is_as_kept(arm, load, data_regression):
 def test_random_numbers_are_as_kept(data_regression):
     keys = (1,), (1, "links"), (1, "links", 2), (2, 2, "links")
     data_regression.check(plain([generator(*its).normal(size=3) for its in keys]))
+
+
+def test_a_zero_at_the_end_of_few_keys_is_no_other_purpose():
+    firsts = [generator(1, *keys).normal() for keys in (("a", 2), ("a", 2, 0), ("a", 0, 2))]
+    assert firsts[0] == firsts[1] != firsts[2]
