@@ -11,7 +11,7 @@ from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO
 from recalib.study.inference.hierarchy import geometric_student
-from recalib.study.inference.intervals import Estimate, combined
+from recalib.study.inference.intervals import UNKNOWN, combined
 from recalib.study.inference.measured import ERRORS, KINDS
 
 if TYPE_CHECKING:
@@ -46,11 +46,7 @@ def speed_of_two_maps(reference: "pd.DataFrame") -> list[dict]:
         ladder = np.stack(list(_errors(reference, "two", system).values()), axis=1)
         factors = iterations_needed(np.array(MAPS), ladder, goal) / iterations
         known = np.isfinite(factors)
-        estimate = (
-            geometric_student(factors[known])
-            if known.sum() > 1
-            else Estimate(np.nan, np.nan, np.nan)
-        )
+        estimate = geometric_student(factors[known]) if known.sum() > 1 else UNKNOWN
         about = {"system": NAMES[system], "iterations": iterations}
         rows.append(about | {"factor": estimate, "unknown": int((~known).sum())})
     return rows
