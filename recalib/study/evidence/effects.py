@@ -27,9 +27,9 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
     for factor, levels in design.items():
         codes, names = pd.factorize(levels, sort=True)
         one_hot = np.eye(len(names))[codes]
-        means = _means(numbers[None], one_hot)[0]
+        (means,) = _means(numbers[None], one_hot[None])
         drawn = random.integers(len(numbers), size=(RESAMPLES, len(numbers)))
-        resampled = np.ptp(_means_of(numbers[drawn], one_hot[drawn]), axis=1)
+        resampled = np.ptp(_means(numbers[drawn], one_hot[drawn]), axis=1)
         shuffled = random.permuted(np.tile(numbers, (RESAMPLES, 1)), axis=1)
         low, high = np.quantile(resampled, TAILS)
         rows.append(
@@ -40,7 +40,7 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
                 "effect": np.ptp(means),
                 "low": low,
                 "high": high,
-                "chance": np.quantile(np.ptp(_means(shuffled, one_hot), axis=1), 1 - rarely),
+                "chance": np.quantile(np.ptp(_means(shuffled, one_hot[None]), axis=1), 1 - rarely),
             }
         )
     table = pd.DataFrame(rows)
@@ -49,11 +49,6 @@ def effects(numbers: np.ndarray, design: pd.DataFrame, random: np.random.Generat
 
 
 def _means(numbers: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
-    """Means (n, level) of (n, universe), by level."""
-    return numbers @ one_hot / one_hot.sum(axis=0)
-
-
-def _means_of(numbers: np.ndarray, one_hot: np.ndarray) -> np.ndarray:
-    """Means (n, level) of (n, universe), each with levels (n, universe, level) of its own."""
+    """Means (n, level) of (n, universe), by level: (n or 1, universe, level)."""
     counts = np.maximum(one_hot.sum(axis=1), 1)
     return np.einsum("nu,nul->nl", numbers, one_hot) / counts

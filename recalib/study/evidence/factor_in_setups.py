@@ -2,21 +2,18 @@
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from recalib.study.configuration.switches import RITTER
 from recalib.study.evidence.claims import speed_up
 from recalib.study.evidence.factor import CELLS, in_words
 from recalib.study.evidence.needs import DOUBLE
 from recalib.study.evidence.results import Evidence
-from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.intervals import UNKNOWN, Estimate
 
 if TYPE_CHECKING:
     import pandas as pd
 
 (SPEED_UP,) = speed_up.CLAIM.across.values()
 LEVELS = {DOUBLE: "whole", RITTER: "each"}  # of the choice `cells`
-UNKNOWN = Estimate(np.nan, np.nan, np.nan)
 CONTROL = "displacement"  # the choice that reaches no training: named before any outcome
 
 

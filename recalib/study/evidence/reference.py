@@ -10,8 +10,8 @@ from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO
-from recalib.study.inference.hierarchy import student
-from recalib.study.inference.intervals import Estimate, combined
+from recalib.study.inference.hierarchy import geometric_student
+from recalib.study.inference.intervals import UNKNOWN, combined
 from recalib.study.inference.measured import ERRORS, KINDS
 
 if TYPE_CHECKING:
@@ -21,11 +21,6 @@ FLIPS = 10_000  # of the permutation test
 NAMES = {"improved": "improved system", "ritter": "Ritter's"}
 
 
-def _geometric(values: np.ndarray) -> Estimate:
-    """The geometric mean of values (replicate,), with Student's interval."""
-    return Estimate(*np.exp(student(np.log(values))).tolist())
-
-
 def two_maps(reference: "pd.DataFrame") -> list[dict]:
     """By system and iterations: the error with two maps over that with one."""
     rows = []
@@ -33,7 +28,7 @@ def two_maps(reference: "pd.DataFrame") -> list[dict]:
         one, two = (
             combined(_errors(reference, maps, system)[iterations]) for maps in ("one", "two")
         )
-        ratio = _geometric(two / one)
+        ratio = geometric_student(two / one)
         about = {"system": NAMES[system], "iterations": iterations}
         rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows
@@ -51,9 +46,7 @@ def speed_of_two_maps(reference: "pd.DataFrame") -> list[dict]:
         ladder = np.stack(list(_errors(reference, "two", system).values()), axis=1)
         factors = iterations_needed(np.array(MAPS), ladder, goal) / iterations
         known = np.isfinite(factors)
-        estimate = (
-            _geometric(factors[known]) if known.sum() > 1 else Estimate(np.nan, np.nan, np.nan)
-        )
+        estimate = geometric_student(factors[known]) if known.sum() > 1 else UNKNOWN
         about = {"system": NAMES[system], "iterations": iterations}
         rows.append(about | {"factor": estimate, "unknown": int((~known).sum())})
     return rows
@@ -73,7 +66,7 @@ def schedules(reference: "pd.DataFrame") -> list[dict]:
     """By system, law of the rate and n: the error with equal visits over that without."""
     rows = []
     for system, rate, n in product(NAMES, ("linear", "exponential"), (3, 6)):
-        ratio = _geometric(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
+        ratio = geometric_student(reference[f"schedule_{system}_{rate}_{n}"].to_numpy())
         about = {"system": NAMES[system], "rate": rate, "n": n}
         rows.append(about | {"ratio": ratio, "verdict": RATIO.verdict(ratio)})
     return rows

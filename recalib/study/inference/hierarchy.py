@@ -69,6 +69,11 @@ def student(values: np.ndarray) -> Estimate:
     return Estimate(float(mean), float(mean - reach), float(mean + reach))
 
 
+def geometric_student(values: np.ndarray) -> Estimate:
+    """The geometric mean of values (n,) above zero, with Student's interval of its logarithm."""
+    return Estimate(*np.exp(student(np.log(values))).tolist())
+
+
 def _pooled(variances: np.ndarray, sizes: np.ndarray, freedom: int) -> Estimate:
     """Standard deviation from those of the groups (group,), each of so many setups.
 

@@ -28,6 +28,9 @@ class Estimate(NamedTuple):
         return dict(zip((name, f"{name}_low", f"{name}_high"), self, strict=True))
 
 
+UNKNOWN = Estimate(np.nan, np.nan, np.nan)
+
+
 class Draws:
     """Studies drawn from one with replacement: the number itself first, then RESAMPLES of it."""
 

@@ -17,7 +17,7 @@ from recalib.study.evidence.claims.across import (
 )
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
-from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.intervals import UNKNOWN, Estimate
 
 WORDS = {0.1: "tenth", 0.25: "quarter", 0.5: "half", 2.0: "twice", 3.0: "three"}
 
@@ -190,7 +190,7 @@ class Claim:
         """
         if finding.verdict is None and system not in finding.estimates:
             raise UnknownName(f"system of the claim {self.id}", system, finding.estimates)
-        estimate = finding.estimates.get(system, Estimate(np.nan, np.nan, np.nan))
+        estimate = finding.estimates.get(system, UNKNOWN)
         if system in setups:
             return setups[system].verdict(estimate)
         if self._are_measured(system, evidence):

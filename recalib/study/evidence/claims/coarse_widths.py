@@ -1,26 +1,23 @@
 """Section 6: what wide and narrow neighbourhoods cost."""
 
-import numpy as np
-
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, of_all
 from recalib.study.evidence.verdicts import Comparison
-from recalib.study.inference.hierarchy import student
-from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.hierarchy import geometric_student
 
 FEW, MANY = Limit(20.0), Limit(10.0)
 
 
 def measure(evidence, limits):
     table = evidence.table("mapping/widths.parquet")
-    logs = np.log(table.pivot(index="seed", columns="width", values="iterations"))
+    taken = table.pivot(index="seed", columns="width", values="iterations")
     wide, more = (
-        Estimate(*np.exp(student(values.to_numpy())))
-        for values in (logs["wide"], logs["narrow"] - logs["wide"])
+        geometric_student(values.to_numpy())
+        for values in (taken["wide"], taken["narrow"] / taken["wide"])
     )
     rates = table.groupby("width")["rate"].first()
     note = (
         f"The rates are {rates['wide']:g} and {rates['narrow']:g}, the best on other poses. The"
-        f" intervals hold the luck of {len(logs)} seeds, and not that of this choice."
+        f" intervals hold the luck of {len(taken)} seeds, and not that of this choice."
     )
     verdict = of_all(
         Comparison(limits["many"], below=False).verdict(more),

@@ -1,12 +1,9 @@
 """Section 4: positions and orientations apart, and why."""
 
-import numpy as np
-
 from recalib.study.evidence.claims.across import Across
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, of_all
 from recalib.study.evidence.verdicts import RATIO, Comparison
-from recalib.study.inference.hierarchy import student
-from recalib.study.inference.intervals import Estimate
+from recalib.study.inference.hierarchy import geometric_student
 
 SMALL = Limit(0.1)
 RISES = RATIO._replace(below=False)  # the paper is right above 1
@@ -40,8 +37,8 @@ def measure(evidence, limits):
         for its in (larger[larger["condition"] > middle], larger[larger["condition"] <= middle])
     )
     estimates = {
-        "larger box / workspace": _ratio(most, least),
-        "nearer to / farther from singularities": _ratio(near, far),
+        "larger box / workspace": geometric_student((most / least).to_numpy()),
+        "nearer to / farther from singularities": geometric_student((near / far).to_numpy()),
     }
     poses = table["draw"].nunique() * evidence.facts["coupling_poses"]
     note = (
@@ -52,11 +49,6 @@ def measure(evidence, limits):
         " singularities were not varied apart."
     )
     return Finding(estimates, of_all(*map(RISES.verdict, estimates.values())), note=note)
-
-
-def _ratio(ours, theirs) -> Estimate:
-    """The geometric mean of ratios, by draw."""
-    return Estimate(*np.exp(student(np.log(ours / theirs).to_numpy())))
 
 
 REASON = Claim(

@@ -1,19 +1,17 @@
 """Section 3: where the cells are."""
 
-import numpy as np
-
 from recalib.study.evidence.claims.claim import Claim, Finding, Limit, of_all
 from recalib.study.evidence.verdicts import RATIO, Comparison
-from recalib.study.inference.hierarchy import student
+from recalib.study.inference.hierarchy import geometric_student
 from recalib.study.inference.intervals import Estimate
 
 
 def measure(evidence, limits):
     table = evidence.table("mapping/quantisation.parquet")
-    distances = np.log(table.pivot(index="seed", columns="placement", values="distance"))
+    distances = table.pivot(index="seed", columns="placement", values="distance")
 
     def over(placement: str) -> Estimate:
-        return Estimate(*np.exp(student((distances["boxes"] - distances[placement]).to_numpy())))
+        return geometric_student((distances["boxes"] / distances[placement]).to_numpy())
 
     kohonen, least = over("kohonen_10000"), over("kmeans")
     verdict = of_all(RATIO.side(kohonen), Comparison(limits["worse"]).verdict(least))
