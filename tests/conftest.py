@@ -1,5 +1,6 @@
 """What the tests share: the shipped study and its robot, and copies of the project."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
+from unittest import mock
 
 # before NumPy is there: small matrices are slower on many threads than on one
 os.environ["OMP_NUM_THREADS"] = "1"
@@ -26,6 +28,7 @@ from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
+from recalib.study.evidence.results import Evidence
 from recalib.study.plan.competitors import make_peer, peers
 from recalib.study.scenarios.nominal import Nominal, nominal
 from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
@@ -49,6 +52,16 @@ def loaded_with(statement: str, heavy: set[str]) -> set[str]:
     return set(ran.stdout.split())
 
 
+def pytest_collection() -> None:
+    """Thousands of tests are collected, and none is garbage: looking for it took as long again."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """A process takes all tests of a file, or of what is marked as a group: fixtures are shared.
@@ -64,6 +77,22 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def study() -> Study:
     return read_study(ROOT / "config.yaml")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def tables_read_once():
+    """A table of results is read again once its file was written again."""
+    read, tables = Evidence.table, {}
+
+    def table(evidence: Evidence, name: str):
+        path = Path(evidence.files[name])
+        state = path, path.stat().st_mtime_ns, path.stat().st_size
+        if state not in tables:
+            tables[state] = read(evidence, name)
+        return tables[state].copy()
+
+    with mock.patch.object(Evidence, "table", table):
+        yield
 
 
 @pytest.fixture(scope="session")

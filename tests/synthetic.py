@@ -106,6 +106,7 @@ def few_resamples() -> Iterator[None]:
     with (
         mock.patch.object(intervals, "RESAMPLES", 2000),
         mock.patch.object(hierarchy, "DRAWS", 128),
+        mock.patch.object(hierarchy, "HALVINGS", 30),
         mock.patch.object(effects, "RESAMPLES", 200),
     ):
         yield
@@ -355,6 +356,7 @@ class Synthetic:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(described), encoding="utf-8")
 
+    @few_resamples()
     def judge(self) -> list[dict]:
         """The claims, judged by these results."""
         claims = judging(self.request)
@@ -362,6 +364,7 @@ class Synthetic:
             self.made(evidence)
         return judge(claims)
 
+    @few_resamples()
     def judged(self, claim: str) -> dict:
         """One claim, judged by these results, of which it may lack some."""
         home = next(its for its in CLAIMS if its.id == claim)

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 import pytest
 
 from recalib.study.evidence.pages.article import typeset
-from recalib.study.evidence.pages.rendering import PAGES, render
+from recalib.study.evidence.pages.rendering import render
 from tests.conftest import ROOT
+from tests.test_pages import made
 
 TEMPLATE = ROOT / "workflow" / "templates" / "article.typ.j2"
 NUMBER = r"(?<![\w.])\d+(?:\.\d+)?"
@@ -19,8 +20,7 @@ MEASURED = "measured", "interval", "bounds", "published", "criterion", "statemen
 
 @pytest.fixture(scope="module")
 def known(synthetic):
-    page = PAGES["article.typ"]
-    return page.context(synthetic.evidence(page.NEEDS))
+    return made("article.typ", synthetic)[0]
 
 
 @pytest.fixture(scope="module")

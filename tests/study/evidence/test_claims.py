@@ -44,8 +44,7 @@ def supporting(few, tmp_path_factory) -> Synthetic:
 
 @pytest.fixture(scope="module")
 def judged(supporting) -> dict[str, dict]:
-    with few_resamples():
-        return {claim["id"]: claim for claim in supporting.judge()}
+    return {claim["id"]: claim for claim in supporting.judge()}
 
 
 def test_every_claim_says_all_of_itself():
@@ -162,8 +161,7 @@ def test_the_system_for_which_the_paper_makes_a_claim_decides(few, tmp_path):
 def test_the_intact_robot_is_judged_by_the_setups_too(few, tmp_path):
     synthetic = Synthetic(tmp_path, few)
     synthetic.campaign(outcomes=synthetic.outcomes({"intact": 0.01}))
-    with few_resamples():
-        assert synthetic.verdict("identity") == "undecided", "the reference study says the opposite"
+    assert synthetic.verdict("identity") == "undecided", "the reference study says the opposite"
 
 
 def test_where_all_setups_have_a_bound_no_mean_decides(few, tmp_path):
@@ -196,11 +194,10 @@ def test_the_mean_over_the_setups_decides_but_never_against_the_reference_study(
         synthetic.campaign(outcomes=synthetic.outcomes({across.column: setups}))
         return synthetic.verdict(claim.id)
 
-    with few_resamples():
-        cases = (right, right), (limit, right), (limit, wrong), (right, wrong), (wrong, right)
-        decided = ["supported", "supported", "contradicted", "undecided", "undecided"]
-        assert [verdict(*case) for case in cases] == decided
-        assert [verdict(each, limit) for each in (limit, right, wrong)] == [neutral] * 3
+    cases = (right, right), (limit, right), (limit, wrong), (right, wrong), (wrong, right)
+    decided = ["supported", "supported", "contradicted", "undecided", "undecided"]
+    assert [verdict(*case) for case in cases] == decided
+    assert [verdict(each, limit) for each in (limit, right, wrong)] == [neutral] * 3
 
 
 def test_contradicting_measurements_change_the_verdict(few, tmp_path):
