@@ -18,7 +18,7 @@ PAGE = ROOT / "docs" / "panda_in_an_hour.md"
 COMMANDS = [
     line
     for block in re.findall(r"```sh\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-    for line in block.splitlines()
+    for line in re.sub(r"\\\n *", "", block).splitlines()  # also one that goes on in the next
     if not line.startswith("pip ")  # the installation
 ]
 SPAN, FRESH = np.radians(20), 100

@@ -12,6 +12,7 @@ from tests.conftest import ROOT, copy_project
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
+CONTINUED = re.compile(r"\\\n *")  # on the next line
 MODULE = re.compile(r"`(python -m [^`]+)`")  # in the text
 PROGRAM = re.compile(r"^ *(\S*python|pip|make|snakemake|recalib|git) ", re.MULTILINE)
 LONG = {"quick", "faults", "reproduce", "mutants"}
@@ -117,7 +118,7 @@ def commands() -> list[str]:
         for text in texts
         for language, block in BLOCK.findall(text)
         if language == "sh"
-        for line in block.splitlines()
+        for line in CONTINUED.sub("", block).splitlines()
     }
     modules = {command for text in texts for command in MODULE.findall(text)}
     return sorted({*filter(None, lines), *modules} - {*SETTING})

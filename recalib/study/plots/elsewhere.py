@@ -98,7 +98,7 @@ def _draw_robots(axes: Axes, evidence: Evidence) -> np.ndarray:
             zorder=3,
             **style.signs(),
         )
-    axes.set_ylabel("larger remaining error [% of the initial]")
+    axes.set_ylabel("larger remaining error [%]")
     logarithmic(axes.yaxis, 2, 5, 10, 20, 50, 100)
     axes.set_xticks(places, [robot.upper() for robot in robots])
     axes.set_title("Other robots")

@@ -1,5 +1,7 @@
 """The figure of the speed-up: learners trained for several numbers of iterations."""
 
+from itertools import chain, zip_longest
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +14,7 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.speedup import speed_up
 from recalib.study.inference.intervals import estimate
 from recalib.study.plots.palette import BORDER, BOTH, Style, styles_of
-from recalib.study.plots.style import INTERVALS, finish, logarithmic
+from recalib.study.plots.style import INTERVALS, logarithmic, title
 
 SMALL = 9.5  # points: a label no wider than its panel
 
@@ -44,8 +46,20 @@ def figure9(evidence: Evidence) -> Figure:
     searches = sorted({len(errors) for ladder in ladders.values() for errors in ladder.values()})
     text = f"Figure 9: with as many cells as {CELLS[DOUBLE]},\n{_needs(evidence, ladders)}"
     means = f"means over {' or, for short trainings, '.join(map(str, searches))} searches"
-    spread = f"{means} and their seeds; {INTERVALS};\nan arrow at the border: it goes on"
-    finish(figure, text, panels[0], len(ladders), spread)
+    own = evidence.facts["iterations"]
+    spread = (
+        f"{means} and their seeds; {INTERVALS};\nan arrow at the border: it goes on;"
+        f" stars: for the errors that the improved system has after {own} iterations"
+    )
+    title(figure, text)
+    learners, factors = (
+        zip(*axes.get_legend_handles_labels(), strict=True) for axes in (panels[0], panels[2])
+    )
+    # below each learner its factor, and below the improved system the published one
+    signs = filter(None, chain.from_iterable(zip_longest(learners, factors)))
+    figure.legend(
+        *zip(*signs, strict=True), loc="outside lower center", ncols=len(ladders), title=spread
+    )
     return figure
 
 
@@ -72,6 +86,7 @@ def _named(name: str, style: Style) -> str:
 def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
     fast, own = ladders[IMPROVED], evidence.facts["iterations"]
     initial = evidence.errors(evidence.facts["improved"], moment="first").mean(axis=(0, 1))
+    axes.axhline(PUBLISHED, label=f"the paper: about {PUBLISHED} times", **BORDER)
     for place, (name, style) in enumerate(styles_of(CELLS).items()):
         aside = 1.02 ** (1 if place else -1)  # so that the lines of both can be seen
         goals, rng = [level * initial for level in LEVELS], evidence.rng("levels", name)
@@ -98,13 +113,11 @@ def _draw_factors(axes: Axes, evidence: Evidence, ladders: dict) -> None:
                 facecolors="none",  # over the signs of other levels
                 edgecolors=style.color,
                 zorder=4,
-                label=f"for its errors after {own}: {ours.mean:.0f}",
+                label=f"{ours.mean:.0f} times as many",
             )
-    axes.axhline(PUBLISHED, label=f"the paper: about {PUBLISHED}", **BORDER)
     axes.set_xlabel("both errors within [% of the initial]", fontsize=SMALL)
     axes.set_ylabel("Ritter's iterations / improved", fontsize=SMALL)
     logarithmic(axes.xaxis, 3, 5, 10, 20, 30)
     logarithmic(axes.yaxis, 1, 3, 10, 30, 100, 300)
     axes.set_ylim(0.8, 1.25 * TOP)
     axes.margins(x=0.1)
-    axes.legend(loc="lower right", bbox_to_anchor=(1, 1))

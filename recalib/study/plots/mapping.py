@@ -38,8 +38,8 @@ def figure5(evidence: Evidence) -> Figure:
     name_rows(axes, rows, map(words, scenarios))
     poses = len(table) // table["scenario"].nunique()
     text = (
-        "Figure 5: in 95 % of poses, positions and orientations change each other's commands"
-        f"\nby at most {percent(widest)} of what they change their own"
+        "Figure 5: in 95 % of poses, positions and orientations change"
+        f"\neach other's commands by at most {percent(widest)} of what they change their own"
     )
     finish(figure, text, axes, 2, f"signs: medians over {poses} poses; lines: 5-95 % of them")
     return figure
@@ -109,7 +109,7 @@ def figure8(evidence: Evidence) -> Figure:
     border = table.loc[table["distance"] == 0, "ratio"]
     axes.set(
         xlabel="distance of the cell to the border, in widths",
-        ylabel="simulated expected learning / (10)",
+        ylabel="simulated learning / equation (10)",
         xlim=(-0.1, 6.2),
         ylim=(0, 1.15),
     )

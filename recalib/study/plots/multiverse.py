@@ -69,7 +69,7 @@ def _ends(holds: np.ndarray) -> np.ndarray:
 
 
 def _column(axes: Axes, step: int, words: dict[str, str], levels: list[str]) -> None:
-    asks = textwrap.fill(f"{words['asks']} ...", WIDE)
+    asks = textwrap.fill(f"{words['asks']}\N{NO-BREAK SPACE}...", WIDE)
     axes.annotate(asks, (step, 1), ha="center", va="bottom", fontsize=9, fontweight="bold")
     heights = np.linspace(0, 1, len(levels) + 2)[1:-1]
     for height, level in zip(heights, levels, strict=True):

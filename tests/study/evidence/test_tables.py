@@ -56,8 +56,9 @@ def test_moves_to_a_threshold_are_a_median_between_the_5th_and_the_95th_percenti
 @pytest.mark.parametrize(
     ("moves", "low", "high", "text"),
     [
-        (1234, 900, 5678, "1,234 (900-5,678)"),
-        (7, 2, np.inf, "7 (2-more)"),
+        (1234, 900, 5678, "1,234 (900 to 5,678)"),
+        (7, 2, np.inf, "7 (2 to more)"),
+        (3, 3, 3, "3"),
         (np.inf, 2, np.inf, "-"),
     ],
 )

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from recalib.study.evidence.pages.words import ranged
 from recalib.study.evidence.results import Evidence
 from recalib.study.inference.measured import BOTH, ERRORS
 from recalib.study.plan.competitors import label_of, peers
@@ -22,8 +23,10 @@ def moves_text(reached: "pd.Series") -> str:
     """Moves until errors are within a threshold, with their spread."""
     if not np.isfinite(reached["moves"]):
         return "-"
-    high = f"{reached['high']:,.0f}" if np.isfinite(reached["high"]) else "more"
-    return f"{reached['moves']:,.0f} ({reached['low']:,.0f}-{high})"
+    bounds = reached["low"], reached["high"]
+    return ranged(
+        reached["moves"], bounds, lambda value: f"{value:,.0f}" if np.isfinite(value) else "more"
+    )
 
 
 def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:

@@ -83,7 +83,7 @@ def drawing(path: str | Path):
     from markupsafe import Markup
 
     text = Path(path).read_text(encoding="utf-8")
-    return Markup(text[text.index("<svg") :])
+    return Markup(f'<span class="drawing">{text[text.index("<svg") :]}</span>')
 
 
 def shown_by(figure: str, claims: Sequence[dict]) -> list[dict]:
