@@ -173,6 +173,7 @@ class Calibration:
         return {
             "terms": np.array(self.model.names),
             "frames": vars(self.model.frames),
+            "deviations": self.model.deviations,
             "estimate": vars(self.estimate),
             "residual": self.pattern and self.pattern.state(),
         }
@@ -184,8 +185,11 @@ class Calibration:
         estimate, pattern = Identification(**state["estimate"]), state.get("residual")
         model = ErrorModel(arm, terms, Frames(**state["frames"]))
         shape = model.deviations.shape
-        if estimate.parameters.shape != shape or estimate.covariance.shape != 2 * shape:
+        deviations = state.get("deviations", model.deviations)  # older files do not have them
+        sizes = estimate.parameters.shape, estimate.covariance.shape, deviations.shape
+        if sizes != (shape, 2 * shape, shape):
             raise ValueError("parameters of another error model")
+        model.deviations[:] = deviations
         return cls(model, estimate, pattern and Process(**pattern))
 
 

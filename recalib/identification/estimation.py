@@ -58,7 +58,8 @@ class Identification:
         noise: (1,) or (2,) standard deviations of a measurement along an axis: position [m],
             orientation [rad].
         weights: (n,) how much each measurement counted: 1, or less if it is doubted, down to 0.
-        log_evidence: of the error model, up to a constant that depends on the data alone.
+        log_evidence: of the error model, up to a constant that depends on the data alone. It leaves
+            out how well known distances and pictures agree with what was found of them.
         converged: whether the last step changed next to nothing.
     """
 

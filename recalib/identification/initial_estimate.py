@@ -15,6 +15,7 @@ from recalib.errors import RecalibError
 from recalib.identification.closed_forms import solutions, turns_by_poses
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import HELD, Frames
+from recalib.identification.model.input_checks import check_rows
 from recalib.identification.model.linearisation import LEVER, Linearisation, displacements
 from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
@@ -55,13 +56,15 @@ def initial_frames(
         base: (4, 4) m in the frame of the instrument, where it is known.
         target: (4, 4) m in the frame of the tool, where it is known, the same for all targets.
 
-    Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them.
+    Raises NoInitialEstimate: too few rows, postures too much alike, or nothing that explains them;
+    and BadMeasurement: no numbers, or matrices that are no poses.
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
             f"{len(observations)} rows are too few to estimate where instrument and target are;"
             f" expected: at least {fewest(observations)}"
         )
+    check_rows(observations)
     rng = generator(0, "first guess")
     if len(observations) > MOST:
         observations = observations[_some(observations, rng.permutation(len(observations)))]

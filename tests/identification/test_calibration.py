@@ -4,8 +4,8 @@ import pytest
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.identification import calibration as module
-from recalib.identification.calibration import angles_for, calibrate, calibrate_again
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.calibration import Calibration, angles_for, calibrate, calibrate_again
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, held
 from recalib.identification.model.observations import Observations
 from tests.identification.test_estimation import noisy, postures
 
@@ -67,3 +67,17 @@ def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibra
     assert calibrate_again(patterned, (OFFSETS,), observations).pattern is None
     again = calibrate_again(eccentric, (OFFSETS, JOINT_ERRORS), observations)
     assert again.model.names == tuple(OFFSETS) != eccentric.model.names
+
+
+def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):
+    last = np.arange(6) == 5
+    calibration = calibrate(robot.arm, (held(OFFSETS, last),), geared)
+    again = Calibration.restore(robot.arm, calibration.state())
+    assert again.parameters == calibration.parameters
+    assert "offset of wrist_3_joint" not in again.parameters
+    assert again.summary() == calibration.summary()
+    older = {name: its for name, its in calibration.state().items() if name != "deviations"}
+    assert np.array_equal(
+        Calibration.restore(robot.arm, older).forward(geared.joints),
+        calibration.forward(geared.joints),
+    )

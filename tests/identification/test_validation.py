@@ -99,11 +99,20 @@ def test_each_target_and_each_socket_is_in_all_random_parts():
 def test_a_posture_is_held_out_with_all_its_targets_and_repetitions(divide):
     random = np.random.default_rng(2)
     joints = np.repeat(random.uniform(-1, 1, (12, 6)), 5, axis=0)
+    joints[1::5, 5] += 2 * np.pi  # a full turn of the last joint leads to the same place
     postures = postures_of(joints + 2e-5 * random.standard_normal(joints.shape))
     assert np.array_equal(postures.numbers, np.repeat(np.arange(12), 5))
     folds = divide(Observations(joints, joints[:, :3], np.arange(60) % 5), postures)
     assert (folds.reshape(12, 5) == folds[::5, None]).all()
     assert set(folds) == set(range(FOLDS))
+
+
+def test_a_joint_that_made_full_turns_alone_has_moved_and_one_that_slides_makes_none():
+    joints = np.array([[0.1, 0.2, 0.3], [0.1 + 2 * np.pi, 0.2, 0.3 + 2 * np.pi]])
+    slides = np.array([False, False, True])
+    assert find_postures(joints[:, :2], slides[:2], 1e-4).numbers.tolist() == [0, 0]
+    found = find_postures(joints, slides, 1e-4)
+    assert found.numbers.tolist() == [0, 1] and found.still.tolist() == [False, True, False]
 
 
 def test_a_path_of_small_steps_is_not_one_posture():

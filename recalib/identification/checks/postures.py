@@ -37,12 +37,15 @@ def find_postures(joints: np.ndarray, slides: np.ndarray, noise: float) -> Postu
     Args:
         slides: (joints,) whether a joint slides.
         noise: m along an axis. What moves the tool by less than three times as much is the same
-            posture, where a turn of one rad counts as `LEVER`.
+            posture, where a turn of one rad counts as `LEVER`. So is a joint's next full turn.
     """
-    places, radius = joints * np.where(slides, 1.0, LEVER), ALIKE * noise
+    radius, moved = ALIKE * noise, np.ptp(joints, axis=0) * np.where(slides, 1.0, LEVER)
+    turns = joints[:, ~slides]
+    circles = LEVER * np.concatenate([np.cos(turns), np.sin(turns)], axis=1)
+    places = np.concatenate([joints[:, slides], circles], axis=1)
     tree, numbers = KDTree(places), np.full(len(places), -1)
     for row, place in enumerate(places):
         if numbers[row] < 0:  # a posture is no chain: all its rows are near the first of them
             alike = np.array(tree.query_ball_point(place, radius))
             numbers[alike[numbers[alike] < 0]] = numbers.max() + 1
-    return Postures(numbers, np.ptp(places, axis=0) <= radius)
+    return Postures(numbers, moved <= radius)

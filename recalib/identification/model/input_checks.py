@@ -41,11 +41,7 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
             row = wrong.argmax()
             valid = f"numbers up to {most:.3g} ({unit})"
             raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
-    if observations.measured is not None and observations.kinds == 2:
-        proper = are_poses(observations.measured)
-        if not proper.all():
-            row = proper.argmin()
-            raise BadMeasurement(f"measurement {row}", np.ravel(observations.measured[row]), POSE)
+    check_rows(observations)
     for what, numbers, most in (
         ("target", observations.targets, len(model.frames.sights)),
         ("socket", observations.sockets, len(model.frames.sockets)),
@@ -53,3 +49,18 @@ def check_observations(observations: Observations, model: ErrorModel) -> None:
         if numbers is not None and not (np.isin(numbers, np.arange(most))).all():
             row = (~np.isin(numbers, np.arange(most))).argmax()
             raise BadMeasurement(f"{what} of measurement {row}", [numbers[row]], f"below {most}")
+
+
+def check_rows(observations: Observations) -> None:
+    """Raise BadMeasurement unless all rows are numbers, and all measured matrices are poses."""
+    joints, measured = observations.joints, observations.measured
+    tables = [("joint angles of measurement", joints, np.isfinite(joints).all(axis=1), "numbers")]
+    if measured is not None:
+        finite = np.isfinite(measured).reshape(len(measured), -1).all(axis=1)
+        tables.append(("measurement", measured, finite, "numbers"))
+        if observations.kinds == 2:
+            tables.append(("measurement", measured, are_poses(measured), POSE))
+    for what, values, fit, valid in tables:
+        if not fit.all():
+            row = fit.argmin()
+            raise BadMeasurement(f"{what} {row}", np.ravel(values[row]), valid)
