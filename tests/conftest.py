@@ -5,7 +5,8 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -60,6 +61,16 @@ def pytest_collection() -> None:
 def pytest_collection_finish() -> None:
     gc.freeze()
     gc.enable()
+
+
+@contextmanager
+def few_folds() -> Iterator[None]:
+    """Few folds and few sets for a consensus: what they tell is tested where they are."""
+    with (
+        mock.patch("recalib.identification.held_out.FOLDS", 3),
+        mock.patch("recalib.identification.consensus.SETS", 20),
+    ):
+        yield
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -10,6 +10,7 @@ from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, faults
 from recalib.identification.model.error_model import OFFSETS
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.optics import Optics
+from tests.conftest import few_folds
 from tests.identification.honesty import ROWS, Session, with_targets
 from tests.identification.real import Real, geometry_of
 
@@ -25,6 +26,7 @@ from tests.identification.real import Real, geometry_of
         (JUMP, 1e-3, 0.2, False, False),
     ],
 )
+@few_folds()
 def test_a_fault_is_named_by_its_size_and_its_row(kind, size, near, on_a_path, positions, ur10):
     fault, *_ = Session(ur10, 1, kind, size, positions, on_a_path).named()
     assert fault.kind == kind and fault.size == pytest.approx(size, rel=near)
@@ -39,6 +41,7 @@ TIMES = np.cumsum(np.random.default_rng(5).uniform(0.1, 3, ROWS))
     [(LAG, 0.02, True, TIMES), (DRIFT, 1e-3, False, None), (DRIFT, 1e-3, False, TIMES**3)],
     ids=["lag", "drift by rows", "drift"],
 )
+@few_folds()
 def test_where_rows_carry_times_a_lag_is_in_seconds_and_a_drift_follows_the_clock(
     kind, size, on_a_path, times, ur10
 ):
@@ -46,11 +49,13 @@ def test_where_rows_carry_times_a_lag_is_in_seconds_and_a_drift_follows_the_cloc
     assert fault.kind == kind and fault.size == pytest.approx(size, rel=0.2)
 
 
+@few_folds()
 def test_a_lag_is_named_in_few_rows_and_no_jump_where_there_are_too_few(ur10):
     assert [fault.kind for fault in Session(ur10, 4, LAG, 0.05, rows=10).named()] == [LAG]
     assert Session(ur10, 4, rows=10).named() == []
 
 
+@few_folds()
 def test_what_a_lag_explains_is_no_further_fault(ur10):
     """A part of this one looks like a slip of the target, if the arm that it bends is believed."""
     found = Session(ur10, 4, LAG, 0.25, on_a_path=True).named()

@@ -23,6 +23,7 @@ from recalib.laboratory.report.summary import summary
 from recalib.laboratory.tables.measurements import POSITION
 from recalib.nominal.arms import load_arm
 from tests.arms import INDUSTRIAL
+from tests.conftest import few_folds
 from tests.identification.real import ARMS, Real
 from tests.laboratory.conftest import write
 
@@ -70,6 +71,7 @@ def test_places_are_known_as_well_as_other_noise_moves_them(arm, load, positions
 
 
 @pytest.fixture(scope="module")
+@few_folds()
 def calibrated(arm, tmp_path_factory):
     """With gears that no URDF holds, in 60 postures with two targets in each."""
     folder, real = tmp_path_factory.mktemp("places"), Real(arm, 3, 2, np.radians(0.03))
@@ -119,6 +121,7 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
     )
 
 
+@few_folds()
 def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tmp_path):
     real, turned = Real(arm, 3), np.eye(4)
     joints = real.postures(40)

@@ -1,5 +1,7 @@
 """The texts of the report's pages, without a browser: test_report.py looks at them in one."""
 
+from contextlib import chdir
+
 import pytest
 
 from recalib.study.evidence.pages import report
@@ -9,10 +11,10 @@ from tests.conftest import ROOT
 from tests.synthetic import unread
 
 
-@pytest.fixture
-def known(synthetic, monkeypatch) -> dict:
-    monkeypatch.chdir(ROOT)
-    return report.context(synthetic.evidence(report.NEEDS))
+@pytest.fixture(scope="module")
+def known(synthetic) -> dict:
+    with chdir(ROOT):
+        return report.context(synthetic.evidence(report.NEEDS))
 
 
 @pytest.fixture

@@ -154,6 +154,7 @@ def colours(figures) -> dict[str, set[str]]:
     found = {}
     for name in FIGURES.keys() - {"figure8"}:
         drawing = StringIO()
+        figures[name].set_layout_engine("none")  # all is where it will be
         with plt.rc_context({"svg.fonttype": "none"}):  # no outlines of letters: they take seconds
             figures[name].savefig(drawing, format="svg")
         found[name] = {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
