@@ -189,7 +189,7 @@ def _nets(axes: Axes) -> None:
             points = np.array([x, y]) + 1.7 * cells[:, :2]
             style = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
             axes.scatter(*points.T, s=200, zorder=3, **style)
-            axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=10)
+            axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=12)
 
 
 CELLS = regular_grid((9,))[:, 0]
