@@ -83,6 +83,8 @@ MISTAKES = {
         lambda q, p: (q, p * [1, -1, 1]),
         "positions of which an axis points the other way",
     ),
+    "the row before": (lambda q, p: (q[:-1], p[1:]), "joints that are those of the row before"),
+    "the row after": (lambda q, p: (q[1:], p[:-1]), "joints that are those of the row after"),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",

@@ -111,9 +111,8 @@ def likely_mistake(
 
     Returns it in words; None where nothing explains it.
     """
-    rows = np.unique(np.linspace(0, len(measured) - 1, ENOUGH).astype(int))
-    coordinates, measured = coordinates[rows], measured[rows]
-    plain = _rms(_fit(arm.forward(coordinates), measured)[1])
+    rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # each has neighbours
+    plain = _rms(_fit(arm.forward(coordinates[rows]), measured[rows])[1])
     steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
@@ -121,8 +120,8 @@ def likely_mistake(
             joints, righted = coordinates, measured
             for _, of_joints, of_measured in chosen:
                 joints, righted = of_joints(joints), of_measured(righted)
-            _, gaps = _fit(arm.forward(joints), righted)
-            positions = righted if righted.ndim == 2 else righted[:, :3, 3]
+            _, gaps = _fit(arm.forward(joints[rows]), righted[rows])
+            positions = righted[rows] if righted.ndim == 2 else righted[rows, :3, 3]
             spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
             words = " and ".join(name for name, *_ in chosen)
             part = _rms(gaps) / spread if spread > 0 else np.inf
@@ -157,6 +156,9 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", exchanged, np.asarray
     yield "the joint columns in reverse order", np.fliplr, np.asarray
+    for shift, row in ((-1, "before"), (1, "after")):
+        rolled = partial(np.roll, shift=shift, axis=0)
+        yield f"joints that are those of the row {row}", rolled, np.asarray
 
 
 def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
