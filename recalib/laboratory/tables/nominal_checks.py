@@ -156,8 +156,8 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", exchanged, np.asarray
     yield "the joint columns in reverse order", np.fliplr, np.asarray
-    for shift, row in ((-1, "before"), (1, "after")):
-        rolled = partial(np.roll, shift=shift, axis=0)
+    for rows, row in ((-1, "before"), (1, "after")):
+        rolled = partial(np.roll, shift=rows, axis=0)
         yield f"joints that are those of the row {row}", rolled, np.asarray
 
 
