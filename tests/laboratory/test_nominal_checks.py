@@ -77,6 +77,7 @@ MISTAKES = {
     ),
     "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
     "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
+    "inches": (lambda q, p: (q, p / 25.4), "positions in inches that say mm"),
     "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres that say cm"),
     "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres that say m"),
     "a left-handed frame": (
@@ -131,14 +132,24 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
             "roll, pitch and yaw about axes that turn along",
         ),
         (
+            lambda poses: reread(poses, lambda its: euler("xyz", np.radians(its.as_euler("xyz")))),
+            "roll, pitch and yaw in radians that say deg",
+        ),
+        (
+            lambda poses: reread(
+                poses, lambda its: Rotation.from_rotvec(np.radians(its.as_rotvec()))
+            ),
+            "a rotation vector in radians that says deg",
+        ),
+        (
             lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("xyz")[:, ::-1])),
             "roll, pitch and yaw in reverse order",
         ),
         (lambda poses: with_turns(MIRROR @ poses, poses), "positions of which an axis points"),
     ],
     ids=[
-        *("inverse", "other rows", "transposed", "quaternion", "moving axes", "reversed"),
-        "mirrored",
+        *("inverse", "other rows", "transposed", "quaternion", "moving axes"),
+        *("angles in radians", "vectors in radians", "reversed", "mirrored"),
     ],
 )
 def test_so_are_poses_of_something_else(spoil, words, arm):

@@ -27,6 +27,7 @@ UNITS = {  # of positions that are wrong, by what makes them right
     1e-2: "in centimetres that say m",
     1e-1: "in millimetres that say cm",
     1e1: "in centimetres that say mm",
+    25.4: "in inches that say mm",
     1e2: "in metres that say cm",
     1e3: "in metres that say mm",
 }
@@ -174,6 +175,14 @@ def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
         (
             "roll, pitch and yaw about axes that turn along",
             lambda its: Rotation.from_euler("XYZ", its.as_euler("xyz")),
+        ),
+        (
+            "roll, pitch and yaw in radians that say deg",
+            lambda its: Rotation.from_euler("xyz", np.degrees(its.as_euler("xyz"))),
+        ),
+        (
+            "a rotation vector in radians that says deg",
+            lambda its: Rotation.from_rotvec(np.degrees(its.as_rotvec())),
         ),
         (
             "roll, pitch and yaw in reverse order",
