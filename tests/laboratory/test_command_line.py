@@ -111,6 +111,24 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     assert "warning: errors of the arm's base and the tool link are not identifiable" in told
 
 
+@pytest.mark.parametrize("given", ["base", "instrument"])
+def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
+    given, calibrated, arm, tmp_path, capsys
+):
+    """As measurements, which are in the instrument's frame, that are desired in the base."""
+    joints = postures(10, 10, part=0.8)
+    its = load_correction(calibrated / "correction.npz").calibration
+    places = {"base": its.forward(joints), "instrument": its.predict(joints)}
+    for frame, poses in places.items():
+        write(tmp_path / "desired.csv", table(arm, joints, poses[:, :3, 3]))
+        arguments = ["correct", str(calibrated), f"{tmp_path}/desired.csv", f"--frame={given}"]
+        code = main([*arguments, f"--out={tmp_path}/{frame}.csv"])
+        assert code == (DONE if frame == given else REFUSED)
+    (other,) = places.keys() - {given}
+    said = f"recalib: frame is '{given}'; expected: {other}, where the joints in the table take the"
+    assert said in capsys.readouterr().err
+
+
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     write(folder / "wide.csv", columns)

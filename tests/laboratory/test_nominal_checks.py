@@ -77,12 +77,15 @@ MISTAKES = {
     ),
     "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
     "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
+    "inches": (lambda q, p: (q, p / 25.4), "positions in inches that say mm"),
     "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres that say cm"),
     "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres that say m"),
     "a left-handed frame": (
         lambda q, p: (q, p * [1, -1, 1]),
         "positions of which an axis points the other way",
     ),
+    "the row before": (lambda q, p: (q[:-1], p[1:]), "joints that are those of the row before"),
+    "the row after": (lambda q, p: (q[1:], p[:-1]), "joints that are those of the row after"),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
@@ -129,14 +132,24 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
             "roll, pitch and yaw about axes that turn along",
         ),
         (
+            lambda poses: reread(poses, lambda its: euler("xyz", np.radians(its.as_euler("xyz")))),
+            "roll, pitch and yaw in radians that say deg",
+        ),
+        (
+            lambda poses: reread(
+                poses, lambda its: Rotation.from_rotvec(np.radians(its.as_rotvec()))
+            ),
+            "a rotation vector in radians that says deg",
+        ),
+        (
             lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("xyz")[:, ::-1])),
             "roll, pitch and yaw in reverse order",
         ),
         (lambda poses: with_turns(MIRROR @ poses, poses), "positions of which an axis points"),
     ],
     ids=[
-        *("inverse", "other rows", "transposed", "quaternion", "moving axes", "reversed"),
-        "mirrored",
+        *("inverse", "other rows", "transposed", "quaternion", "moving axes"),
+        *("angles in radians", "vectors in radians", "reversed", "mirrored"),
     ],
 )
 def test_so_are_poses_of_something_else(spoil, words, arm):

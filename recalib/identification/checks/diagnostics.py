@@ -83,5 +83,5 @@ def check_links(geometry: Calibration) -> None:
         raise Untrustworthy(
             f"the measurements make the link between {ends}"
             f" {1e3 * found[worst]:.0f} mm long; expected: about {1e3 * right[worst]:.0f} mm, as"
-            f" the arm's description has it; try: other units{names}"
+            f" the arm's description has it; try: other units or another URDF{names}"
         )

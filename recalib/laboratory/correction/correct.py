@@ -24,6 +24,7 @@ from recalib.spelling import listed
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
 STARTS = 6  # learned postures to start from, where no posture is given
+NEAR = 0.05  # m from a pose to where the joints beside it take the arm, if these are alike
 MARGIN = 0.05  # beyond the range learned from, as a part of it
 
 
@@ -68,6 +69,7 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     Raises NotReached; where frame and desired poses do not go together, InvalidSetting and
     UnknownName.
     """
+    _check_frame(correction, desired, in_instrument)
     found = reach(correction, desired, in_instrument)
     goals, turned = _goals(correction.arm, desired), np.zeros(len(found))
     if goals.ndim == 3:
@@ -161,6 +163,22 @@ def solve(
         found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
         reached[rows] = within
     return found, errors, reached
+
+
+def _check_frame(correction: Correction, desired: Measurements, in_instrument: bool) -> None:
+    """Raise InvalidSetting where joints take the arm to the poses, but in the other frame."""
+    calibration, joints, goals = correction.calibration, desired.coordinates, desired.positions
+    several = len(correction.targets) > 1 or len(calibration.frames.sockets)
+    if joints is None or goals is None or several:
+        return
+    ends = calibration.forward(joints), calibration.predict(joints)
+    in_base, to_instrument = (np.median(np.linalg.norm(e[:, :3, 3] - goals, axis=1)) for e in ends)
+    own, other = (to_instrument, in_base) if in_instrument else (in_base, to_instrument)
+    if other < NEAR < own:
+        frame, right = ("instrument", "base") if in_instrument else ("base", "instrument")
+        off = f"in the frame given, they are {1e3 * own:.0f} mm off"
+        valid = f"{right}, where the joints in the table take the arm to its poses; {off}"
+        raise InvalidSetting("frame", frame, valid)
 
 
 def _goals(arm: Arm, desired: Measurements) -> np.ndarray:

@@ -97,8 +97,9 @@ class Table:
         """Raise InvalidFile where a column is not among the valid ones; a note says why it is."""
         for column in self.cells:
             if column not in valid:
-                unknown = f"unknown column {column!r}{note}"
-                raise InvalidFile(self.path, f"{unknown}; {instead(column, valid)}")
+                bracketed = "expected: its unit in square brackets, as in 'x [mm]'"
+                right = bracketed if column.endswith(")") else instead(column, valid)
+                raise InvalidFile(self.path, f"unknown column {column!r}{note}; {right}")
 
 
 def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:

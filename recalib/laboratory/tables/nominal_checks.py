@@ -27,6 +27,7 @@ UNITS = {  # of positions that are wrong, by what makes them right
     1e-2: "in centimetres that say m",
     1e-1: "in millimetres that say cm",
     1e1: "in centimetres that say mm",
+    25.4: "in inches that say mm",
     1e2: "in metres that say cm",
     1e3: "in metres that say mm",
 }
@@ -111,9 +112,8 @@ def likely_mistake(
 
     Returns it in words; None where nothing explains it.
     """
-    rows = np.unique(np.linspace(0, len(measured) - 1, ENOUGH).astype(int))
-    coordinates, measured = coordinates[rows], measured[rows]
-    plain = _rms(_fit(arm.forward(coordinates), measured)[1])
+    rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # each has neighbours
+    plain = _rms(_fit(arm.forward(coordinates[rows]), measured[rows])[1])
     steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
@@ -121,8 +121,8 @@ def likely_mistake(
             joints, righted = coordinates, measured
             for _, of_joints, of_measured in chosen:
                 joints, righted = of_joints(joints), of_measured(righted)
-            _, gaps = _fit(arm.forward(joints), righted)
-            positions = righted if righted.ndim == 2 else righted[:, :3, 3]
+            _, gaps = _fit(arm.forward(joints[rows]), righted[rows])
+            positions = righted[rows] if righted.ndim == 2 else righted[rows, :3, 3]
             spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
             words = " and ".join(name for name, *_ in chosen)
             part = _rms(gaps) / spread if spread > 0 else np.inf
@@ -157,6 +157,9 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", exchanged, np.asarray
     yield "the joint columns in reverse order", np.fliplr, np.asarray
+    for rows, row in ((-1, "before"), (1, "after")):
+        rolled = partial(np.roll, shift=rows, axis=0)
+        yield f"joints that are those of the row {row}", rolled, np.asarray
 
 
 def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
@@ -172,6 +175,14 @@ def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
         (
             "roll, pitch and yaw about axes that turn along",
             lambda its: Rotation.from_euler("XYZ", its.as_euler("xyz")),
+        ),
+        (
+            "roll, pitch and yaw in radians that say deg",
+            lambda its: Rotation.from_euler("xyz", np.degrees(its.as_euler("xyz"))),
+        ),
+        (
+            "a rotation vector in radians that says deg",
+            lambda its: Rotation.from_rotvec(np.degrees(its.as_rotvec())),
         ),
         (
             "roll, pitch and yaw in reverse order",
