@@ -107,6 +107,7 @@ class PhysicsStation:
         start, way = self._angles, angles - self._angles
         seconds = np.pi / 2 * np.max(np.abs(way) / self._speeds) / speed
         errors = self._disturbances.of_joints([self._rng], (1, len(way)))[0, 0]
+        errors[self._damaged.arm.slides] = 0  # an angle is no length
         for time in np.arange(0.0, seconds, STEP):
             if self._stopped.is_set():
                 break
