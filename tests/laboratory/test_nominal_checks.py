@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.initial_estimate import NoInitialEstimate
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.knowledge import checked_frames
-from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal
+from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal, likely_mistake
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 
@@ -109,6 +109,13 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
     seen = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
     with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
         checked_frames(arm, seen)
+
+
+def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
+    poses = reread(
+        arm.forward(joints), lambda its: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(its))
+    )
+    assert likely_mistake(arm, joints, poses, most_steps=1) is None
 
 
 @pytest.mark.parametrize(

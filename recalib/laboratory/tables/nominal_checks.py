@@ -174,11 +174,11 @@ def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
         ),
         (
             "roll, pitch and yaw about axes that turn along",
-            lambda its: Rotation.from_euler("XYZ", its.as_euler("xyz")),
+            lambda its: Rotation.from_euler("XYZ", _angles(its)),
         ),
         (
             "roll, pitch and yaw in radians that say deg",
-            lambda its: Rotation.from_euler("xyz", np.degrees(its.as_euler("xyz"))),
+            lambda its: Rotation.from_euler("xyz", np.degrees(_angles(its))),
         ),
         (
             "a rotation vector in radians that says deg",
@@ -186,10 +186,15 @@ def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
         ),
         (
             "roll, pitch and yaw in reverse order",
-            lambda its: Rotation.from_euler("xyz", its.as_euler("xyz")[:, ::-1]),
+            lambda its: Rotation.from_euler("xyz", _angles(its)[:, ::-1]),
         ),
     ):
         yield words, np.asarray, partial(_turned, change)
+
+
+def _angles(rotations: Rotation) -> np.ndarray:
+    """Roll, pitch and yaw (n, 3) [rad]; where the pitch is a right angle, some of many."""
+    return rotations.as_euler("xyz", suppress_warnings=True)
 
 
 def _scaled(factor: float, measured: np.ndarray) -> np.ndarray:
