@@ -51,13 +51,7 @@ def numbers(text: str) -> np.ndarray:
 
 def words(text: str) -> list[str]:
     text = re.sub(r"/\S*/", "", text)  # folders
-    return sorted({*map(untied, NUMBER.sub("#", text).splitlines())})
-
-
-def untied(line: str) -> str:
-    """With parameters in one order: where several targets tie, rounding decides."""
-    head, colon, names = line.rpartition(": ")
-    return f"{head}{colon}{' or '.join(sorted(re.split(', | or ', names)))}"
+    return sorted({*NUMBER.sub("#", text).splitlines()})
 
 
 def cells(path: Path) -> dict[str, tuple[str, ...]]:
@@ -143,10 +137,10 @@ def test_what_is_said_of_a_calibration_is_as_kept(name, made, data_regression):
     table = errors_table(its)
     found = {
         "verdict": verdict(its),
-        "notes": [untied(re.sub(r".*/", "", line)) for line in notes(its)[name == "sockets" :]],
+        "notes": [re.sub(r".*/", "", line) for line in notes(its)[name == "sockets" :]],
         "errors": [[*row.values()][:4] for row in table],
         "of errors": coarse([[*row.values()][4:] for row in table], 3),
-        "open": [[untied(one), told] for one, told in unidentifiable_directions(its)],
+        "open": [list(one) for one in unidentifiable_directions(its)],
         "rows": [its.doubted, its.counted, its.worthwhile, its.observations.targets],
         "positions": coarse(its.positions, 3),
         "residuals": {kind: coarse(one, 3) for kind, one in its.residuals.items()},

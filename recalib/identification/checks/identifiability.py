@@ -26,6 +26,7 @@ SEATED, STEPS = 1e-9, 50  # m: how well a ball sits in its socket, and Newton's 
 # where they are not bent at all.
 WEAK, ROUNDING = 1e-3, 1e-8
 PARTNERS, SHARE = 3, 0.3  # so many at most, whose effect is that part of the largest at least
+DIGITS = 6  # of an effect over the largest: where several targets tie, rounding does not decide
 
 
 @dataclass(frozen=True)
@@ -145,5 +146,6 @@ def _dependent(root: np.ndarray, least: np.ndarray) -> Iterator[tuple[int, list[
         effects = np.abs(makes_up) * np.linalg.norm(root[:, accepted], axis=0)
         largest = effects.max(initial=0.0)
         weakest = SHARE * largest if largest**2 >= least[number] else np.inf
-        strongest = np.argsort(-effects, kind="stable")[:PARTNERS]
+        alike = np.round(effects / (largest or 1.0), DIGITS)
+        strongest = np.argsort(-alike, kind="stable")[:PARTNERS]
         yield number, [accepted[one] for one in strongest if effects[one] >= weakest]
