@@ -29,7 +29,6 @@ from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
 from recalib.study.configuration.reading import read_study
 from recalib.study.configuration.study import Study
-from recalib.study.evidence.results import Evidence
 from recalib.study.plan.competitors import make_peer, peers
 from recalib.study.scenarios.nominal import Nominal, nominal
 from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
@@ -88,22 +87,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def study() -> Study:
     return read_study(ROOT / "config.yaml")
-
-
-@pytest.fixture(scope="session", autouse=True)
-def tables_read_once():
-    """A table of results is read again once its file was written again."""
-    read, tables = Evidence.table, {}
-
-    def table(evidence: Evidence, name: str):
-        path = Path(evidence.files[name])
-        state = path, path.stat().st_mtime_ns, path.stat().st_size
-        if state not in tables:
-            tables[state] = read(evidence, name)
-        return tables[state].copy()
-
-    with mock.patch.object(Evidence, "table", table):
-        yield
 
 
 @pytest.fixture(scope="session")
