@@ -3,9 +3,9 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.initial_estimate import NoInitialEstimate
+from recalib.identification.initial_estimate import NoInitialEstimate, initial_frames
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.tables.knowledge import checked_frames
+from recalib.laboratory.tables.knowledge import checked_frames, mistake_in
 from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal, likely_mistake
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
@@ -109,6 +109,25 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
     seen = Observations(*spoil(joints, real.poses(joints)[:, :3, 3]))
     with pytest.raises(NoInitialEstimate, match=f"; likely: {words}"):
         checked_frames(arm, seen)
+
+
+def test_the_rounding_of_a_perfect_arm_is_no_mistake(arm):
+    """Joints moved one after the other: closed forms leave more or fewer digits of it."""
+    for seed in range(12):
+        joints = np.tile(np.radians([20, -65, 100, -40, 95, 10]), (36, 1))
+        joints[range(36), np.arange(36) // 6] += np.random.default_rng(seed).uniform(-0.7, 0.7, 36)
+        assert mistake_in(arm, Observations(joints, arm.forward(joints))) is None
+
+
+@pytest.mark.parametrize("seed", [78, 121])
+def test_what_closed_forms_alone_do_not_explain_is_no_mistake(seed):
+    """Where only the wrist moved, they are off by more than with some wrong zero."""
+    arm = load_arm("panda.urdf", "panda_link8")
+    real = Real(arm, seed)
+    joints = np.tile(Real(arm, seed).postures(1), (30, 1))
+    joints[:, -3:] += np.random.default_rng(seed).uniform(-0.8, 0.8, (30, 3))
+    seen = Observations(joints, real.poses(joints)[:, :3, 3])
+    assert mistake_in(arm, seen, initial_frames(arm, seen)) is None
 
 
 def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
