@@ -192,7 +192,7 @@ def test_so_are_poses_of_something_else(spoil, words, arm):
         (lambda q: changed(q, 5, np.negative), "the sign of wrist_3_joint"),
         (
             lambda q: changed(q, 0, np.negative),
-            "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by -180 deg",
+            "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by 180 deg",
         ),
     ],
     ids=["exchanged", "the last sign", "the first sign"],

@@ -33,7 +33,7 @@ UNITS = {  # of positions that are wrong, by what makes them right
 }
 SAME = 1e-6  # a difference of such parts by which mistakes cannot be told apart
 ENOUGH = 40  # rows to try mistakes on
-QUARTERS = 90, -90, 180  # degrees
+QUARTERS = 90, -90, -180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
 
 Change = Callable[[np.ndarray], np.ndarray]
