@@ -111,6 +111,16 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
         checked_frames(arm, seen)
 
 
+@pytest.mark.parametrize(("factor", "words"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
+def test_where_a_joint_slides_the_unit_of_the_others_is_named(factor, words):
+    arm = load_arm("tiago.urdf", "hand_tool_link")
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    poses = real.poses(joints)
+    joints[:, ~arm.slides] *= factor
+    assert mistake_in(arm, Observations(joints, poses)).startswith(f"joint columns in {words}")
+
+
 def test_the_rounding_of_a_perfect_arm_is_no_mistake(arm):
     """Joints moved one after the other: closed forms leave more or fewer digits of it."""
     for seed in range(12):

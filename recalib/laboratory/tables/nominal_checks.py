@@ -145,8 +145,11 @@ def likely_mistake(
 def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
     """Mistakes in words, and what undoes each: of joint coordinates, and of what was measured."""
     count = len(arm.joints)
-    yield "joint columns in degrees that say rad", np.radians, np.asarray
-    yield "joint columns in radians that say deg", np.degrees, np.asarray
+    for words, factor in (
+        ("joint columns in degrees that say rad", np.pi / 180),
+        ("joint columns in radians that say deg", 180 / np.pi),
+    ):
+        yield words, partial(np.multiply, np.where(arm.slides, 1.0, factor)), np.asarray
     for factor, words in UNITS.items():
         yield f"positions {words}", np.asarray, partial(_scaled, factor)
     yield "positions of which an axis points the other way", np.asarray, partial(_scaled, -1.0)
