@@ -235,7 +235,7 @@ def calibrate_arm(
         pairs = [(sockets[one], sockets[other]) for one, other, *_ in observations.distances]
         scaled = tuple(f"the distance between {one} and {other}" for one, other in pairs)
     check_distances(arm, observations, frames, sockets)
-    mistake = mistake_in(arm, observations)
+    mistake = mistake_in(arm, observations, frames)
     try:
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:

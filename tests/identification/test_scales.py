@@ -8,6 +8,7 @@ import pytest
 from recalib.identification.checks.scales import scales
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.observations import Observations
+from tests.arms import urdf
 from tests.identification.real import Real
 
 TOGETHER = 0.3  # of the noise, as where links grew by one factor
@@ -37,3 +38,12 @@ def test_one_link_that_is_shorter_is_no_scale(ur10):
     joints = np.random.default_rng(1).uniform(-1, 1, (40, 6))
     found = scale_of(ur10, Observations(joints, other.forward(joints)[:, :3, 3]))
     assert found.remaining > TOGETHER
+
+
+def test_an_arm_whose_only_joint_holds_no_length_says_nothing_of_a_scale(load):
+    """A point is as good an explanation as any, and has no noise."""
+    arm, random = load(urdf(("turn", "revolute", "0 0 1", "0 0 0.3"))), np.random.default_rng(0)
+    joints, target = random.uniform(-2, 2, (30, 1)), np.eye(4)
+    target[:3, 3] = 0.3, 0.1, 0.1
+    measured = (arm.forward(joints) @ target)[:, :3, 3] + random.normal(0, 1e-4, (30, 3))
+    assert scale_of(arm, Observations(joints, measured)).remaining > TOGETHER

@@ -14,6 +14,7 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.archives import write_archive
 from recalib.identification.calibration import calibrate
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correction.archive import Correction, load_correction
@@ -58,6 +59,19 @@ def test_a_redundant_arm_stays_near_the_posture_that_is_given(correction):
     assert np.abs(reached - goals).max() < 1e-7
     assert np.abs(commands.joints - beside).max() < 0.1
     assert np.array_equal(commands.poses, correction.arm.forward(commands.joints))
+
+
+def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correction):
+    """A target 120 mm ahead of the tool link is then nearly where the link is desired."""
+    arm, joints, target, ahead = correction.arm, correction.learned, np.eye(4), np.eye(4)
+    target[2, 3], ahead[2, 3] = 0.12, 0.1
+    seen = Observations(joints, arm.forward(joints + 0.01) @ target)
+    calibration = calibrate(arm, (OFFSETS,), seen, Frames(np.eye(4), target[None]))
+    before = joints[:10]
+    goals = calibration.forward(before) @ ahead
+    desired = Measurements(10, before, goals[:, :3, 3], goals[:, :3, :3])
+    commands = correct(replace(correction, calibration=calibration), desired)
+    assert np.abs(calibration.forward(commands.joints) - goals).max() < 1e-7
 
 
 def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correction):

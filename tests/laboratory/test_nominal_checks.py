@@ -3,9 +3,9 @@ import pinocchio as pin
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.initial_estimate import NoInitialEstimate
+from recalib.identification.initial_estimate import NoInitialEstimate, initial_frames
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.tables.knowledge import checked_frames
+from recalib.laboratory.tables.knowledge import checked_frames, mistake_in
 from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal, likely_mistake
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
@@ -111,6 +111,35 @@ def test_so_it_is_where_positions_are_measured_from_somewhere(name, arm):
         checked_frames(arm, seen)
 
 
+@pytest.mark.parametrize(("factor", "words"), [(180 / np.pi, "degrees"), (np.pi / 180, "radians")])
+def test_where_a_joint_slides_the_unit_of_the_others_is_named(factor, words):
+    arm = load_arm("tiago.urdf", "hand_tool_link")
+    real = Real(arm, 2)
+    joints = real.postures(40)
+    poses = real.poses(joints)
+    joints[:, ~arm.slides] *= factor
+    assert mistake_in(arm, Observations(joints, poses)).startswith(f"joint columns in {words}")
+
+
+def test_the_rounding_of_a_perfect_arm_is_no_mistake(arm):
+    """Joints moved one after the other: closed forms leave more or fewer digits of it."""
+    for seed in range(12):
+        joints = np.tile(np.radians([20, -65, 100, -40, 95, 10]), (36, 1))
+        joints[range(36), np.arange(36) // 6] += np.random.default_rng(seed).uniform(-0.7, 0.7, 36)
+        assert mistake_in(arm, Observations(joints, arm.forward(joints))) is None
+
+
+@pytest.mark.parametrize("seed", [78, 121])
+def test_what_closed_forms_alone_do_not_explain_is_no_mistake(seed):
+    """Where only the wrist moved, they are off by more than with some wrong zero."""
+    arm = load_arm("panda.urdf", "panda_link8")
+    real = Real(arm, seed)
+    joints = np.tile(Real(arm, seed).postures(1), (30, 1))
+    joints[:, -3:] += np.random.default_rng(seed).uniform(-0.8, 0.8, (30, 3))
+    seen = Observations(joints, real.poses(joints)[:, :3, 3])
+    assert mistake_in(arm, seen, initial_frames(arm, seen)) is None
+
+
 def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
     poses = reread(
         arm.forward(joints), lambda its: euler("xyz", [[0.2, np.pi / 2, 0.0]] * len(its))
@@ -173,7 +202,7 @@ def test_so_are_poses_of_something_else(spoil, words, arm):
         (lambda q: changed(q, 5, np.negative), "the sign of wrist_3_joint"),
         (
             lambda q: changed(q, 0, np.negative),
-            "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by -180 deg",
+            "the sign of shoulder_pan_joint or the zero of shoulder_lift_joint, off by 180 deg",
         ),
     ],
     ids=["exchanged", "the last sign", "the first sign"],

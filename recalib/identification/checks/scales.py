@@ -29,8 +29,8 @@ class Scale(NamedTuple):
     Attributes:
         factor: its size over what it is said to be.
         remaining: the part of the noise that these sizes leave of that with the sizes that are
-            said; 0 of a board, of which nobody asks. Where other links than those described are the
-            reason, much of it remains.
+            said, as positions are in the table; 0 of a board, of which nobody asks. Where other
+            links than those described are the reason, or none has a length, much of it remains.
     """
 
     factor: float
@@ -68,7 +68,11 @@ def scales(arm: Arm, observations: Observations, frames: Frames) -> Sequence[Sca
         for one, other, length, _ in observations.distances
     ]
     beside = found.parameters[model.optics_columns][sizes].reshape(-1, each).mean(axis=1)
-    remaining = float(found.noise[0] / noise)
+    unit = 1.0
+    if observations.measured is not None and not by_cameras:
+        # where no link holds the size, all may shrink to a point, and its noise with it
+        unit = max(abs(1 + beside.item()), HELD)
+    remaining = float(found.noise[0] / noise / unit)
     return [Scale(factor, remaining) for factor in [*factors, *(1 + beside).tolist()]]
 
 

@@ -25,6 +25,7 @@ TOLERANCE = 1e-8  # m, rad
 STEPS = 60
 STARTS = 6  # learned postures to start from, where no posture is given
 NEAR = 0.05  # m from a pose to where the joints beside it take the arm, if these are alike
+BETTER = 0.1  # so much nearer they are where both belong together, and not a tool's length beside
 MARGIN = 0.05  # beyond the range learned from, as a part of it
 
 
@@ -174,11 +175,15 @@ def _check_frame(correction: Correction, desired: Measurements, in_instrument: b
     ends = calibration.forward(joints), calibration.predict(joints)
     in_base, to_instrument = (np.median(np.linalg.norm(e[:, :3, 3] - goals, axis=1)) for e in ends)
     own, other = (to_instrument, in_base) if in_instrument else (in_base, to_instrument)
-    if other < NEAR < own:
+    if other < min(NEAR, BETTER * own) and own > NEAR:
         frame, right = ("instrument", "base") if in_instrument else ("base", "instrument")
-        off = f"in the frame given, they are {1e3 * own:.0f} mm off"
-        valid = f"{right}, where the joints in the table take the arm to its poses; {off}"
-        raise InvalidSetting("frame", frame, valid)
+        raise InvalidSetting(
+            "frame",
+            frame,
+            f"{right}, where the joints in the table take the arm to the poses beside them; in the"
+            f" frame given, they are {1e3 * own:.0f} mm off; try: a table without joints, if they"
+            " are only to stay near to",
+        )
 
 
 def _goals(arm: Arm, desired: Measurements) -> np.ndarray:

@@ -75,17 +75,20 @@ def checked_frames(
     )
 
 
-def mistake_in(arm: Arm, observations: Observations) -> str | None:
+def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = None) -> str | None:
     """A mistake without which the nominal arm explains rows far better, in words.
 
     None where there is none, and of balls in sockets or several targets.
+
+    Args:
+        frames: that explain the rows as they are, if there are any.
     """
     measured = observations.measured
     if measured is None or observations.targets.any():
         return None
     # what explains whole poses is likelier than what explains their positions alone
     for its in (measured, observations.positions)[: observations.kinds]:
-        if mistake := likely_mistake(arm, observations.joints, its, FARTHEST, most_steps=1):
+        if mistake := likely_mistake(arm, observations.joints, its, FARTHEST, 1, frames):
             return mistake
     return None
 

@@ -33,7 +33,7 @@ UNITS = {  # of positions that are wrong, by what makes them right
 }
 SAME = 1e-6  # a difference of such parts by which mistakes cannot be told apart
 ENOUGH = 40  # rows to try mistakes on
-QUARTERS = 90, -90, 180  # degrees
+QUARTERS = 90, -90, -180  # degrees
 UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: below that nothing is said
 
 Change = Callable[[np.ndarray], np.ndarray]
@@ -97,6 +97,7 @@ def likely_mistake(
     measured: np.ndarray,
     alike: float = ALIKE,
     most_steps: int = 2,
+    frames: Frames | None = None,
 ) -> str | None:
     """The mistake in data that explains the most of a difference, of one step and then of more.
 
@@ -109,11 +110,18 @@ def likely_mistake(
             (n, 4, 4).
         alike: m that the mistake may leave; a turn counts by `LEVER`.
         most_steps: mistakes at once.
+        frames: that explain the data without a mistake, if there are any. Closed forms alone may
+            miss these, as where few joints moved.
 
     Returns it in words; None where nothing explains it.
     """
     rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # each has neighbours
-    plain = _rms(_fit(arm.forward(coordinates[rows]), measured[rows])[1])
+    poses = arm.forward(coordinates[rows])
+    plain = _rms(_fit(poses, measured[rows])[1])
+    if frames is not None:
+        plain = min(plain, _rms(_gaps(poses, measured[rows], frames.base, frames.targets[0])))
+    if plain <= MOVED:  # a perfect arm's rounding is explained by many mistakes
+        return None
     steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
     for count in range(1, most_steps + 1):
         fits = []
@@ -137,8 +145,11 @@ def likely_mistake(
 def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
     """Mistakes in words, and what undoes each: of joint coordinates, and of what was measured."""
     count = len(arm.joints)
-    yield "joint columns in degrees that say rad", np.radians, np.asarray
-    yield "joint columns in radians that say deg", np.degrees, np.asarray
+    for words, factor in (
+        ("joint columns in degrees that say rad", np.pi / 180),
+        ("joint columns in radians that say deg", 180 / np.pi),
+    ):
+        yield words, partial(np.multiply, np.where(arm.slides, 1.0, factor)), np.asarray
     for factor, words in UNITS.items():
         yield f"positions {words}", np.asarray, partial(_scaled, factor)
     yield "positions of which an axis points the other way", np.asarray, partial(_scaled, -1.0)
