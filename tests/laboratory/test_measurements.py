@@ -83,6 +83,13 @@ def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(g
     assert [*read.targets] == names["target"] and np.allclose(read.positions[-1], 0.002)
 
 
+def test_what_was_measured_at_commands_may_stand_beside_their_fake_poses(gantry, write):
+    beside = write(joints() | positions() | {f"{axis}_fake [mm]": [1.0] * ROWS for axis in "xyz"})
+    assert np.allclose(read_measurements(beside, gantry).positions[-1], 0.002)
+    with pytest.raises(InvalidFile, match="its commands are corrected already"):
+        read_desired(beside, gantry)
+
+
 def test_what_is_no_text_is_refused(gantry, tmp_path):
     path = tmp_path / "table.csv"
     path.write_bytes(b"\xff\xfe\x00\x01")

@@ -34,7 +34,7 @@ class NotReached(RecalibError):
 
     def __init__(self, rows: Sequence[int], reason: str):
         self.rows = [*rows]
-        others = f", and neither can {len(self.rows) - 1} others" if len(self.rows) > 1 else ""
+        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
         super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
 
 

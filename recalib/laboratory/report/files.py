@@ -19,7 +19,7 @@ from recalib.laboratory.correction.archive import Correction, load_correction
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.parameters import described
 from recalib.laboratory.report.summary import DOING, errors_table, summary, verdict
-from recalib.laboratory.tables.columns import MARK, POSE, write_table
+from recalib.laboratory.tables.columns import FAKE, POSE, write_table
 from recalib.nominal.kinematics import Arm
 
 CORRECTION, HAND_EYE = "correction.npz", "hand_eye.toml"
@@ -97,9 +97,7 @@ def write_postures(
     scales = [1e3 if slides else 180 / np.pi for slides in arm.slides]
     units = ["mm" if slides else "deg" for slides in arm.slides]
     names = [f"{joint} [{unit}]" for joint, unit in zip(arm.joints, units, strict=True)]
-    headings = [*names, *POSE]
-    if fake:
-        headings = [*names, *(heading.replace(" ", f"{MARK} ") for heading in POSE)]
+    headings = [*names, *(FAKE if fake else POSE)]
     turns = Rotation.from_matrix(poses[:, :3, :3]).as_rotvec(degrees=True)
     numbers = np.concatenate([joints * scales, 1e3 * poses[:, :3, 3], turns], axis=1)
     texts = ([f"{number:.9f}" for number in row] for row in numbers)

@@ -22,7 +22,7 @@ _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\
 NUMBER = Quantity("a number", {"": 1.0})
 IGNORED = "ignored"
 POSE = "x [mm]", "y [mm]", "z [mm]", "rx [deg]", "ry [deg]", "rz [deg]"  # as we write poses
-MARK = "_fake"  # of the columns of poses that are commands
+FAKE = tuple(heading.replace(" ", "_fake ") for heading in POSE)  # as we write poses to send
 FARTHEST = {  # that an arm could reach, and that a clock could show
     ANGLE: (4 * np.pi, "720 deg"),
     LENGTH: (10.0, "10 m"),

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting, UnsuitableRobot
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.laboratory.tables.columns import MARK, NUMBER, Table, read_table, table_of
+from recalib.laboratory.tables.columns import FAKE, NUMBER, Table, read_table, table_of
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
@@ -24,6 +24,7 @@ DESIRED = {POSITION: LENGTH} | ROTATIONS
 VECTORS = DESIRED | {NOMINAL: LENGTH, MISSED: LENGTH}
 OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wrote
 PICTURE = "picture"  # the column with the names of files, which says nothing of an arm
+SENT = [heading.split()[0] for heading in FAKE]  # nor do commands, where they were measured at
 TARGET, TIMES = "target", "time"
 LABELS = TARGET, "socket"
 MEASURED = [*(name for group in VECTORS for name in group), *LABELS, TIMES, PICTURE]
@@ -117,7 +118,7 @@ def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = Fals
     table = read_table(path)
     if TARGET in table and not in_instrument:
         raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
-    if f"x{MARK}" in table:
+    if SENT[0] in table:
         raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
     desired = [name for group in DESIRED for name in group]
     table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE], _moved_by(arm))
@@ -169,7 +170,7 @@ def _check_names(arm: Arm) -> None:
 
 def _read(table: Table, arm: Arm) -> Measurements:
     path = table.path
-    table.check_columns([*arm.joints, *MEASURED], _moved_by(arm))
+    table.check_columns([*arm.joints, *MEASURED, *SENT], _moved_by(arm))
     vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
     coordinates = None
     if any(joint in table for joint in arm.joints):
