@@ -55,10 +55,10 @@ class PolynomialLearner(Observer):
         for move in range(executed.shape[1]):
             features = monomials(achieved[:, [move]], self._degree)
             reach = features @ self._spread  # (run, 1, F)
-            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * executed[:, [move], None]
-            missed = (commands - achieved)[:, [move]]
-            missed = np.where(executed[:, [move], None], missed, 0)  # what was refused may be nan
-            residuals = missed - features @ self._coefficients
+            known = executed[:, [move], None]
+            gain = reach / (1 + reach @ features.swapaxes(1, 2)) * known
+            residuals = (commands - achieved)[:, [move]] - features @ self._coefficients
+            residuals = np.where(known, residuals, 0)  # what was refused may be nan
             self._coefficients += gain.swapaxes(1, 2) @ residuals
             self._spread -= gain.swapaxes(1, 2) @ reach
 
