@@ -126,7 +126,6 @@ def imported(path, at_once: bool = False) -> set[str]:
     return names
 
 
-@cache
 def files_of(name: str) -> set[str]:
     """The files of the project that an import of a dotted name goes through."""
     parts = name.split(".")

@@ -30,12 +30,6 @@ def real(ur10):
     return Real(ur10, 1)
 
 
-@pytest.fixture
-def two_folds(monkeypatch):
-    """Where it is asked what is chosen or found, not how wrong it is."""
-    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)
-
-
 @pytest.fixture(scope="module")
 def validation(ur10, real):
     """With an outlier in row 7."""
@@ -68,8 +62,8 @@ def test_where_there_is_only_geometry_nothing_else_is_tried(validation):
         assert kinds[HYBRID] is kinds[GEOMETRIC]
 
 
-@pytest.mark.usefixtures("two_folds")
 def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
+    monkeypatch.setattr("recalib.identification.held_out.FOLDS", 2)  # what is chosen is asked here
     real = Real(ur10, 7)
     joints = real.postures(ROWS)
     observations = Observations(joints, real.poses(joints + 0.01 * np.sin(joints)))
@@ -143,7 +137,6 @@ def test_blocks_are_the_same_in_whatever_unit_a_joint_is():
     assert np.array_equal(here, there)
 
 
-@pytest.mark.usefixtures("two_folds")
 @pytest.mark.parametrize("count", [16, 30])
 def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     real = Real(ur10, count)
@@ -155,7 +148,6 @@ def test_a_third_of_the_rows_may_be_grossly_wrong(ur10, count):
     assert real.error(found.calibration.predict) < 1e-3
 
 
-@pytest.mark.usefixtures("two_folds")
 @pytest.mark.parametrize("noise", [1e-3, 0.0])
 def test_an_arm_without_errors_is_left_alone(ur10, noise):
     random = np.random.default_rng(4)
@@ -166,7 +158,6 @@ def test_an_arm_without_errors_is_left_alone(ur10, noise):
     assert np.allclose(found.calibration.forward(joints), ur10.forward(joints), atol=1e-6)
 
 
-@pytest.mark.usefixtures("two_folds")
 @pytest.mark.parametrize("angle", [-1.2, 0.0, 0.35])
 def test_a_joint_may_stand_still_at_any_angle(ur10, angle):
     real = Real(ur10, 8)

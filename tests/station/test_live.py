@@ -30,7 +30,7 @@ from recalib.laboratory.live.view import LiveView
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
-from tests.conftest import ROOT, few_folds
+from tests.conftest import ROOT
 from tests.identification.real import ARMS
 from tests.kept import plain
 from tests.logged import logged
@@ -76,8 +76,7 @@ def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
     assert "0.3 mm was asked for" in reason
     assert station.calls.count("move") < 30 and "stop" not in station.calls
     urdf, tool = ARMS[name]
-    with few_folds():
-        result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
+    result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
     low, high = (np.array(HOMES[name]) + side * np.radians(45) for side in (-1, 1))
     fresh = np.random.default_rng(seed).uniform(low, high, (200, len(low)))
     gaps = result.calibration.predict(fresh) - station.real.poses(fresh, noise=(0, 0))
@@ -449,7 +448,6 @@ def test_one_that_is_terminated_stops_the_arm_first(tmp_path):
 
 
 @pytest.fixture(scope="module")
-@few_folds()
 def calibrated(tmp_path_factory):
     folder = tmp_path_factory.mktemp("calibrated")
     station = Simulated()

@@ -7,15 +7,12 @@ import tomllib
 from functools import cache
 from pathlib import Path
 from shutil import copytree
-from unittest import mock
 
 import numpy as np
 import pytest
 
 from recalib.errors import RecalibError
-from recalib.identification.model.error_model import OFFSETS
 from recalib.identification.model.linearisation import displacements
-from recalib.identification.validation import CANDIDATES, HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, main
 from recalib.laboratory.pictures.observed import fitted_lenses
@@ -76,12 +73,6 @@ def calibrated(*folders):
     return calibrate_arm("panda.urdf", folders, tool="panda_link8")
 
 
-@mock.patch.dict(CANDIDATES, {HYBRID: (OFFSETS,)})
-def by_geometry(*folders):
-    """Where it is asked what slipped or is refused, not what else the arm has."""
-    return calibrated(*folders)
-
-
 @pytest.fixture(scope="module")
 def in_one_fit(tmp_path_factory):
     """By the name of a setup, its calibration and the folders of its sessions."""
@@ -135,12 +126,10 @@ def test_several_cameras_and_boards_are_found_in_one_fit(setup, in_one_fit):
 
 
 def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
-    (result, folders), made = in_one_fit("two fixed"), tmp_path / "calibration"
+    folders, made = in_one_fit("two fixed")[1], tmp_path / "calibration"
     arguments = ["panda.urdf", *map(str, folders), "--tool=panda_link8", f"--out={made}"]
-    with mock.patch("recalib.laboratory.calibrate.calibrate_arm", return_value=result) as asked:
+    with few_folds():
         assert main(["calibrate", *arguments]) == DONE
-    urdf, given, *known = asked.call_args.args[:4]
-    assert (str(urdf), given, known) == ("panda.urdf", folders, [None, "panda_link8"])
     told = capsys.readouterr().out
     assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in told
     assert "corners in pictures of the board by camera left that were not learned" in told
@@ -209,7 +198,7 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
 def test_what_slips_in_a_session_is_named_in_the_first_lines(
     cell, slip, size, turn, said, tmp_path
 ):
-    result = by_geometry(write_session(tmp_path, cell, slip=slip, pictures=2 * PICTURES))
+    result = calibrated(write_session(tmp_path, cell, slip=slip, pictures=2 * PICTURES))
     fault, *others = result.faults
     assert not others and fault.row == PICTURES
     assert size is None or 1e3 * fault.size == pytest.approx(size, rel=0.25)
@@ -224,7 +213,7 @@ def test_of_several_cameras_the_one_that_saw_the_slip_is_named(both, tmp_path):
     slip = "sheet", SHIFT
     left = write_session(tmp_path / "left", Cell(SEED), "left", slip=slip if both else None)
     right = write_session(tmp_path / "right", beside(SEED), "right", slip=slip)
-    (fault,) = by_geometry(left, right).faults
+    (fault,) = calibrated(left, right).faults
     assert (fault.kind, fault.row) == ("slip", PICTURES // 2)
     assert 1e3 * fault.size == pytest.approx(1.0, rel=0.2)
     assert both or fault.sight == 1
@@ -233,7 +222,7 @@ def test_of_several_cameras_the_one_that_saw_the_slip_is_named(both, tmp_path):
 def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left", "tool")
     hand = write_session(tmp_path / "hand", on_the_hand(), "hand", "table", ("eye", TURN))
-    told = verdict(by_geometry(left, hand))
+    told = verdict(calibrated(left, hand))
     assert f"Careful: in {hand}, between rows 15 and 16 camera hand seems to have slipped" in told
 
 
@@ -241,7 +230,7 @@ def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     moved = beside(SEED)
     moved.sheet = moved.sheet @ frame([0, 0, 0], [0.003, 0, 0])
     folders = beside_left(tmp_path, moved)
-    told = verdict(by_geometry(*folders))
+    told = verdict(calibrated(*folders))
     assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in told
     assert "try each folder by itself" in told
 
@@ -251,7 +240,7 @@ def test_pictures_that_the_others_contradict_are_told_by_camera_and_board(tmp_pa
     moved.sheet = moved.sheet @ frame([0, 0, 0], [0.02, 0, 0])
     left = write_session(tmp_path / "left", Cell(SEED), "left", pictures=45)
     right = write_session(tmp_path / "right", moved, "right", pictures=20)
-    told = verdict(by_geometry(left, right))
+    told = verdict(calibrated(left, right))
     assert re.search(r"Careful: \d+ of 20 pictures of the board by camera right contradict", told)
 
 
@@ -283,7 +272,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
 def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, said, tmp_path):
     left = write_session(tmp_path / "left", Cell(SEED), "left")
     with pytest.raises(RecalibError, match=said):
-        by_geometry(left, write_session(tmp_path / "right", *session))
+        calibrated(left, write_session(tmp_path / "right", *session))
 
 
 def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
@@ -294,13 +283,13 @@ def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
         line[joints] = lines[PICTURES - row][joints]
     (right / "measurements.csv").write_text("\n".join(map(",".join, lines)))
     with pytest.raises(RecalibError, match="the board by camera right: no place of instrument"):
-        by_geometry(left, right)
+        calibrated(left, right)
 
 
 def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path):
     left, right = in_one_fit("two fixed")[1]
     with pytest.raises(RecalibError, match="it is one of 2 tables; expected: one, or the folders"):
-        by_geometry(left, right / "measurements.csv")
+        calibrated(left, right / "measurements.csv")
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
     with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
         calibrate_arm("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")
@@ -314,4 +303,4 @@ def test_a_name_that_was_changed_is_refused(new, tmp_path):
     text = (folder / "setup.toml").read_text()
     (folder / "setup.toml").write_text(text.replace('camera_name = "camera"', new))
     with pytest.raises(RecalibError, match="camera_name or board_name is not as observe wrote it"):
-        by_geometry(folder)
+        calibrated(folder)

@@ -92,9 +92,7 @@ def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, upda
     synthetic = Synthetic(tmp_path, its)
     assert drawn(its, synthetic.request) == figures
     for figure in figures:
-        with plt.rc_context(STYLE):
-            draw(figure, synthetic.evidence(FIGURES[figure].needs)).draw_without_rendering()
-    plt.close("all")
+        bytes_of(figure, synthetic.evidence(FIGURES[figure].needs), tmp_path)
 
 
 def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
