@@ -36,7 +36,7 @@ OF_MAPS = SWITCHED[:2]  # whose searches go on from others: replicates of their 
 # Not from trainings: measured for a study with evidence, searched for, or shipped
 BEYOND = "ensemble/", "mapping/", "search/", "workflow/"
 
-# How each fact follows from a study. Trainings go by their role in the paper.
+# How each of `Facts` follows from a study. Trainings go by their role in the paper.
 FACTS: Mapping[str, Callable[[Study, Trainings], Any]] = {
     "seed": lambda study, _: study.seed,
     "robot": lambda study, _: study.robot,

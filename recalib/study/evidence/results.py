@@ -2,9 +2,10 @@
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+from typing_extensions import TypedDict  # pydantic needs this one before Python 3.12
 
 from recalib.numerics.randomness import generator
 from recalib.study.configuration.part import Frozen
@@ -22,6 +23,42 @@ if TYPE_CHECKING:
 Words = dict[str, dict[str, str]]  # by factor: what it `asks`, and by level what completes that
 
 
+class Facts(TypedDict, total=False):
+    """What may be known of a study beside its results; see `recalib.study.evidence.needs`."""
+
+    seed: int
+    robot: str
+    scenario: str
+    scenarios: list[str]
+    elsewhere: dict[str, str]
+    published: dict[str, float]
+    published_mm: dict[str, float]
+    iterations: int
+    improved: str
+    ritter: str
+    short: str
+    compared: list[str]
+    learners: list[str]
+    beside: list[str]
+    switched: list[str]
+    ladder: dict[str, list[tuple[int, str]]]
+    setups: dict[str, int]
+    rough_trials: int
+    coupling_poses: int
+    balls: int
+    points: int
+    radius: float
+    assignment_poses: int
+    short_searches: int
+    searches_long: int
+    tests: int
+    measure_every: int
+    real_robot: str
+    real_poses: list[int]
+    budgets: list[int]
+    threshold: float
+
+
 class Evidence(Frozen):
     """Results by name: what a claim, a figure or a page declared, and may read.
 
@@ -30,12 +67,12 @@ class Evidence(Frozen):
     Attributes:
         root: folder of the study's results.
         files: paths by name: below that folder, or for what is shipped in the project.
-        facts: what is known of the study beside its results; see `recalib.study.evidence.needs`.
+        facts: what is known of the study beside its results.
     """
 
     root: str
     files: dict[str, str]
-    facts: dict[str, Any]
+    facts: Facts
 
     @property
     def inputs(self) -> list[str]:

@@ -86,7 +86,7 @@ def test_trainings_go_by_their_role_in_the_paper(study):
         # a training of the learner's own length has the learner's name
         "ladder": {
             name: [
-                [rung, name if rung == own[name] else f"{name}_{rung}"] for rung in sorted(rungs)
+                (rung, name if rung == own[name] else f"{name}_{rung}") for rung in sorted(rungs)
             ]
             for name, rungs in study.experiments.ladder.items()
         },
