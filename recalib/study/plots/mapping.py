@@ -65,7 +65,7 @@ def figure7(evidence: Evidence) -> Figure:
     axes.axhline(1, **BORDER)
     axes.text(0.1, 2.5, "above the line a constant is the better guess", fontsize=9, color="0.4")
     axes.set_xlabel("encoder shifts, times the paper's (links at most once)")
-    axes.set_ylabel("$E_{upd} / E_{clas}$")
+    axes.set_ylabel("E_upd / E_clas")
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     logarithmic(axes.yaxis, 0.0001, 0.001, 0.01, 0.1, 1)
     axes.set_ylim(top=10)
@@ -77,8 +77,8 @@ def figure7(evidence: Evidence) -> Figure:
         + (f",\nup to {largest:g} times the paper's damage" if better else " in slight damage"),
         axes,
         2,
-        "$E_{clas}$: mean square distance of the new mapping from a constant;"
-        " $E_{upd}$: from the old mapping plus a constant\n"
+        "E_clas: mean square distance of the new mapping from a constant;"
+        " E_upd: from the old mapping plus a constant\n"
         f"medians over {evidence.facts['balls']} balls of radius {evidence.facts['radius']:g} in"
         " workspace coordinates; Jacobians from the intact robot:\nboth are the same;"
         f" beyond {largest:g} times the paper's damage, poses are out of reach",

@@ -73,17 +73,12 @@ def _draw_order(axes: Axes, trials: pd.DataFrame, error: ErrorStyle) -> None:
     middles = np.array([np.median(part, axis=0) for part in np.array_split(ordered, PARTS)])
     axes.plot(*middles.T, color=NEUTRAL, linewidth=2, label="median of a tenth of the trials")
     line_across(axes, "equally wide", x=1)
-    axes.set_xlabel(f"final width of ${_sign(narrow)}$ over ${_sign(wide)}$", fontsize=SIZE)
+    axes.set_xlabel(f"final width of {narrow} over {wide}", fontsize=SIZE)
     axes.set_ylabel(error.label, fontsize=SIZE)
     logarithmic(axes.xaxis, 0.1, 0.3, 1, 3, 10)
     logarithmic(axes.yaxis, 0.2, 0.5, 1, 2, 5, 10)
     axes.set_title(f"{error.kind.capitalize()} map: rank\ncorrelation {found:+.2f}", pad=ABOVE)
     legend_under(axes)
-
-
-def _sign(net: str) -> str:
-    base, index = net.split("_")
-    return f"{base}_{{{index}}}"
 
 
 def figure6(evidence: Evidence) -> Figure:
