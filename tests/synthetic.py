@@ -35,7 +35,6 @@ from recalib.study.evidence import effects
 from recalib.study.evidence.benchmark import errors, reached
 from recalib.study.evidence.claims import CLAIMS, judge, judging
 from recalib.study.evidence.needs import Request
-from recalib.study.evidence.pages.findings import COUNTED
 from recalib.study.evidence.pages.real_arm import real_errors
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.summary import summarise
@@ -61,7 +60,7 @@ LADDERS = {"improved": 20, "ritter": 1400, "ritter_double": 1400}  # error times
 OF_SEARCHES, OF_SEEDS = 0.07, 0.05
 NOISE = 1e-9  # relative: more than machines differ by
 UNMEASURED = "scale", "width", "distance"  # but of assignments
-SHIPPED = DESIGN, POWER, DEVIATIONS, COUNTED, FACTORS  # used as they are
+SHIPPED = DESIGN, POWER, DEVIATIONS, FACTORS  # used as they are
 REPLICATES = 8  # of the reference study
 # Spread of logarithms of what the campaign measures: of replicates, and of setups
 LUCK, OWN = 0.1, 0.05

@@ -24,11 +24,12 @@ Watched = tuple[np.ndarray, np.ndarray]
 
 PUBLISHED = 70
 CELLS = {DOUBLE: "both maps together", RITTER: "one map"}  # the paper's own reading first
+AS_THE_PAPER = "as the paper: very rough, and optimized"
 # What is sought with which effort: the improved system, and Ritter's.
 EFFORTS = {
     "equal and full": ("full", "full"),
     "equal and rough": ("rough", "rough"),
-    "as the paper: very rough, and optimized": ("rough", "full"),
+    AS_THE_PAPER: ("rough", "full"),
 }
 ANEW, ON_THE_WAY = "tuned anew for each length", "on the way of one long training"
 

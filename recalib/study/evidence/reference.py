@@ -1,6 +1,5 @@
 """What the reference study's replicates say in more detail: maps, schedules and widths."""
 
-from collections.abc import Mapping
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ from recalib.study.evidence.claims.maps import WIDTHS
 from recalib.study.evidence.speedup import iterations_needed
 from recalib.study.evidence.verdicts import RATIO
 from recalib.study.inference.hierarchy import geometric_student
-from recalib.study.inference.intervals import UNKNOWN, combined
+from recalib.study.inference.intervals import UNKNOWN, Estimate, combined
 from recalib.study.inference.measured import ERRORS, KINDS
 
 if TYPE_CHECKING:
@@ -91,14 +90,11 @@ def width_order(trials: "pd.DataFrame", random: np.random.Generator) -> list[dic
     return rows
 
 
-def spread_of_luck(reference: "pd.DataFrame", columns: Mapping[str, str]) -> list[dict]:
-    """What one search alone would find: where 95 % of replicates of some columns of ratios lie."""
+def one_search(ratios: "pd.Series") -> Estimate:
+    """What one search alone would find: the mean, and where 95 % of replicates of ratios lie."""
     from scipy.special import stdtrit
 
-    rows = []
-    for name, column in columns.items():
-        values = np.log(reference[column].to_numpy())
-        reach = stdtrit(len(values) - 1, 0.975) * values.std(ddof=1) * np.sqrt(1 + 1 / len(values))
-        low, high = np.exp([values.mean() - reach, values.mean() + reach])
-        rows.append({"name": name, "low": low, "high": high})
-    return rows
+    values = np.log(ratios.to_numpy())
+    reach = stdtrit(len(values) - 1, 0.975) * values.std(ddof=1) * np.sqrt(1 + 1 / len(values))
+    mean = values.mean()
+    return Estimate(*np.exp([mean, mean - reach, mean + reach]).tolist())

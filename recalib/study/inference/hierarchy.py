@@ -11,6 +11,9 @@ import numpy as np
 
 from recalib.study.inference.intervals import TAILS, Estimate
 
+# Of the logarithm of a ratio, by effort, when the second campaign was planned: what the first one
+# showed for small effects (full: in the reference study; rough: over setups).
+ASSUMED_LUCK = {"full": 0.13, "rough": 0.39}
 DRAWS = 1024  # of the pivot
 HALVINGS = 40  # of an interval of 12 decades: to 1e-11
 

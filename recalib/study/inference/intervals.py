@@ -17,7 +17,10 @@ RESAMPLES = 20_000
 
 
 class Estimate(NamedTuple):
-    """A number, and the interval in which 95 % of repetitions of the study would find theirs."""
+    """A number, and the interval in which 95 % of repetitions of the study would find theirs.
+
+    Of four searches that differ much, it holds eight of ten: a bootstrap reaches no farther.
+    """
 
     mean: float
     low: float

@@ -6,13 +6,10 @@ import numpy as np
 import pandas as pd
 
 from recalib.study.evidence.verdicts import RATIO, Verdict
-from recalib.study.inference.hierarchy import hierarchy
+from recalib.study.inference.hierarchy import ASSUMED_LUCK, hierarchy
 from recalib.study.inference.intervals import Estimate
 
 STUDIES = 1000
-# Standard deviation of the logarithm of a ratio between two searches, by effort: what the first
-# campaign showed for the small effects (full: in the reference study; rough: over setups).
-LUCK = {"full": 0.13, "rough": 0.39}
 EFFECTS = 1.0, 0.95, 0.93, 0.91, 0.9
 HETEROGENEITIES = 0.0, 0.1, 0.2
 
@@ -27,8 +24,8 @@ def power(setups: int, replicates: int, studies: int = STUDIES) -> pd.DataFrame:
         setups: half of them of full effort, the others of rough.
         replicates: of each setup.
     """
-    effort = np.array(list(LUCK))[np.arange(setups) % len(LUCK)]
-    spread = np.array([LUCK[level] for level in effort])
+    effort = np.array(list(ASSUMED_LUCK))[np.arange(setups) % len(ASSUMED_LUCK)]
+    spread = np.array([ASSUMED_LUCK[level] for level in effort])
     rows = []
     for number, (effect, own) in enumerate(product(EFFECTS, HETEROGENEITIES)):
         random = np.random.default_rng([1996, number])

@@ -25,6 +25,10 @@ def test_refused_moves_are_said_by_learner_and_scenario_and_none_is_said_as_none
     assert _refused(summary[:1]) == "none"
 
 
+def claim(name: str, verdict: str, luck: float) -> dict:
+    return {"id": name, "verdict": verdict, "universes": {"luck": luck}}
+
+
 def test_the_power_of_the_campaign_is_read_from_its_table():
     effects, own = (1.0, 0.95, 0.9), (0.0, 0.1, 0.2, 0.3)
     rows = [
@@ -41,12 +45,19 @@ def test_the_power_of_the_campaign_is_read_from_its_table():
         setups=lambda table: pd.DataFrame({"universe": [0, 0, 1, 1], "replicate": [0, 1, 0, 1]}),
         table={POWER: pd.DataFrame(rows), DESIGN: pd.DataFrame({"homes_refused": [2, 3]})}.get,
         levels=lambda: pd.DataFrame({"one": [1, 2], "two": [1, 2]}),
+        claims=lambda: [
+            claim("schedule", "contradicted", 0.3),
+            claim("theta-increments", "supported", 0.5),
+            claim("cells-position", "undecided", 0.28),
+            claim("rough-search", "undecided", 0.5),
+        ],
     )
     said = _campaign(evidence)
     assert (said["setups"], said["replicates"], said["factors"], said["homes"]) == (2, 2, 2, 5)
     assert said["smallest_effect"] == pytest.approx(0.1)
     assert said["found_among"] == {"heterogeneity": 0.3, "share": 0.49}
     assert said["smallest_heterogeneity"] == 0.2 and said["none"]["found"] == 0.03
+    assert [its["id"] for its in said["luckier"]] == ["schedule"], "where the power was to tell"
     assert _campaign(SimpleNamespace(setups=lambda table: None)) == {}
 
 

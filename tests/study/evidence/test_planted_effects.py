@@ -8,8 +8,8 @@ from scipy.stats import binom
 from recalib.study.configuration.shipped import DESIGN, REFERENCE
 from recalib.study.evidence import effects
 from recalib.study.inference import intervals
+from recalib.study.inference.hierarchy import ASSUMED_LUCK
 from recalib.study.inference.intervals import LEVEL
-from recalib.study.multiverse.power import LUCK
 from tests.conftest import ROOT
 from tests.synthetic import REPLICATES, Synthetic
 
@@ -28,7 +28,7 @@ def verdicts(study, tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)  # where the design is
     synthetic = Synthetic(tmp_path, study)
     plain = synthetic.reference(), synthetic.outcomes(), synthetic.horizon()
-    luck = pd.read_csv(DESIGN)["effort"].map(LUCK).to_numpy()[:, None, None]
+    luck = pd.read_csv(DESIGN)["effort"].map(ASSUMED_LUCK).to_numpy()[:, None, None]
 
     def planted(table, ratio, spread, size, random):
         """A table with the ratio in each of the columns."""
@@ -39,7 +39,7 @@ def verdicts(study, tmp_path, monkeypatch):
         found = []
         for repetition in range(repetitions):
             random = np.random.default_rng([repetition, 20])
-            reference = planted(plain[0], ratio, LUCK["full"], (REPLICATES, 1), random)
+            reference = planted(plain[0], ratio, ASSUMED_LUCK["full"], (REPLICATES, 1), random)
             size = study.universes.count, study.universes.replicates
             outcomes = planted(plain[1], ratio, luck, size, random)
             synthetic.write(REFERENCE, reference)

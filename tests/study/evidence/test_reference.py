@@ -9,9 +9,9 @@ from scipy.stats import t
 
 from recalib.study.configuration.lengths import MAPS
 from recalib.study.evidence.reference import (
+    one_search,
     schedules,
     speed_of_two_maps,
-    spread_of_luck,
     width_order,
 )
 from recalib.study.inference.measured import ERRORS
@@ -79,11 +79,9 @@ def test_widths_that_do_not_matter_are_not():
 
 def test_what_one_search_would_find_has_students_prediction_interval():
     values = np.random.default_rng(1).normal(size=5)
-    (row,) = spread_of_luck(pd.DataFrame({"one": np.exp(values)}), {"name": "one"})
+    found = one_search(pd.Series(np.exp(values)))
     half = t.ppf(0.975, 4) * values.std(ddof=1) * np.sqrt(1 + 1 / 5)
-    assert np.log([row["low"], row["high"]]) == pytest.approx(
-        values.mean() + half * np.array([-1, 1])
-    )
+    assert np.log(found) == pytest.approx(values.mean() + half * np.array([0, -1, 1]))
 
 
 def test_of_few_trials_p_is_the_share_of_all_exchanges():

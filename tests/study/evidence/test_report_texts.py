@@ -1,5 +1,6 @@
 """The texts of the report's pages, without a browser: test_report.py looks at them in one."""
 
+import re
 from contextlib import chdir
 
 import pytest
@@ -50,6 +51,17 @@ def test_tables_hold_what_the_results_say(known, figures, synthetic):
     assert all(f"{number}</span>" in claims for number in shown)
     supported = [each["verdict"] for each in known["claims"]].count("supported")
     assert f"{supported} supported" in claims.replace("\n", " ")
+
+
+def test_learners_have_the_names_of_the_pages(known, figures):
+    settings = report.page("settings", known, figures)
+    assert "<td>Ritter&#39;s map, cells of both maps</td>" in settings
+    assert "<td>Improved system without increments of theta</td>" in settings
+    assert (
+        "<td>Coarse grid</td>"
+        in report.layout().from_string("<td>{{ learner('coarse_grid_200') }}</td>").render()
+    )
+    assert "_" not in "".join(re.findall(r"<td>(.*?)</td>", settings))
 
 
 def test_the_front_leaves_to_snakemake_what_only_it_knows(known, figures):

@@ -51,6 +51,17 @@ def test_the_interval_holds_repetitions_as_often_as_it_says(compared, quick):
     assert 0.905 <= np.mean(inside) <= 0.99
 
 
+def test_of_four_searches_that_differ_much_an_interval_holds_eight_of_ten_repetitions(quick):
+    """The bootstrap reaches no farther than the best and the worst of them: a known limit."""
+    inside = []
+    for number in range(200):
+        random = rng(5, number)
+        found = geometric(training(random, 4, of_searches=0.4), rng(number))
+        again = [np.log(training(random, 4, of_searches=0.4)).mean() for _ in range(5)]
+        inside.append(np.mean([found.low <= np.exp(mean) <= found.high for mean in again]))
+    assert 0.77 <= np.mean(inside) <= 0.87
+
+
 @pytest.mark.parametrize("searches", [(8,), (12,), (12, 4), (4, 12, 6), (4, 4)])
 def test_of_normal_means_an_interval_is_students_of_the_fewest_searches(searches):
     """With as many degrees of freedom as the two trainings of the fewest have; for a repetition."""

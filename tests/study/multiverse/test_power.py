@@ -13,7 +13,7 @@ WORDS = [str(each) for each in Verdict]
 
 
 def test_worlds_that_are_clear_are_judged_so(monkeypatch):
-    monkeypatch.setattr(module, "LUCK", {"full": 0.05, "rough": 0.1})
+    monkeypatch.setattr(module, "ASSUMED_LUCK", {"full": 0.05, "rough": 0.1})
     monkeypatch.setattr(module, "EFFECTS", (1.0, 0.5))
     monkeypatch.setattr(module, "HETEROGENEITIES", (0.0, 1.0))
     table = power(32, 2, studies=6).set_index(["effect", "heterogeneity"])

@@ -5,7 +5,9 @@ from pathlib import Path
 
 from recalib.files.storage import whole
 from recalib.spelling import listed
+from recalib.study.configuration.shipped import REFERENCE
 from recalib.study.evidence.pages import all_results, choices, deviations, findings, readme
+from recalib.study.evidence.reference import one_search
 from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 
@@ -31,6 +33,8 @@ def context(evidence: Evidence) -> dict:
         "counted": _counted(found["claims"]),
         "sentences": front["sentences"],
         "readings": front["readings"],
+        "ways": front["ways"],
+        "once": one_search(evidence.table(REFERENCE)["schedule_improved"]),
         "own": results["own"],
         "typical": results["typical"],
         "published_errors": results["published"],

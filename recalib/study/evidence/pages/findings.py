@@ -1,11 +1,14 @@
 """What the page of findings says: what did not replicate, how far it carries, limits."""
 
+import math
+import statistics
 from functools import partial
 from typing import TYPE_CHECKING
 
 from recalib.study.configuration import shipped
 from recalib.study.configuration.switches import IMPROVED, RITTER
 from recalib.study.evidence.claims import CLAIMS
+from recalib.study.evidence.claims.claim import Claim
 from recalib.study.evidence.factor import PUBLISHED, factor_table
 from recalib.study.evidence.factor_in_setups import in_setups
 from recalib.study.evidence.pages.parts import otherwise, parts
@@ -13,38 +16,27 @@ from recalib.study.evidence.pages.words import depends, level_in_words
 from recalib.study.evidence.reference import (
     schedules,
     speed_of_two_maps,
-    spread_of_luck,
     two_maps,
     width_order,
 )
 from recalib.study.evidence.results import Evidence, Words
-from recalib.study.evidence.verdicts import Verdict
+from recalib.study.evidence.verdicts import RATIO, Verdict
+from recalib.study.inference.hierarchy import ASSUMED_LUCK
 from recalib.study.inference.measured import ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd
 
-COUNTED = f"{shipped.FIRST}/counted.csv"  # in how many setups a claim held: of its outcomes
 SHORT = ("cm", "deg")
 ENOUGH = 0.8  # of the simulated campaigns
 ORDER = Verdict.CONTRADICTED, Verdict.NO_EFFECT, Verdict.UNDECIDED, Verdict.SUPPORTED
-ONCE = {  # what a single search compares, by column of the reference study
-    "two maps, improved system": "maps_improved",
-    "two maps, Ritter's": "maps_ritter",
-    "increments of theta, improved system": "theta_improved",
-    "increments of theta, Ritter's": "theta_ritter",
-    "increments of the Jacobians, improved system": "jacobian_improved",
-    "increments of the Jacobians, Ritter's": "jacobian_ritter",
-    "equal visits, improved system": "schedule_improved",
-    "equal visits, Ritter's": "schedule_ritter",
-}
 ELSEWHERE = {"figure1", "figure2", "figure3", "figure9"}  # shown among results or above
 
 NEEDS = f"""
     summary.csv claims.json outcomes? horizon? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
-    {shipped.FACTORS} {COUNTED} search/{{improved}}.csv runs/{{scenario}}/{{ladder}}.parquet
+    {shipped.FACTORS} search/{{improved}}.csv runs/{{scenario}}/{{ladder}}.parquet
     ensemble/assignments.improved.parquet ensemble/scaled.improved.parquet
-    ensemble/assignments.ritter.parquet seed iterations
+    ensemble/assignments.ritter.parquet seed iterations searches_long
 """
 
 
@@ -93,6 +85,7 @@ def _campaign(evidence: Evidence) -> dict:
     smallest = found[found >= ENOUGH].index.max()
     among = power[power["effect"] == smallest].set_index("heterogeneity")["supported"]
     own = power[power["effect"] == 1].set_index("heterogeneity")["found"]
+    assumed = math.sqrt(statistics.fmean(luck**2 for luck in ASSUMED_LUCK.values()))
     return {
         "setups": outcomes["universe"].nunique(),
         "replicates": outcomes["replicate"].nunique(),
@@ -103,12 +96,26 @@ def _campaign(evidence: Evidence) -> dict:
         "smallest_effect": 1 - smallest,
         "found_among": {"heterogeneity": among.index.max(), "share": among[among.index.max()]},
         "smallest_heterogeneity": own[own >= ENOUGH].index.min(),
+        "assumed": ASSUMED_LUCK,
+        "assumed_luck": assumed,
+        "luckier": [claim for claim in evidence.claims() if _luckier(claim, assumed)],
     }
+
+
+def _luckier(claim: dict, assumed: float) -> bool:
+    """Whether luck may have hidden what a comparison asks: more than its power was computed for."""
+    home, its = _home(claim), claim["universes"]
+    compares = all(across.comparison == RATIO for across in home.across.values())
+    return compares and claim["verdict"] != Verdict.SUPPORTED and its.get("luck", 0) > assumed
+
+
+def _home(claim: dict) -> Claim:
+    return next(its for its in CLAIMS if its.id == claim["id"])
 
 
 def _said(claim: dict) -> dict:
     """A judged claim, with what its home says of it besides."""
-    home = next(its for its in CLAIMS if its.id == claim["id"])
+    home = _home(claim)
     numbers = [figure.removeprefix("figure") for figure in home.figures]
     return claim | {
         "reason": home.reason.format(**home.limits),
@@ -159,15 +166,14 @@ def context(evidence: Evidence) -> dict:
         "speed_of_two_maps": speed_of_two_maps(reference),
         "schedules": schedules(reference),
         "widths": width_order(sample, evidence.rng("exchange of widths")),
-        "once": spread_of_luck(reference, ONCE),
         "replicates": len(reference),
-        "held": evidence.table(COUNTED).set_index("what")["holds"].to_dict(),
         "iterations": evidence.facts["iterations"],
         "ritter_iterations": ritter.max(),
         "figures": figures(),
         "refused": _refused(summary),
         "trials": len(sample) // searched_for.searches,
         "searches": searched_for.searches,
+        "searches_long": evidence.facts["searches_long"],
         "ensemble": _ensemble(*ensembles),
         "scaled": _scaled(scaled),
         "scaled_robots": scaled["robot"].nunique(),

@@ -2,8 +2,9 @@
 
 from collections.abc import Mapping
 
+from recalib.study.configuration.shipped import EFFORTS
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.factor import CELLS, PUBLISHED, verdict
+from recalib.study.evidence.factor import AS_THE_PAPER, CELLS, PUBLISHED, factor_table, verdict
 from recalib.study.evidence.pages.parts import otherwise, parts
 from recalib.study.evidence.pages.words import (
     headline,
@@ -17,7 +18,10 @@ from recalib.study.evidence.results import Evidence
 from recalib.study.evidence.verdicts import Verdict
 from recalib.study.inference.intervals import Estimate
 
-NEEDS = "summary.csv claims.json improved scenario outcomes?"
+NEEDS = f"""
+    summary.csv claims.json improved scenario outcomes? {EFFORTS}?
+    runs/{{scenario}}/{{ladder}}.parquet seed iterations
+"""
 ORDINARY = {
     Verdict.SUPPORTED: f"which agrees with {PUBLISHED}",
     Verdict.CONTRADICTED: "which does not agree",
@@ -54,6 +58,18 @@ def _readings(claim: Mapping) -> dict[str, dict[str, str]]:
     return found
 
 
+def _ways(evidence: Evidence) -> dict:
+    """Of the ways to ask for the factor, how many agree with the published one, and the paper's."""
+    if EFFORTS not in evidence.files:
+        return {}
+    rows = factor_table(evidence)
+    return {
+        "count": len(rows),
+        "agree": sum(row["verdict"] == Verdict.SUPPORTED for row in rows),
+        "as_the_paper": next(row["factor"] for row in rows if row["effort"] == AS_THE_PAPER),
+    }
+
+
 def context(evidence: Evidence) -> dict:
     """Everything that the page may say."""
     summary = evidence.table("summary.csv").set_index(["scenario", "learner"])
@@ -71,4 +87,5 @@ def context(evidence: Evidence) -> dict:
         "otherwise": otherwise(parts(evidence)),
         "published": PUBLISHED,
         "readings": _readings(claims["speed-up"]),
+        "ways": _ways(evidence),
     }

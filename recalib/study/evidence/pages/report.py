@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from recalib.files.storage import whole
 from recalib.study.evidence.claims import CLAIMS
-from recalib.study.evidence.pages.words import one, ranged
+from recalib.study.evidence.pages.words import learner, one, ranged
 from recalib.study.evidence.results import Evidence
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def layout() -> "Environment":
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    texts.globals |= {"one": one, "ranged": ranged}  # digits as on all pages
+    texts.globals |= {"one": one, "ranged": ranged, "learner": learner}  # words as on all pages
     return texts
 
 

@@ -1,12 +1,29 @@
 """Numbers and results in words, for pages."""
 
+import re
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from recalib.study.configuration.switches import IMPROVED, RITTER, SWITCHES
+from recalib.study.evidence.needs import DOUBLE
 from recalib.study.evidence.results import Words
 from recalib.study.inference.intervals import Estimate
 from recalib.study.inference.measured import ERRORS, UNITS
+
+LEARNERS = {
+    IMPROVED: "Improved system",
+    RITTER: "Ritter's map",
+    DOUBLE: "Ritter's map, cells of both maps",
+    **{its.without: f"Improved system without {its.label}" for its in SWITCHES},
+    **{its.added: f"Ritter's map with {its.label}" for its in SWITCHES},
+}
+
+
+def learner(name: str) -> str:
+    """A training in words; a column of its own says for how many iterations it was tuned."""
+    kind = re.sub(r"_\d+$", "", name)
+    return LEARNERS.get(kind, kind.replace("_", " ").capitalize())
 
 
 def n(value: float, digits: int = 2) -> str:
