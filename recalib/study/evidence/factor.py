@@ -110,7 +110,7 @@ def on_the_way(
     last = {rung: slow[rung][1][:, :, -1].mean(axis=(0, 1)) for rung in long}
     rung = next((rung for rung in long if np.all(last[rung] <= target)), long[-1])
     grid, errors = slow[rung]
-    draws = Draws(random)
+    draws = Draws(random, errors, goal)
     within = np.all(draws.means(errors) <= draws.means(goal)[:, None], axis=-1)
     first = np.where(within.any(axis=1), grid[within.argmax(axis=1)], np.inf)
     return rung, draws.estimate(first / own)

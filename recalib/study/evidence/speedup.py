@@ -52,7 +52,7 @@ def speed_up(
     that happens in its studies. An infinite bound says that the slow learner does not get there on
     its rungs, so that it needs more than the highest of them: nothing else is known.
     """
-    draws = Draws(random)
+    draws = Draws(random, *slow.values(), *fast.values())
     means = [
         np.stack([draws.means(errors) for errors in ladder.values()], axis=1)
         for ladder in (slow, fast)

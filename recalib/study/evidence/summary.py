@@ -42,7 +42,7 @@ def _measured(history: pd.DataFrame, seed: int, scenario: str, learner: str) -> 
     }
     names = [f"{moment}_{error}" for moment in ("initial", "final") for error in ERRORS]
     values = np.concatenate([errors_of(history, when) for when in ("first", "last")], axis=-1)
-    draws = Draws(generator(seed, "summary", scenario, learner))
+    draws = Draws(generator(seed, "summary", scenario, learner), values)
     means = draws.means(values)  # once for all four numbers: drawing is what takes the time
     for index, name in enumerate(names):
         cells |= draws.estimate(means[:, index]).columns(name)

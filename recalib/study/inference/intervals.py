@@ -17,10 +17,7 @@ RESAMPLES = 20_000
 
 
 class Estimate(NamedTuple):
-    """A number, and the interval in which 95 % of repetitions of the study would find theirs.
-
-    Of four searches that differ much, it holds eight of ten: a bootstrap reaches no farther.
-    """
+    """A number, and the interval in which 95 % of repetitions of the study would find theirs."""
 
     mean: float
     low: float
@@ -35,47 +32,64 @@ UNKNOWN = Estimate(np.nan, np.nan, np.nan)
 
 
 class Draws:
-    """Studies drawn from one with replacement: the number itself first, then RESAMPLES of it."""
+    """Studies drawn from one with replacement: the study itself first, then RESAMPLES of it.
 
-    def __init__(self, random: np.random.Generator):
+    A bootstrap of few searches is too narrow, and reaches no farther than the best and the worst of
+    them. So what is drawn is spread around the study itself, on a logarithmic scale, until a mean's
+    interval is Student's (Hesterberg 2015, section 4.3), and sqrt(2) times as wide, since a
+    repetition has luck of its own (Spence and Stanley 2016). Of many trainings, the two with the
+    fewest searches count.
+
+    Args:
+        random: of the draws.
+        trainings: whose values (search, seed, ...) will be asked for, all above zero.
+    """
+
+    def __init__(self, random: np.random.Generator, *trainings: np.ndarray):
+        from scipy.special import stdtrit  # a tenth of a second, which only judging needs
+
         self._random = random
         self._of_seeds: dict[tuple[int, ...], np.ndarray] = {}
-        self._searches: list[int] = []
+        fewest, *more = sorted(map(len, trainings))[:2]
+        self._known = fewest > 1
+        if self._known:
+            student = stdtrit(sum(size - 1 for size in (fewest, *more)), TAILS[1])
+            self._spread = np.sqrt(2 * fewest / (fewest - 1)) * student / stdtrit(np.inf, TAILS[1])
 
     def means(self, values: np.ndarray) -> np.ndarray:
-        """Means (1 + RESAMPLES, ...) of a training's values (search, seed, ...)."""
-        values = np.asarray(values, dtype=float)
+        """Arithmetic means (1 + RESAMPLES, ...) of a training's values (search, seed, ...)."""
+        return self._spread_out(self._drawn(values))
+
+    def geometric_means(self, values: np.ndarray) -> np.ndarray:
+        """Geometric means (1 + RESAMPLES, ...) of a training's values (search, seed, ...)."""
+        return self._spread_out(np.exp(self._drawn(np.log(values))))
+
+    def estimate(self, numbers: np.ndarray) -> Estimate:
+        """The estimate from what follows from means in each study, (1 + RESAMPLES,).
+
+        The interval is NaN where a training has a single search.
+        """
+        bounds = np.quantile(numbers[1:], TAILS, method="closest_observation")
+        return Estimate(float(numbers[0]), *(bounds if self._known else (np.nan, np.nan)))
+
+    def _drawn(self, values: np.ndarray) -> np.ndarray:
         shape = searches, _ = values.shape[:2]
-        self._searches.append(searches)
         if shape not in self._of_seeds:
             self._of_seeds[shape] = self._weights(*shape)
         by_search = np.einsum("nks,ks...->nk...", self._of_seeds[shape], values)
         return np.einsum("nk,nk...->n...", self._weights(searches), by_search)
+
+    def _spread_out(self, means: np.ndarray) -> np.ndarray:
+        if not self._known:
+            return means
+        of_the_study = np.where(means[0] > 0, means[0], 1)  # an intact robot's error may be none
+        return of_the_study * (means / of_the_study) ** self._spread
 
     def _weights(self, *shape: int) -> np.ndarray:
         """How much each part weighs in each study (1 + RESAMPLES, ..., part); 1 in all."""
         *groups, parts = shape
         drawn = self._random.multinomial(parts, np.full(parts, 1 / parts), (RESAMPLES, *groups))
         return np.concatenate([np.ones((1, *shape)), drawn]) / parts
-
-    def estimate(self, numbers: np.ndarray) -> Estimate:
-        """The estimate from what follows from `means` in each study, (1 + RESAMPLES,).
-
-        A bootstrap of few searches is too narrow. Its percentiles are therefore those that make a
-        mean's interval Student's (Hesterberg 2015, section 4.3), and sqrt(2) times as wide, since
-        a repetition has luck of its own (Spence and Stanley 2016). Of many trainings, the two with
-        the fewest searches count. NaN for a single search.
-        """
-        from scipy.special import ndtr, stdtrit  # a tenth of a second, which only judging needs
-
-        fewest, *more = sorted(self._searches)[:2]
-        if fewest < 2:
-            return Estimate(float(numbers[0]), np.nan, np.nan)
-        student = stdtrit(sum(size - 1 for size in (fewest, *more)), TAILS[1])
-        width = np.sqrt(2 * fewest / (fewest - 1)) * student
-        levels = ndtr([-width, width])
-        low, high = np.quantile(numbers[1:], levels, method="closest_observation")
-        return Estimate(float(numbers[0]), float(low), float(high))
 
 
 def bootstrap(values: np.ndarray, random: np.random.Generator) -> Estimate:
@@ -93,20 +107,20 @@ def bootstrap(values: np.ndarray, random: np.random.Generator) -> Estimate:
 
 def estimate(values: np.ndarray, random: np.random.Generator) -> Estimate:
     """The mean of values (search, seed)."""
-    draws = Draws(random)
+    draws = Draws(random, values)
     return draws.estimate(draws.means(values))
 
 
 def geometric(values: np.ndarray, random: np.random.Generator) -> Estimate:
     """The geometric mean of values (search, seed)."""
-    return Estimate(*np.exp(estimate(np.log(values), random)))
+    draws = Draws(random, values)
+    return draws.estimate(draws.geometric_means(values))
 
 
 def ratio(ours: np.ndarray, theirs: np.ndarray, random: np.random.Generator) -> Estimate:
     """The geometric mean of our errors (search, seed) over that of theirs, of another training."""
-    draws = Draws(random)
-    ours, theirs = (draws.means(np.log(values)) for values in (ours, theirs))
-    return Estimate(*np.exp(draws.estimate(ours - theirs)))
+    draws = Draws(random, ours, theirs)
+    return draws.estimate(draws.geometric_means(ours) / draws.geometric_means(theirs))
 
 
 def combined(errors: np.ndarray) -> np.ndarray:

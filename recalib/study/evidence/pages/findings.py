@@ -36,7 +36,7 @@ NEEDS = f"""
     summary.csv claims.json outcomes? horizon? {shipped.REFERENCE} {shipped.EFFORTS} {shipped.POWER}
     {shipped.FACTORS} search/{{improved}}.csv runs/{{scenario}}/{{ladder}}.parquet
     ensemble/assignments.improved.parquet ensemble/scaled.improved.parquet
-    ensemble/assignments.ritter.parquet seed iterations searches_long
+    ensemble/assignments.ritter.parquet seed iterations
 """
 
 
@@ -173,7 +173,6 @@ def context(evidence: Evidence) -> dict:
         "refused": _refused(summary),
         "trials": len(sample) // searched_for.searches,
         "searches": searched_for.searches,
-        "searches_long": evidence.facts["searches_long"],
         "ensemble": _ensemble(*ensembles),
         "scaled": _scaled(scaled),
         "scaled_robots": scaled["robot"].nunique(),
