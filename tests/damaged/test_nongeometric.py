@@ -4,6 +4,8 @@ import pytest
 from recalib.damaged.damage import EncoderShift, apply
 from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 
+SHOULDER = "shoulder_lift_joint"
+
 
 @pytest.fixture
 def angles(robot) -> np.ndarray:
@@ -34,14 +36,15 @@ def test_sagging_lowers_the_arm(robot, angles):
         assert np.all(after < before)
 
 
-@pytest.mark.parametrize(
-    ("joint", "heavy"), [("shoulder_lift_joint", True), ("wrist_1_joint", False)]
-)
+@pytest.mark.parametrize(("joint", "heavy"), [(SHOULDER, True), ("wrist_1_joint", False)])
 def test_backlash_is_half_the_gap_with_gravity_however_little_that_is(robot, angles, joint, heavy):
+    """Whichever way it pulls."""
     index = robot.joints.index(joint)
+    angles = np.concatenate([angles, angles + np.pi * np.eye(6)[robot.joints.index(SHOULDER)]])
     moved = deflection(robot, Backlash(joint, 0.004), angles)[:, index]
     torques = robot.arm.gravity_torque(angles)[:, index]
     assert (np.abs(torques) > 1).all() == heavy, "N m"
+    assert {*np.sign(torques)} == {-1, 1}
     assert np.allclose(moved, -0.002 * np.sign(torques))
 
 

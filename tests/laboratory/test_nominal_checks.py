@@ -239,6 +239,14 @@ def test_where_all_positions_are_one_nothing_explains_them(arm, joints, nominal)
         check_nominal(arm, joints, np.ones_like(nominal))
 
 
+def test_a_mistake_leaves_no_row_far_off(arm, joints, nominal):
+    """As a row that was measured elsewhere."""
+    wrong, observed = changed(joints, 1, np.negative), nominal.copy()
+    assert likely_mistake(arm, wrong, observed) == "the sign of shoulder_lift_joint"
+    observed[len(observed) // 2] += 0.02
+    assert likely_mistake(arm, wrong, observed) is None
+
+
 def test_another_arm_is_no_mistake_of_a_column(joints, nominal):
     with pytest.raises(WrongNominal, match="is it another arm"):
         check_nominal(load_arm("ur5_robot.urdf", "tool0"), joints, nominal)

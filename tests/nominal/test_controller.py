@@ -92,6 +92,16 @@ def test_commands_beyond_the_workspace_are_solved_on_the_branch_of_home(controll
     assert all_the_way.mean() > 0.5 and alike[all_the_way].mean() > 0.98
 
 
+def test_a_command_that_turns_far_is_solved_as_its_pose(controller):
+    """Since a pitch of more than a right angle is a smaller one behind two half turns."""
+    workspace = controller.robot.workspace
+    commands = np.zeros((1, 60, 6))
+    commands[..., 3:] = np.random.default_rng(4).uniform(-3, 3, (60, 3)) / workspace.half_ranges[3:]
+    found, solved = controller.targets(commands), controller.solve(workspace.to_poses(commands[0]))
+    assert found.executed.any()
+    assert np.allclose(found.angles[0], solved.angles, atol=1e-6)
+
+
 def test_a_workspace_out_of_reach_is_refused(plan):
     nominal = plan.nominal("ur10")
     far = nominal.robot.workspace.model_copy(update={"position": (1.5, 1.5, 1.5)})

@@ -24,8 +24,8 @@ BOARDS = {
 
 @pytest.mark.parametrize(("kind", "bits", "white"), [("charuco", 4, 2), ("apriltag", 6, 2)])
 def test_a_marker_has_a_border_and_enough_white_about_it(kind, bits, white):
-    modules = bits + 2
-    assert BOARDS[kind].marker / BOARDS[kind].square == modules / (modules + white)
+    modules, its = bits + 2, printable(kind, 7, 5, 0.036)
+    assert its.marker / its.square == pytest.approx(modules / (modules + white))
 
 
 @pytest.mark.parametrize("board", BOARDS.values(), ids=BOARDS)

@@ -264,7 +264,7 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' is another one than that of "),
         ((changed(1, board=SMALL), "right"), "its board 'board' is another one than that of "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        ((changed(1, sheet=FAR), "right"), "the board by camera right is .* mm from where the oth"),
+        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from where the o"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],

@@ -70,7 +70,9 @@ def test_nothing_in_it_is_a_placeholder_or_an_unresolved_reference(article):
     assert not re.search(r"TODO|\?\?|\bnan\b|None|undefined|\{\{|\{%", text)
 
 
-def test_every_claim_is_in_it(article, known):
+def test_every_claim_is_in_it_by_its_own_verdict(article, known):
+    assert all(its["verdict"] == verdict for verdict in known["by"] for its in known["by"][verdict])
+    assert sum(map(len, known["by"].values())) == len(known["claims"])
     text = " ".join(" ".join(article).split()).replace("’", "'")
     for claim in known["claims"]:
         first = " ".join(claim["statement"].split()[:4])

@@ -125,12 +125,17 @@ def test_a_learner_without_a_model_sees_a_workspace_that_just_holds_what_it_lear
 
 @pytest.mark.parametrize("learner", peers())
 def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
-    """Where the tests were measured 1 m farther up, all of that metre remains."""
+    """Where the tests were measured 1 m farther up, all of that metre remains.
+
+    And what remains of one test is the same whichever others there are.
+    """
     up = [0, 0, 1.0]
     tests = recording[100:110]
     far = replace(tests, measured=tests.measured + up)
     left = remaining_errors(learner, ur5, recording[:30], far)
     assert np.abs(left - 1).max() < 0.01
+    alone = remaining_errors(learner, ur5, recording[:30], far[:1])
+    assert alone == pytest.approx(left[:1], abs=1e-9)
 
 
 def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(
