@@ -20,7 +20,7 @@ EXPERIMENTS = "tests/study/experiments", "tests/study/test_search.py", "tests/te
 EVIDENCE = tuple(
     f"tests/study/evidence/test_{name}.py"
     for name in (
-        *("words", "tables", "criteria", "evidence", "claims", "report_texts"),
+        *("words", "tables", "criteria", "evidence", "claims", "report_texts", "article"),
         *("across", "deviations", "factor", "findings", "outcome"),
         *("reference", "verdicts", "kept"),
     )
@@ -50,7 +50,11 @@ PARTS = {
     "vision": Part(("recalib/vision",), ("tests/vision",)),
     "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
     "nominal": Part(
-        ("recalib/nominal",), ("tests/nominal", "tests/damaged", "tests/test_meshes.py")
+        ("recalib/nominal",),
+        (
+            *("tests/nominal", "tests/damaged", "tests/test_meshes.py"),
+            "tests/laboratory/test_mistakes_on_the_command_line.py",
+        ),
     ),
     "damaged": Part(("recalib/damaged",), ("tests/damaged", *EXPERIMENTS[2:])),
     "configuration": Part(
