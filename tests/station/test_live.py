@@ -175,6 +175,14 @@ STOPPED = {  # of what a station does, by what is said of it
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
+    "asked to tell its limits, the station raised TypeError": {"limits": None},
+    "the station's lower limits are .*; expected: 6 finite numbers": {
+        "limits": (np.full(6, -np.inf), np.full(6, 2.0))
+    },
+    "no row: it has more than one column 'elbow_joint'": {
+        "measured": lambda its, cells: cells | {"elbow_joint [rad]": 0.1}
+    },
+    "no row: unknown column '1'": {"measured": lambda its, cells: cells | {1: 2.0}},
     "limits of shoulder_pan_joint are the wrong way round": {
         "limits": (np.full(6, 2.0), np.full(6, -2.0))
     },
@@ -288,6 +296,14 @@ def test_a_torn_row_is_dropped_and_nothing_else(ten_rows, tmp_path):
         run(Simulated(), tmp_path, most=10, on_progress=told.append)
         assert "a row without its end was dropped: " in "".join(told)
         assert table.read_bytes() == whole
+
+
+@pytest.mark.parametrize("text", ["a note", "a note\n", "wrist_3_joint [rad],x [m]\n", "\n"])
+def test_what_is_not_ours_is_left_as_it_is(text, tmp_path):
+    (tmp_path / "table.csv").write_text(text)
+    with pytest.raises(InvalidFile, match="it is no table that recalib live began"):
+        run(Simulated(), tmp_path)
+    assert (tmp_path / "table.csv").read_text() == text
 
 
 def test_a_row_for_which_there_is_no_room_leaves_the_table(ten_rows, tmp_path, monkeypatch):
@@ -480,7 +496,9 @@ def test_a_command_takes_the_target_where_it_should_be(calibrated):
 def test_angles_that_are_none_stop_it(angles, tmp_path):
     station = Simulated()
     station.angles = lambda: angles
-    with pytest.raises(StationFailed, match="the station's angles are .*; expected: (6 )?numbers"):
+    with pytest.raises(
+        StationFailed, match="the station's angles are .*; expected: (6 .*)?numbers"
+    ):
         run(station, tmp_path)
 
 

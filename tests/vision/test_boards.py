@@ -88,8 +88,11 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
         ("plumb_bob|equidistant", "distortion_model is 'equidistant'; expected: plumb_bob"),
         ("1105|.nan", "focal lengths above zero"),
         ("1105|-1105", "focal lengths above zero"),
-        ("image_width|width_of", "image_width and image_height are missing"),
+        ("image_width|width_of", "image_width and image_height are no numbers"),
+        ("image_width: 1280|image_width: wide", "image_width and image_height are no numbers"),
+        ("image_width: 1280|image_width: 0", "image_width and image_height are no numbers"),
         ("distortion_coefficients|d", "no 4, 5 or 8 numbers"),
+        ("-0.21|.nan", "no 4, 5 or 8 numbers"),
         ("[1105|[[1105", "it is no YAML"),
     ],
 )

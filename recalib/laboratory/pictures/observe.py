@@ -73,7 +73,7 @@ class Observed:
         fitted: whether the lens is that of these pictures.
         in_hand: whether the camera is on the hand.
         pictures: all of the table.
-        strangers: names of files that are not in the table.
+        strangers: names of pictures that are not in the table.
         camera, board_name: what tells them from others.
     """
 
@@ -166,8 +166,9 @@ def observe(
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
     found, pictures = _posed(_compared(pictures, size, given is not None), sheet, size, given)
-    files = sorted(path.name for path in Path(folder).iterdir() if path.is_file())
-    strangers = [name for name in files if name not in names and name != table.path.name]
+    told = {(Path(folder) / name).resolve() for name in names}
+    others = sorted(path for path in Path(folder).iterdir() if path.resolve() not in told)
+    strangers = [path.name for path in others if cv2.haveImageReader(str(path))]
     named = "_".join(NAME.findall(Path(board).stem)) or "board"
     fitted = given is None
     return Observed(table, sheet, found, fitted, in_hand, pictures, strangers, camera, named)
@@ -187,8 +188,8 @@ def write_observed(
         (made / SETUP).write_text(setup + result.board.described(), encoding="utf-8")
         write_table(made / OBSERVED, _measurements(result))
         corners = (
-            {"row": row, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
-            for row, its in enumerate(result.used, 1)
+            {PICTURE: its.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
+            for its in result.used
             if its.corners is not None
             for number, (u, v) in zip(its.corners.numbers, its.corners.pixels, strict=True)
         )
@@ -241,8 +242,8 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 def _posed(
     pictures: list[Picture], board: Board, size: tuple[int, int], lens: Lens | None
 ) -> tuple[Lens, list[Picture]]:
-    """The lens, and the pictures with their poses; those that fit badly are refused, twice over."""
-    for _ in range(3):
+    """The lens, and the pictures with their poses; those that fit badly are refused."""
+    while True:
         views = [its.corners for its in pictures if its.corners is not None]
         if len(views) < max(ENOUGH, FEWEST):
             first = next((f"; {its.name}: {its.reason}" for its in pictures if its.reason), "")
@@ -260,9 +261,8 @@ def _posed(
             else its
             for its, wrong in zip(pictures, bad, strict=True)
         ]
-        if not any(bad):
-            break
-    return found, pictures
+        if sum(its.corners is not None for its in pictures) == len(views):
+            return found, pictures
 
 
 def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:
