@@ -5,9 +5,8 @@ from typing import Any
 
 import cv2
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from recalib.station.interface import Station, StationFailed
+from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import Lens
@@ -52,9 +51,4 @@ class PicturesOfABoard:
         except Unusable:
             return None
         pose = board_pose(self._board, self._lens, good_corners(self._board, self._lens, corners))
-        if self._in_hand:
-            pose = np.linalg.inv(pose)
-        x, y, z = pose[:3, 3].tolist()
-        qx, qy, qz, qw = Rotation.from_matrix(pose[:3, :3]).as_quat().tolist()
-        place = {"x [m]": x, "y [m]": y, "z [m]": z}
-        return {PICTURE: path, **place, "qx": qx, "qy": qy, "qz": qz, "qw": qw}
+        return {PICTURE: path} | cells_of(np.linalg.inv(pose) if self._in_hand else pose)

@@ -97,9 +97,13 @@ def observed(tmp_path_factory):
     return write_views(folder, draw.cell, draw.joints, draw.views, draw.lens), draw
 
 
-def test_pixels_are_read_and_weighed(observed):
-    folder, draw = observed
-    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+@pytest.fixture(scope="module")
+def calibrated(observed):
+    return calibrate_arm("panda.urdf", observed[0], tool="panda_link8")
+
+
+def test_pixels_are_read_and_weighed(observed, calibrated):
+    (folder, draw), result = observed, calibrated
     assert result.observations.optics is not None and result.instruments == ("the camera",)
     assert abs(result.scales["the board"].factor - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
@@ -276,9 +280,8 @@ def test_nine_pictures_are_too_few(taken):
         observe(*taken(9)[2])
 
 
-def test_hand_eye_says_places_and_held_out_errors(observed):
-    folder, _ = observed
-    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+def test_hand_eye_says_places_and_held_out_errors(calibrated):
+    result = calibrated
     said = tomllib.loads(hand_eye(result))
     for place in result.places:
         its = said[place.name.removeprefix("the ")]

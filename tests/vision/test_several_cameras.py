@@ -188,8 +188,6 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
             0.0,
             "the camera seems to have slipped on the tool",
         ),
-        (Cell(SEED, True), ("eye", TURN), None, 0.2, "the camera seems to have slipped on the too"),
-        (Cell(SEED), ("sheet", SHIFT), 1.0, 0.0, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
         (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
