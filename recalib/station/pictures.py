@@ -27,6 +27,7 @@ class PicturesOfABoard:
 
     def __init__(self, station: Station, board: Board, lens: Lens, in_hand: bool):
         self._station, self._board, self._lens, self._in_hand = station, board, lens, in_hand
+        self._last: np.ndarray = np.zeros(0)
 
     def __getattr__(self, name: str) -> Any:
         """All else is the station's own."""
@@ -50,5 +51,8 @@ class PicturesOfABoard:
             corners = find_corners(self._board, grey)
         except Unusable:
             return None
+        if np.array_equal(grey, self._last):
+            raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
+        self._last = grey
         pose = board_pose(self._board, self._lens, good_corners(self._board, self._lens, corners))
         return {PICTURE: path} | cells_of(np.linalg.inv(pose) if self._in_hand else pose)

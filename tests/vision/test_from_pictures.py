@@ -276,8 +276,13 @@ def test_a_picture_of_which_few_corners_fit_is_refused(taken):
 
 
 def test_nine_pictures_are_too_few(taken):
-    with pytest.raises(RecalibError, match="9 of 9 pictures can be used; expected: at least 10"):
-        observe(*taken(9)[2])
+    *_, files = taken(10)
+    shutil.copy(files[0] / "000.png", files[0] / "009.png")
+    said = (
+        "9 of 10 pictures can be used; expected: at least 10; 009.png: it is the same picture as 0"
+    )
+    with pytest.raises(RecalibError, match=said):
+        observe(*files)
 
 
 def test_hand_eye_says_places_and_held_out_errors(calibrated):

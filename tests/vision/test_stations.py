@@ -27,12 +27,15 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
     cell, path = Cell(3, in_hand), tmp_path / "000.png"
     (pose,) = cell.board_poses(cell.postures(1))
     cv2.imwrite(str(path), cell.picture(pose))
-    cells = PicturesOfABoard(Photographs(path), cell.board, cell.lens, in_hand).measure()
+    seeing = PicturesOfABoard(Photographs(path), cell.board, cell.lens, in_hand)
+    cells = seeing.measure()
     expected = np.linalg.inv(pose) if in_hand else pose
     assert cells.pop("picture") == str(path)
     assert [cells[f"{axis} [m]"] for axis in "xyz"] == pytest.approx(expected[:3, 3], abs=2e-3)
     turn = Rotation.from_quat([cells[f"q{axis}"] for axis in "xyzw"])
     assert (turn * Rotation.from_matrix(expected[:3, :3]).inv()).magnitude() < 2e-3
+    with pytest.raises(StationFailed, match="000.png is the same picture as the one before: is it"):
+        seeing.measure()
 
 
 def test_what_is_no_picture_of_it_is_told(tmp_path):

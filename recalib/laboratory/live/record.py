@@ -14,7 +14,7 @@ from recalib.files.storage import read_file
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.columns import MOST
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.measurements import measurements_so_far
+from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
 from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.kinematics import Arm
 
@@ -101,6 +101,11 @@ class Record:
                 f"its columns are {', '.join(header)}; the station gives {', '.join(names)}",
             )
         if len(self):
+            before = csv.DictReader(io.StringIO(self._content.decode("utf-8-sig")))
+            picture = str(cells.get(PICTURE) or "")
+            if picture and picture in (its[PICTURE] for its in before):
+                reason = f"{picture} is in an earlier row; expected: a new file for each picture"
+                raise InvalidFile(self.path, reason)
             row = [row[names.index(name)] for name in header]
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
