@@ -199,6 +199,15 @@ def test_a_lens_of_another_size_says_that_it_is_the_lens(taken):
         observe(folder, joints, board, lens)
 
 
+def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(taken):
+    _, _, (*files, lens) = taken(12)
+    for distortion, least, most in ((LENS.distortion, 0.99, 1.1), (np.zeros(5), 1.5, np.inf)):
+        lens.write_text(replace(LENS, distortion=distortion).as_ros())
+        result = observe(*files, lens)
+        own = re.search(r"lens as given \(one from these .* ([\d.]+) px\)", result.summary())[1]
+        assert least < result.error / float(own) < most
+
+
 def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):
     monkeypatch.delitem(sys.modules, "recalib.vision.boards")
     monkeypatch.setitem(sys.modules, "cv2", None)

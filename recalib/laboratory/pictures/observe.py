@@ -102,7 +102,7 @@ class Observed:
         """A page of text."""
         lens, used = self.lens, self.used
         (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
-        source = "from these pictures" if self.fitted else "as given"
+        source = "from these pictures" if self.fitted else self._beside_own()
         lines = [
             f"{len(used)} of {len(self.pictures)} pictures are used;"
             f" reprojection error {self.error:.3f} px along an axis",
@@ -118,6 +118,16 @@ class Observed:
         if self.strangers:
             lines.append(f"not in {self.table.path.name}: {', '.join(self.strangers)}")
         return "\n".join([*lines, ""])
+
+    def _beside_own(self) -> str:
+        """What a lens from these pictures would do, in words: much less is another camera's."""
+        views = [its.corners for its in self.used if its.corners is not None]
+        own = find_lens(self.board, views, self.lens.size)
+        squares = [
+            np.mean(reprojection(self.board, own, view, board_pose(self.board, own, view)) ** 2)
+            for view in views
+        ]
+        return f"as given (one from these pictures would leave {np.sqrt(np.mean(squares)):.3f} px)"
 
 
 def observe(
