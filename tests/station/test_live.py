@@ -30,7 +30,7 @@ from recalib.laboratory.live.view import LiveView
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
-from tests.conftest import ROOT
+from tests.conftest import ROOT, few_folds
 from tests.identification.real import ARMS
 from tests.kept import plain
 from tests.logged import logged
@@ -76,7 +76,8 @@ def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
     assert "0.3 mm was asked for" in reason
     assert station.calls.count("move") < 30 and "stop" not in station.calls
     urdf, tool = ARMS[name]
-    result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
+    with few_folds():
+        result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
     low, high = (np.array(HOMES[name]) + side * np.radians(45) for side in (-1, 1))
     fresh = np.random.default_rng(seed).uniform(low, high, (200, len(low)))
     gaps = result.calibration.predict(fresh) - station.real.poses(fresh, noise=(0, 0))
@@ -479,20 +480,13 @@ def test_one_that_is_terminated_stops_the_arm_first(tmp_path):
     assert process.returncode == REFUSED
 
 
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("calibrated")
+def test_a_command_takes_the_target_where_it_should_be(tmp_path):
     station = Simulated()
-    run(station, folder, most=20)
-    return station, calibrate_arm(*_files(folder)).correction
-
-
-def _files(folder):
-    return "ur10_robot.urdf", folder / "table.csv", None, "tool0"
-
-
-def test_a_command_takes_the_target_where_it_should_be(calibrated):
-    station, correction = calibrated
+    run(station, tmp_path, most=20)
+    with few_folds():
+        correction = calibrate_arm(
+            "ur10_robot.urdf", tmp_path / "table.csv", tool="tool0"
+        ).correction
     corrector, near = Corrector(correction), station.stands
     goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
     command = corrector.command(goal, near, target="the target")
