@@ -1,14 +1,14 @@
 """A station that takes pictures of a board, as one that measures where the board is."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 
 from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
-from recalib.vision.detection import Unusable, find_corners
+from recalib.vision.detection import Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners
 
@@ -41,7 +41,7 @@ class PicturesOfABoard:
         if PICTURE not in cells:
             raise StationFailed(f"the station measured {', '.join(cells)}; expected: {PICTURE}")
         path = str(cells[PICTURE])
-        grey = cv2.imread(path, cv2.IMREAD_GRAYSCALE)
+        grey = read_picture(Path(path))
         if grey is None:
             raise StationFailed(f"{path} is no picture")
         if grey.shape[::-1] != self._lens.size:

@@ -22,6 +22,7 @@ from recalib.laboratory.tables.columns import MOST_ROWS
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import read_lens
+from tests.conftest import few_folds
 from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell
 from tests.vision.sessions import write_joints, write_views
@@ -98,6 +99,7 @@ def observed(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
+@few_folds()
 def calibrated(observed):
     return calibrate_arm("panda.urdf", observed[0], tool="panda_link8")
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from PIL import ExifTags, Image
 
 from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
@@ -14,6 +15,7 @@ from recalib.vision.detection import (
     _misplaced,
     _softness,
     find_corners,
+    read_picture,
 )
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners, optics_of
@@ -55,6 +57,14 @@ def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     for reason, picture in reasons.items():
         with pytest.raises(Unusable, match=reason):
             find_corners(BOARD, picture)
+
+
+@pytest.mark.parametrize("held", [1, 3, 6, 8])
+def test_a_picture_is_as_the_sensor_has_it_however_it_was_held(held, tmp_path):
+    ramp, exif = np.linspace(0, 255, 64, dtype=np.uint8) * np.ones((48, 1), np.uint8), Image.Exif()
+    exif[ExifTags.Base.Orientation] = held
+    Image.fromarray(ramp).save(tmp_path / "a.jpg", quality=100, exif=exif)
+    assert np.abs(read_picture(tmp_path / "a.jpg").astype(int) - ramp).max() < 5
 
 
 def test_a_corner_that_is_off_is_left_out(cell, poses):

@@ -18,7 +18,7 @@ from recalib.laboratory.tables.columns import POSE, Table, read_table, write_tab
 from recalib.laboratory.tables.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
-from recalib.vision.detection import Corners, Unusable, find_corners
+from recalib.vision.detection import Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import FEWEST, board_pose, find_lens, good_corners, reprojection
 
@@ -211,7 +211,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
     """A picture with its corners, or the reason why not."""
     if not path.is_file():
         return Picture(row, name, reason="there is no such file")
-    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    grey = read_picture(path)
     if grey is None:
         return Picture(row, name, reason="it is no picture")
     high, wide = grey.shape
