@@ -153,8 +153,9 @@ def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
 
 def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
     shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
-    with (tmp_path / "corners.csv").open("a") as stream:
-        stream.writelines(["another.png,0,1.0,1.0\n"] * MOST_ROWS)
+    header, others = (tmp_path / "corners.csv").read_text().split("\n", 1)
+    more = "another.png,0,1.0,1.0\n" * MOST_ROWS
+    (tmp_path / "corners.csv").write_text(f"{header}\n{more}{others}")
     assert len(_views(*read_sessions([tmp_path]))) == PICTURES
 
 
