@@ -52,7 +52,7 @@ class Guarded:
 
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """The lowest and highest angles (joints,) that it allows [rad, m]."""
-        lower, upper = self._ask("tell its limits", lambda station: station.limits)
+        lower, upper = self._ask("tell its limits", lambda its: (its.limits[0], its.limits[1]))
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
             joint = self._joints[int(wrong.argmax())]
@@ -169,9 +169,8 @@ class Guarded:
         except (TypeError, ValueError):
             raise StationFailed(f"the station's {name} are {given!r}; expected: numbers") from None
         if numbers.shape != (len(self._order),) or not np.isfinite(numbers).all():
-            raise StationFailed(
-                f"the station's {name} are {numbers.tolist()}; expected: {len(self._order)} numbers"
-            )
+            found, valid = numbers.tolist(), f"{len(self._order)} finite numbers"
+            raise StationFailed(f"the station's {name} are {found}; expected: {valid}")
         return numbers[self._order]
 
 

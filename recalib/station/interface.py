@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
 
@@ -54,3 +55,10 @@ class Station(Protocol):
     def stop(self) -> None:
         """Stand still, now. It raises nothing, and may be called at any time, also twice."""
         ...
+
+
+def cells_of(pose: np.ndarray) -> dict[str, float | str]:
+    """A measured pose (4, 4) [m] as `Station.measure` returns it."""
+    numbers = [*pose[:3, 3], *Rotation.from_matrix(pose[:3, :3]).as_quat()]
+    names = "x [m]", "y [m]", "z [m]", "qx", "qy", "qz", "qw"
+    return dict(zip(names, map(float, numbers), strict=True))

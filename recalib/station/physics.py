@@ -17,7 +17,7 @@ from recalib.damaged.disturbances import Disturbances
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.station.engine import mujoco
-from recalib.station.interface import StationFailed
+from recalib.station.interface import StationFailed, cells_of
 
 STEP = 0.004  # s
 CHUNK = 25  # steps between two looks at whether it stands
@@ -54,7 +54,6 @@ class PhysicsStation:
         damaged: the arm that moves. Its offsets and deflections are between motors and encoders.
             `Sag` and `Backlash` are none of them: gears have both.
         gears: between motors and links.
-        gravity: whether there is any.
         instrument: its pose (4, 4) in the arm's base [m].
         target: the pose (4, 4) of what it measures, in the tool [m].
         disturbances: of moves and measurements.
@@ -67,7 +66,6 @@ class PhysicsStation:
         self,
         damaged: DamagedArm,
         gears: Gears | None = None,
-        gravity: bool = True,
         instrument: np.ndarray | None = None,
         target: np.ndarray | None = None,
         disturbances: Disturbances | None = None,
@@ -87,7 +85,7 @@ class PhysicsStation:
         self.limits = model.lowerPositionLimit.copy(), model.upperPositionLimit.copy()
         fast = np.array(model.velocityLimit)
         self._speeds = np.where((fast > 0) & np.isfinite(fast), fast, SPEED)
-        self._model = self._scene(_spec(arm, gears, gravity)).compile()
+        self._model = self._scene(_spec(arm, gears)).compile()
         self._data = mujoco.MjData(self._model)
         _damp(self._model, self._data, self.limits)
         self._angles = np.clip(np.zeros(len(self.joints)), *self.limits)
@@ -159,25 +157,20 @@ class PhysicsStation:
 
     def measure(self) -> Mapping[str, float | str] | None:
         """The pose of the target in the instrument's frame, with its noise; see `Station`."""
-        from scipy.spatial.transform import Rotation
-
         exact = np.linalg.inv(self._instrument) @ self.pose() @ self._target
-        measured = self._disturbances.measure([self._rng], exact[None, None])[0, 0]
-        turn = Rotation.from_matrix(measured[:3, :3]).as_quat()
-        place = zip(("x [m]", "y [m]", "z [m]"), measured[:3, 3].tolist(), strict=True)
-        return {**dict(place), **dict(zip(("qx", "qy", "qz", "qw"), turn.tolist(), strict=True))}
+        return cells_of(self._disturbances.measure([self._rng], exact[None, None])[0, 0])
 
     def stop(self) -> None:
         """Stand still, now, and move no more; see `Station`."""
         self._stopped.set()
 
 
-def _spec(arm: Arm, gears: Gears, gravity: bool) -> mujoco.MjSpec:
+def _spec(arm: Arm, gears: Gears) -> mujoco.MjSpec:
     """The arm as MuJoCo has it, with a site `tool`, and capsules for who looks at it."""
     spec, model = mujoco.MjSpec(), arm.model
     spec.option.timestep = STEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    spec.option.gravity = model.gravity.linear if gravity else np.zeros(3)
+    spec.option.gravity = model.gravity.linear
     # URDFs have links without mass, and inertias that no body has
     spec.compiler.boundmass, spec.compiler.boundinertia = 1e-6, 1e-9
     spec.compiler.balanceinertia = True

@@ -1,15 +1,14 @@
 """A station that takes pictures of a board, as one that measures where the board is."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
-from scipy.spatial.transform import Rotation
 
-from recalib.station.interface import Station, StationFailed
+from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
-from recalib.vision.detection import Unusable, find_corners
+from recalib.vision.detection import Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners
 
@@ -28,6 +27,7 @@ class PicturesOfABoard:
 
     def __init__(self, station: Station, board: Board, lens: Lens, in_hand: bool):
         self._station, self._board, self._lens, self._in_hand = station, board, lens, in_hand
+        self._last: np.ndarray = np.zeros(0)
 
     def __getattr__(self, name: str) -> Any:
         """All else is the station's own."""
@@ -41,7 +41,7 @@ class PicturesOfABoard:
         if PICTURE not in cells:
             raise StationFailed(f"the station measured {', '.join(cells)}; expected: {PICTURE}")
         path = str(cells[PICTURE])
-        grey = cv2.imread(path, cv2.IMREAD_GRAYSCALE)
+        grey = read_picture(Path(path))
         if grey is None:
             raise StationFailed(f"{path} is no picture")
         if grey.shape[::-1] != self._lens.size:
@@ -51,10 +51,8 @@ class PicturesOfABoard:
             corners = find_corners(self._board, grey)
         except Unusable:
             return None
+        if np.array_equal(grey, self._last):
+            raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
+        self._last = grey
         pose = board_pose(self._board, self._lens, good_corners(self._board, self._lens, corners))
-        if self._in_hand:
-            pose = np.linalg.inv(pose)
-        x, y, z = pose[:3, 3].tolist()
-        qx, qy, qz, qw = Rotation.from_matrix(pose[:3, :3]).as_quat().tolist()
-        place = {"x [m]": x, "y [m]": y, "z [m]": z}
-        return {PICTURE: path, **place, "qx": qx, "qy": qy, "qz": qz, "qw": qw}
+        return {PICTURE: path} | cells_of(np.linalg.inv(pose) if self._in_hand else pose)

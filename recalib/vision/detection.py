@@ -1,6 +1,7 @@
 """The corners of a board in a picture, or why the picture is of no use."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -37,6 +38,15 @@ class Corners:
     numbers: np.ndarray
     pixels: np.ndarray
     softness: float
+
+
+def read_picture(path: Path) -> np.ndarray | None:
+    """A file's grey picture (height, width) as the sensor has it; None where it is no picture.
+
+    A phone on the hand says in its files how it was held, by which viewers turn them. Its lens does
+    not turn with them.
+    """
+    return cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
 
 
 def find_corners(board: Board, picture: np.ndarray) -> Corners:

@@ -64,16 +64,17 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     if not model.empty() and model.string() not in MODELS:
         valid = " or ".join(MODELS)
         raise InvalidFile(path, f"distortion_model is {model.string()!r}; expected: {valid}")
-    distortion = next(filter(len, (_numbers(tree.getNode(name)) for name in DISTORTIONS)), None)
+    named = (_numbers(tree.getNode(name)) for name in DISTORTIONS)
+    distortion = next(filter(len, named), np.zeros(0))
     matrix = _numbers(tree.getNode(MATRIX))
     sizes = [[tree.getNode(name) for name in names] for names in SIZES]
     size = next((its for its in sizes if not any(node.empty() for node in its)), None)
     if len(matrix) != 9 or not np.isfinite(matrix).all() or min(matrix[0], matrix[4]) <= 0:
         raise InvalidFile(path, f"{MATRIX} has no 9 numbers with focal lengths above zero")
-    if distortion is None or len(distortion) not in (4, *MODELS.values()):
+    if len(distortion) not in (4, *MODELS.values()) or not np.isfinite(distortion).all():
         raise InvalidFile(path, f"{DISTORTIONS[0]} has no 4, 5 or 8 numbers")
-    if size is None:
-        raise InvalidFile(path, "image_width and image_height are missing")
+    if size is None or not all(0 < node.real() < MOST for node in size):  # a text is huge
+        raise InvalidFile(path, "image_width and image_height are no numbers of pixels")
     width, height = (int(node.real()) for node in size)
     padded = np.append(distortion, [0.0]) if len(distortion) == 4 else distortion
     return Lens((width, height), matrix.reshape(3, 3), padded)

@@ -31,8 +31,8 @@ class Filmed(PhysicsStation):
         super().__init__(*arguments, **options)
         self._renderer = mujoco.Renderer(self._model, *SIZE[::-1])
         self._view = mujoco.MjvCamera()
-        self._view.lookat[:] = 0.4, 0.1, 0.35
-        self._view.distance, self._view.azimuth, self._view.elevation = 1.6, 120, -18
+        self._view.lookat[:] = 0.4, 0.1, 0.47
+        self._view.distance, self._view.azimuth, self._view.elevation = 1.3, 120, -18
 
     def _scene(self, spec):
         spec.visual.headlight.ambient, spec.visual.headlight.diffuse = [0.5] * 3, [0.5] * 3
@@ -49,7 +49,7 @@ class Filmed(PhysicsStation):
             self.frames.append(self.frame())
 
     def frame(self) -> Image.Image:
-        """The arm, the desired pose (green) and the tool (red)."""
+        """The arm, the desired position (green), the tool (red), and what they are."""
         self._renderer.update_scene(self._data, camera=self._view)
         scene = self._renderer.scene
         balls = (self.pose()[:3, 3], 0.015, RED), (self.goal[:3, 3], 0.035, GREEN)
@@ -59,7 +59,8 @@ class Filmed(PhysicsStation):
             mujoco.mjv_initGeom(geom, shape, size, place, np.eye(3).ravel(), np.array(color, "f4"))
             scene.ngeom += 1
         picture = Image.fromarray(self._renderer.render())
-        ImageDraw.Draw(picture).text((16, 12), self.caption, "black", ImageFont.load_default(20))
+        caption = f"improved map {self.caption}\ngreen: desired, red: tool"
+        ImageDraw.Draw(picture).text((16, 12), caption, "black", ImageFont.load_default(20))
         return picture
 
 

@@ -37,7 +37,7 @@ from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import label_of, make_peer
 from recalib.study.plan.trainings import rules
 from recalib.study.plots.palette import STYLES
-from recalib.study.plots.style import STYLE, logarithmic, save
+from recalib.study.plots.style import STYLE, logarithmic, save, title
 from recalib.study.scenarios.assignments import assign
 from recalib.study.scenarios.nominal import nominal
 from recalib.study.scenarios.plants import nominal_controller
@@ -246,12 +246,13 @@ def drawn(curves: pd.DataFrame) -> None:
             logarithmic(axes.yaxis, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10)
         best = learners[0] if learners == MAPS else learners[-1]
         ratio = _mean_ratio(curves, best)
-        name = f"{label_of(short(best))} ends at {_short(ratio)} times the error"
-        column[0].set_title(f"{TITLES[learners]}: with physics,\n{name}")
+        name = f"{label_of(short(best))} ends\nat {_short(ratio)} times the error of kinematics"
+        column[0].set_title(f"{TITLES[learners]}: {name}")
         column[1].legend(fontsize=8)
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
     for axes, (error, unit) in zip(panels[:, 0], ERRORS.items(), strict=True):
         axes.set_ylabel(f"{error.split('_')[0]} error [{unit}]")
+    title(figure, "The paper, live: errors with the physics of MuJoCo and with kinematics")
     save(figure, FIGURE)
 
 

@@ -6,9 +6,9 @@ import zlib
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from recalib.nominal.arms import load_arm
+from recalib.station.interface import cells_of
 from tests.identification.real import ARMS, NOISE, Real
 
 HOMES = {"UR10": [0, -1.2, 1.9, -2.3, -1.6, 0], "Panda": [0, 0.2, 0, -2, 0, 2.2, 0.8]}  # rad
@@ -41,10 +41,7 @@ class Simulated:
 
     def measure(self):
         self.calls.append("measure")
-        pose = self.pose()
-        turn = Rotation.from_matrix(pose[:3, :3]).as_quat()
-        names = "x [m]", "y [m]", "z [m]", "qx", "qy", "qz", "qw"
-        return dict(zip(names, [*pose[:3, 3], *turn], strict=True))
+        return cells_of(self.pose())
 
     def stop(self):
         self.calls.append("stop")

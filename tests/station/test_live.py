@@ -30,7 +30,7 @@ from recalib.laboratory.live.view import LiveView
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
-from tests.conftest import ROOT
+from tests.conftest import ROOT, few_folds
 from tests.identification.real import ARMS
 from tests.kept import plain
 from tests.logged import logged
@@ -76,7 +76,8 @@ def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
     assert "0.3 mm was asked for" in reason
     assert station.calls.count("move") < 30 and "stop" not in station.calls
     urdf, tool = ARMS[name]
-    result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
+    with few_folds():
+        result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
     low, high = (np.array(HOMES[name]) + side * np.radians(45) for side in (-1, 1))
     fresh = np.random.default_rng(seed).uniform(low, high, (200, len(low)))
     gaps = result.calibration.predict(fresh) - station.real.poses(fresh, noise=(0, 0))
@@ -175,6 +176,26 @@ STOPPED = {  # of what a station does, by what is said of it
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
+    "asked to tell its limits, the station raised TypeError": {"limits": None},
+    **{
+        f"the station's angles are {said}": {"told": lambda its, angles, wrong=wrong: wrong}
+        for said, wrong in (
+            (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
+            (r"\[0.0, .*\]; expected: 6 finite numbers", [0.0] * 7),
+            ("'none'; expected: numbers", "none"),
+            (r"\[inf, .*\]; expected: 6 finite numbers", [np.inf] * 6),
+        )
+    },
+    "the station's lower limits are .*; expected: 6 finite numbers": {
+        "limits": (np.full(6, -np.inf), np.full(6, 2.0))
+    },
+    "no row: 000.png is in an earlier row; expected: a new file for each picture": {
+        "measured": lambda its, cells: cells | {"picture": "000.png"}
+    },
+    "no row: it has more than one column 'elbow_joint'": {
+        "measured": lambda its, cells: cells | {"elbow_joint [rad]": 0.1}
+    },
+    "no row: unknown column '1'": {"measured": lambda its, cells: cells | {1: 2.0}},
     "limits of shoulder_pan_joint are the wrong way round": {
         "limits": (np.full(6, 2.0), np.full(6, -2.0))
     },
@@ -210,6 +231,10 @@ def test_joints_in_another_order_are_the_same_joints(tmp_path):
 
         def angles(self):
             return self.stands[::-1]
+
+        def measure(self):  # also its cells are in another order, from the second row on
+            cells = super().measure()
+            return cells if measured(self) == 1 else dict(reversed(cells.items()))
 
     run(Reversed(), tmp_path, most=12)
     run(Simulated(), tmp_path / "..", most=12)
@@ -288,6 +313,14 @@ def test_a_torn_row_is_dropped_and_nothing_else(ten_rows, tmp_path):
         run(Simulated(), tmp_path, most=10, on_progress=told.append)
         assert "a row without its end was dropped: " in "".join(told)
         assert table.read_bytes() == whole
+
+
+@pytest.mark.parametrize("text", ["a note", "a note\n", "wrist_3_joint [rad],x [m]\n", "\n"])
+def test_what_is_not_ours_is_left_as_it_is(text, tmp_path):
+    (tmp_path / "table.csv").write_text(text)
+    with pytest.raises(InvalidFile, match="it is no table that recalib live began"):
+        run(Simulated(), tmp_path)
+    assert (tmp_path / "table.csv").read_text() == text
 
 
 def test_a_row_for_which_there_is_no_room_leaves_the_table(ten_rows, tmp_path, monkeypatch):
@@ -447,20 +480,13 @@ def test_one_that_is_terminated_stops_the_arm_first(tmp_path):
     assert process.returncode == REFUSED
 
 
-@pytest.fixture(scope="module")
-def calibrated(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("calibrated")
+def test_a_command_takes_the_target_where_it_should_be(tmp_path):
     station = Simulated()
-    run(station, folder, most=20)
-    return station, calibrate_arm(*_files(folder)).correction
-
-
-def _files(folder):
-    return "ur10_robot.urdf", folder / "table.csv", None, "tool0"
-
-
-def test_a_command_takes_the_target_where_it_should_be(calibrated):
-    station, correction = calibrated
+    run(station, tmp_path, most=20)
+    with few_folds():
+        correction = calibrate_arm(
+            "ur10_robot.urdf", tmp_path / "table.csv", tool="tool0"
+        ).correction
     corrector, near = Corrector(correction), station.stands
     goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
     command = corrector.command(goal, near, target="the target")
@@ -474,14 +500,6 @@ def test_a_command_takes_the_target_where_it_should_be(calibrated):
         corrector.command(np.array([9.0, 0, 0]), near)
     with pytest.raises(UnknownName, match="unknown target"):
         corrector.command(goal, near, target="the board")
-
-
-@pytest.mark.parametrize("angles", [[0.0] * 5 + [np.nan], [0.0] * 7, "none", [np.inf] * 6])
-def test_angles_that_are_none_stop_it(angles, tmp_path):
-    station = Simulated()
-    station.angles = lambda: angles
-    with pytest.raises(StationFailed, match="the station's angles are .*; expected: (6 )?numbers"):
-        run(station, tmp_path)
 
 
 def test_the_error_by_the_last_rows_is_the_mean_of_predictions_by_those_before(tmp_path):

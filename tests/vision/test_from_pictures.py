@@ -15,11 +15,14 @@ from recalib.identification.validation import NOTHING, WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures.observe import observe
+from recalib.laboratory.pictures.observed import _views, read_sessions
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
+from recalib.laboratory.tables.columns import MOST_ROWS
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import read_lens
+from tests.conftest import few_folds
 from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell
 from tests.vision.sessions import write_joints, write_views
@@ -48,6 +51,7 @@ def session(tmp_path_factory):
         cv2.imwrite(str(folder / "pictures" / f"{row:03}.png"), picture)
     (folder / "pictures" / "035.png").write_text("no picture")
     (folder / "pictures" / "notes.txt").write_text("a note")
+    cv2.imwrite(str(folder / "pictures" / "spare.png"), pictures[0])
     write_joints(folder / "joints.csv", cell, joints)
     assert main(["board", "--out", str(folder / "board")]) == DONE
     files = folder / "pictures", folder / "joints.csv"
@@ -83,7 +87,7 @@ def test_what_was_found_in_each_picture_is_told(session):
         name = f"{row - 1:03}.png"
         said = next(line for line in told.splitlines() if line.startswith(name))
         assert reason in said and f"(row {row})" in said and reason in page
-    assert "not in joints.csv: notes.txt" in told
+    assert "not in joints.csv: spare.png\n" in told
     assert page.count("<img") == PICTURES + 4 and 'src="http' not in page
 
 
@@ -94,9 +98,14 @@ def observed(tmp_path_factory):
     return write_views(folder, draw.cell, draw.joints, draw.views, draw.lens), draw
 
 
-def test_pixels_are_read_and_weighed(observed):
-    folder, draw = observed
-    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+@pytest.fixture(scope="module")
+@few_folds()
+def calibrated(observed):
+    return calibrate_arm("panda.urdf", observed[0], tool="panda_link8")
+
+
+def test_pixels_are_read_and_weighed(observed, calibrated):
+    (folder, draw), result = observed, calibrated
     assert result.observations.optics is not None and result.instruments == ("the camera",)
     assert abs(result.scales["the board"].factor - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
@@ -109,9 +118,14 @@ def test_pixels_are_read_and_weighed(observed):
     ("file", "change", "said"),
     [
         ("setup.toml", ('"fixed"', '"roof"'), "camera or lens_from_pictures is not as observe"),
+        *(
+            ("setup.toml", ('camera_name = "camera"', new), "camera_name or board_name is not as")
+            for new in ('camera_name = "two words"', 'camera_name = ""', "camera_name = 3", "")
+        ),
         ("corners.csv", ("u [px]", "w [px]"), "column 'u' is missing"),
-        ("corners.csv", ("\n3,", "\n99,"), "row 3 has 0 corners"),
-        ("corners.csv", ("\n3,7,", "\n3,70,"), "a corner is not among the board's 24"),
+        ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
+        ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
+        ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )
 def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_path, capsys):
@@ -120,6 +134,29 @@ def test_a_folder_that_was_changed_is_refused(file, change, said, observed, tmp_
     arguments = [str(tmp_path), "--tool=panda_link8", f"--out={tmp_path / 'new'}"]
     assert main(["calibrate", "panda.urdf", *arguments]) == REFUSED
     assert said in capsys.readouterr().err
+
+
+def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
+    """Their corners are those of their pictures."""
+    shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
+    path = tmp_path / "measurements.csv"
+    header, first, *others = path.read_text().splitlines()
+    path.write_text("\n".join([header, *others[:0:-1], first]))
+    (left,) = read_sessions([tmp_path])
+    (whole,) = read_sessions([observed[0]])
+    first, second, *others = _views(whole)
+    expected, found = [*others[::-1], first], _views(left)
+    assert len(second.numbers) and len(found) == len(expected) == PICTURES - 1
+    for its, view in zip(expected, found, strict=True):
+        assert np.array_equal(its.pixels, view.pixels)
+
+
+def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
+    shutil.copytree(observed[0], tmp_path, dirs_exist_ok=True)
+    header, others = (tmp_path / "corners.csv").read_text().split("\n", 1)
+    more = "another.png,0,1.0,1.0\n" * MOST_ROWS
+    (tmp_path / "corners.csv").write_text(f"{header}\n{more}{others}")
+    assert len(_views(*read_sessions([tmp_path]))) == PICTURES
 
 
 def test_a_board_of_another_size_is_doubted(observed, tmp_path):
@@ -169,6 +206,15 @@ def test_a_lens_of_another_size_says_that_it_is_the_lens(taken):
         observe(folder, joints, board, lens)
 
 
+def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(taken):
+    _, _, (*files, lens) = taken(12)
+    for distortion, least, most in ((LENS.distortion, 0.99, 1.1), (np.zeros(5), 1.5, np.inf)):
+        lens.write_text(replace(LENS, distortion=distortion).as_ros())
+        result = observe(*files, lens)
+        own = re.search(r"lens as given \(one from these .* ([\d.]+) px\)", result.summary())[1]
+        assert least < result.error / float(own) < most
+
+
 def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):
     monkeypatch.delitem(sys.modules, "recalib.vision.boards")
     monkeypatch.setitem(sys.modules, "cv2", None)
@@ -215,8 +261,9 @@ def test_a_camera_has_its_name_and_a_board_that_of_its_file(taken, tmp_path, cap
 
 def test_reprojection_errors_are_root_mean_squares(taken):
     cell, views, files = taken(12)
+    files[1].write_text(files[1].read_text().replace("000.png", "./000.png"))
     result = observe(*files)
-    assert len(result.used) == 12 and not result.fitted
+    assert len(result.used) == 12 and not result.fitted and not result.strangers
     squares = []
     for its, view in zip(result.pictures, views, strict=True):
         kept = its.corners
@@ -236,16 +283,26 @@ def test_a_picture_of_which_few_corners_fit_is_refused(taken):
     views[4] = Corners(views[4].numbers[few], pixels, 1.0)
     refused = observe(*files).pictures[4]
     assert re.search(r"[4-7] of 8 corners fit; expected: at least 8", refused.reason)
+    for number in {*range(12)} - {4}:
+        pixels = views[number].pixels[few]
+        pixels[3] += 2.0
+        views[number] = Corners(views[number].numbers[few], pixels, 1.0)
+    with pytest.raises(RecalibError, match="of 12 pictures can be used; .* of 8 corners fit"):
+        observe(*files)
 
 
 def test_nine_pictures_are_too_few(taken):
-    with pytest.raises(RecalibError, match="9 of 9 pictures can be used; expected: at least 10"):
-        observe(*taken(9)[2])
+    *_, files = taken(10)
+    shutil.copy(files[0] / "000.png", files[0] / "009.png")
+    said = (
+        "9 of 10 pictures can be used; expected: at least 10; 009.png: it is the same picture as 0"
+    )
+    with pytest.raises(RecalibError, match=said):
+        observe(*files)
 
 
-def test_hand_eye_says_places_and_held_out_errors(observed):
-    folder, _ = observed
-    result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+def test_hand_eye_says_places_and_held_out_errors(calibrated):
+    result = calibrated
     said = tomllib.loads(hand_eye(result))
     for place in result.places:
         its = said[place.name.removeprefix("the ")]

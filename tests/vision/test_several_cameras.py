@@ -88,6 +88,14 @@ def in_one_fit(tmp_path_factory):
     return make
 
 
+def changed(number: int, **what):
+    """The second of two fixed cameras, or the first, with something else."""
+    cell = (Cell(SEED), beside(SEED))[number]
+    for name, value in what.items():
+        setattr(cell, name, value)
+    return cell
+
+
 def beside_left(folder, cell: Cell) -> list:
     """Folders of two fixed cameras, of which the right one has this cell."""
     left = write_session(folder / "left", Cell(SEED), "left")
@@ -188,8 +196,6 @@ def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
             0.0,
             "the camera seems to have slipped on the tool",
         ),
-        (Cell(SEED, True), ("eye", TURN), None, 0.2, "the camera seems to have slipped on the too"),
-        (Cell(SEED), ("sheet", SHIFT), 1.0, 0.0, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("sheet", TURN), None, 0.2, "the board seems to have slipped on the tool"),
         (Cell(SEED), ("eye", SHIFT), 1.0, 0.0, "camera or base seem to have moved"),
         (Cell(SEED, True), ("sheet", SHIFT), 1.0, 0.0, "board or base seem to have moved"),
@@ -227,8 +233,7 @@ def test_a_camera_on_the_hand_that_slips_beside_a_fixed_one_is_named(tmp_path):
 
 
 def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
-    moved = beside(SEED)
-    moved.sheet = moved.sheet @ frame([0, 0, 0], [0.003, 0, 0])
+    moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.003, 0, 0]))
     folders = beside_left(tmp_path, moved)
     told = verdict(calibrated(*folders))
     assert f"in {folders[1]}, before row 1 the board seems to have slipped on the tool by 3" in told
@@ -236,20 +241,11 @@ def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
 
 
 def test_pictures_that_the_others_contradict_are_told_by_camera_and_board(tmp_path):
-    moved = beside(SEED)
-    moved.sheet = moved.sheet @ frame([0, 0, 0], [0.02, 0, 0])
+    moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.02, 0, 0]))
     left = write_session(tmp_path / "left", Cell(SEED), "left", pictures=45)
     right = write_session(tmp_path / "right", moved, "right", pictures=20)
     told = verdict(calibrated(left, right))
     assert re.search(r"Careful: \d+ of 20 pictures of the board by camera right contradict", told)
-
-
-def changed(number: int, **what):
-    """The second of two fixed cameras, or the first, with something else."""
-    cell = (Cell(SEED), beside(SEED))[number]
-    for name, value in what.items():
-        setattr(cell, name, value)
-    return cell
 
 
 FAR = frame([0, 0, 1.5], [0.05, 0, 0]) @ Cell(SEED).sheet
@@ -293,14 +289,3 @@ def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path):
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
     with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
         calibrate_arm("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")
-
-
-@pytest.mark.parametrize(
-    "new", ['camera_name = "two words"', 'camera_name = ""', "camera_name = 3", ""]
-)
-def test_a_name_that_was_changed_is_refused(new, tmp_path):
-    folder = write_session(tmp_path, Cell(SEED))
-    text = (folder / "setup.toml").read_text()
-    (folder / "setup.toml").write_text(text.replace('camera_name = "camera"', new))
-    with pytest.raises(RecalibError, match="camera_name or board_name is not as observe wrote it"):
-        calibrated(folder)

@@ -3,66 +3,43 @@
 import cv2
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
+from recalib.laboratory.command_line import REFUSED, main
 from recalib.station.interface import StationFailed
 from recalib.station.pictures import PicturesOfABoard
 from tests.vision.rendering import Cell
 
 
 class Photographs:
-    """A cell's arm and its camera."""
+    """A station that measures whatever picture is at a path."""
 
-    def __init__(self, folder, in_hand):
-        self.cell, self.folder, self.taken = Cell(3, in_hand), folder, 0
-        self.joints, model = self.cell.arm.joints, self.cell.arm.model
-        self.limits = model.lowerPositionLimit, model.upperPositionLimit
-        self.stands = self.cell.postures(1)[0]
-
-    def move(self, angles, speed):
-        self.stands = angles
-
-    def angles(self):
-        return self.stands
+    def __init__(self, path):
+        self.path = path
 
     def measure(self):
-        path = self.folder / f"{self.taken:03}.png"
-        try:
-            picture = self.cell.picture(self.cell.board_poses(self.stands[None])[0])
-        except cv2.error:  # the board is nowhere before the camera
-            return None
-        self.taken += 1
-        cv2.imwrite(str(path), picture)
-        return {"picture": str(path)}
-
-    def stop(self):
-        pass
+        return {"picture": str(self.path)}
 
 
-@pytest.mark.slow
-def test_pictures_calibrate_live_and_then_by_their_pixels(tmp_path):
-    station = Photographs(tmp_path, in_hand=True)
-    cell, table = station.cell, tmp_path / "measurements.csv"
-    seeing = PicturesOfABoard(station, cell.board, cell.lens, in_hand=True)
-    settings = LiveSettings(most=12, span=0.2)
-    calibrate_live(lambda: seeing, cell.arm, table, settings, lambda posture: True)
-    (tmp_path / "board.toml").write_text(cell.board.described())
-    (tmp_path / "lens.yaml").write_text(cell.lens.as_ros())
-    options = [f"--{name}={tmp_path / file}" for name, file in FILES.items()]
-    out = f"--out={tmp_path / 'observed'}"
-    assert main(["observe", ".", str(table), "--camera=hand", *options, out]) == DONE
-    result = calibrate_arm("panda.urdf", tmp_path / "observed", tool=cell.arm.tool)
-    assert result.worthwhile and len(result.observations) >= 10
-
-
-FILES = {"board": "board.toml", "lens": "lens.yaml"}
+@pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
+def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
+    """The camera in the board where it is on the hand, else the board in the camera."""
+    cell, path = Cell(3, in_hand), tmp_path / "000.png"
+    (pose,) = cell.board_poses(cell.postures(1))
+    cv2.imwrite(str(path), cell.picture(pose))
+    seeing = PicturesOfABoard(Photographs(path), cell.board, cell.lens, in_hand)
+    cells = seeing.measure()
+    expected = np.linalg.inv(pose) if in_hand else pose
+    assert cells.pop("picture") == str(path)
+    assert [cells[f"{axis} [m]"] for axis in "xyz"] == pytest.approx(expected[:3, 3], abs=2e-3)
+    turn = Rotation.from_quat([cells[f"q{axis}"] for axis in "xyzw"])
+    assert (turn * Rotation.from_matrix(expected[:3, :3]).inv()).magnitude() < 2e-3
+    with pytest.raises(StationFailed, match="000.png is the same picture as the one before: is it"):
+        seeing.measure()
 
 
 def test_what_is_no_picture_of_it_is_told(tmp_path):
-    station = Photographs(tmp_path, False)
-    cell = station.cell
+    station, cell = Photographs(tmp_path / "grey.png"), Cell(3)
     seeing = PicturesOfABoard(station, cell.board, cell.lens, False)
     for cells, says in (
         ({"x [m]": 1.0}, "the station measured x .m.; expected: picture"),
@@ -71,7 +48,7 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
         station.measure = lambda cells=cells: cells
         with pytest.raises(StationFailed, match=says):
             seeing.measure()
-    station.measure = lambda: {"picture": str(tmp_path / "grey.png")}
+    del station.measure
     cv2.imwrite(str(tmp_path / "grey.png"), np.full((10, 20), 128, np.uint8))
     with pytest.raises(StationFailed, match="has 20 x 10 pixels; expected, as by the lens: 1280 x"):
         seeing.measure()

@@ -5,6 +5,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
+from PIL import ExifTags, Image
 
 from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
@@ -14,6 +15,7 @@ from recalib.vision.detection import (
     _misplaced,
     _softness,
     find_corners,
+    read_picture,
 )
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners, optics_of
@@ -44,7 +46,9 @@ def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     first, second, _ = (cell.picture(pose) for pose in poses)
     other = replace(cell, board=replace(BOARD, dictionary="5X5_100"))
     turned = replace(cell, board=printable("charuco", 5, 7, 0.036))
+    larger = replace(cell, board=printable("charuco", 9, 7, 0.03))
     reasons = {
+        "marker 30 is not on the board: this is another one": larger.picture(poses[0]),
         "it is mirrored": cv2.flip(first, 1),
         "it is blurred": cell.picture(poses[0], blur=9),
         "more than once": np.maximum(first, np.roll(first, 640, axis=1)),
@@ -55,6 +59,14 @@ def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     for reason, picture in reasons.items():
         with pytest.raises(Unusable, match=reason):
             find_corners(BOARD, picture)
+
+
+@pytest.mark.parametrize("held", [1, 3, 6, 8])
+def test_a_picture_is_as_the_sensor_has_it_however_it_was_held(held, tmp_path):
+    ramp, exif = np.linspace(0, 255, 64, dtype=np.uint8) * np.ones((48, 1), np.uint8), Image.Exif()
+    exif[ExifTags.Base.Orientation] = held
+    Image.fromarray(ramp).save(tmp_path / "a.jpg", quality=100, exif=exif)
+    assert np.abs(read_picture(tmp_path / "a.jpg").astype(int) - ramp).max() < 5
 
 
 def test_a_corner_that_is_off_is_left_out(cell, poses):
@@ -133,12 +145,6 @@ def test_blur_by_motion_along_half_of_the_edges_is_seen(cell, poses):
     moved = cv2.blur(still, (8, 1))  # by 8 px to the side: a deviation of 8 / sqrt(12)
     found = find_corners(BOARD, moved)
     assert found.softness == pytest.approx(8 / np.sqrt(12), rel=0.3)
-
-
-def test_a_marker_of_a_larger_board_is_named(cell, poses):
-    larger = replace(cell, board=printable("charuco", 9, 7, 0.03))
-    with pytest.raises(Unusable, match="marker 30 is not on the board: this is another one"):
-        find_corners(BOARD, larger.picture(poses[0]))
 
 
 def test_a_tenth_of_markers_elsewhere_is_chance_and_two_fifths_are_another_board(cell, poses):

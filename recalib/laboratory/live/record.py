@@ -14,7 +14,7 @@ from recalib.files.storage import read_file
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.tables.columns import MOST
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.measurements import measurements_so_far
+from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
 from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.kinematics import Arm
 
@@ -68,6 +68,7 @@ class Record:
         self.dropped = content[len(self._content) :].decode("utf-8", "replace")
         if self._content.count(b"\n") == 1:  # a header alone: it was killed before the first row
             self._content = b""
+        start = ",".join(self._joints).encode()
         if self._content:
             self.observations = self._read(self._content)
             header = next(csv.reader(io.StringIO(self._content.decode("utf-8-sig"))))
@@ -77,6 +78,8 @@ class Record:
                     self.path, f"it has no column {missing[0]!r}, so that no row can be added"
                 )
             self._header = header
+        elif not (content.startswith(start) or start.startswith(content)):
+            raise InvalidFile(self.path, "it is no table that recalib live began")
         os.ftruncate(self._file, len(self._content))
 
     def read(
@@ -90,16 +93,23 @@ class Record:
 
         Raises InvalidFile: its columns are others than before, or its cells are no measurement.
         """
-        row = dict(zip(self._joints, angles.tolist(), strict=True)) | dict(cells)
-        header = self._header if len(self) else [*row]
-        if sorted(header) != sorted(row):
+        names, row = [*self._joints, *map(str, cells)], [*angles.tolist(), *cells.values()]
+        header = self._header if len(self) else names
+        if sorted(header) != sorted(names):
             raise InvalidFile(
                 self.path,
-                f"its columns are {', '.join(header)}; the station gives {', '.join(row)}",
+                f"its columns are {', '.join(header)}; the station gives {', '.join(names)}",
             )
+        if len(self):
+            before = csv.DictReader(io.StringIO(self._content.decode("utf-8-sig")))
+            picture = str(cells.get(PICTURE) or "")
+            if picture and picture in (its[PICTURE] for its in before):
+                reason = f"{picture} is in an earlier row; expected: a new file for each picture"
+                raise InvalidFile(self.path, reason)
+            row = [row[names.index(name)] for name in header]
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        writer.writerows([[row[name] for name in header]] if len(self) else [header, row.values()])
+        writer.writerows([row] if len(self) else [header, row])
         line = text.getvalue().encode()
         return self._read(self._content + line), line
 

@@ -18,7 +18,7 @@ from recalib.laboratory.tables.columns import POSE, Table, read_table, write_tab
 from recalib.laboratory.tables.measurements import OBSERVED, PICTURE, VECTORS
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
-from recalib.vision.detection import Corners, Unusable, find_corners
+from recalib.vision.detection import Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import FEWEST, board_pose, find_lens, good_corners, reprojection
 
@@ -73,7 +73,7 @@ class Observed:
         fitted: whether the lens is that of these pictures.
         in_hand: whether the camera is on the hand.
         pictures: all of the table.
-        strangers: names of files that are not in the table.
+        strangers: names of pictures that are not in the table.
         camera, board_name: what tells them from others.
     """
 
@@ -102,7 +102,7 @@ class Observed:
         """A page of text."""
         lens, used = self.lens, self.used
         (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
-        source = "from these pictures" if self.fitted else "as given"
+        source = "from these pictures" if self.fitted else self._beside_own()
         lines = [
             f"{len(used)} of {len(self.pictures)} pictures are used;"
             f" reprojection error {self.error:.3f} px along an axis",
@@ -118,6 +118,16 @@ class Observed:
         if self.strangers:
             lines.append(f"not in {self.table.path.name}: {', '.join(self.strangers)}")
         return "\n".join([*lines, ""])
+
+    def _beside_own(self) -> str:
+        """What a lens from these pictures would do, in words: much less is another camera's."""
+        views = [its.corners for its in self.used if its.corners is not None]
+        own = find_lens(self.board, views, self.lens.size)
+        squares = [
+            np.mean(reprojection(self.board, own, view, board_pose(self.board, own, view)) ** 2)
+            for view in views
+        ]
+        return f"as given (one from these pictures would leave {np.sqrt(np.mean(squares)):.3f} px)"
 
 
 def observe(
@@ -166,8 +176,9 @@ def observe(
     size = given.size if given else Counter(sizes).most_common(1)[0][0]
     on_progress("the lens" if given is None else "poses")
     found, pictures = _posed(_compared(pictures, size, given is not None), sheet, size, given)
-    files = sorted(path.name for path in Path(folder).iterdir() if path.is_file())
-    strangers = [name for name in files if name not in names and name != table.path.name]
+    told = {(Path(folder) / name).resolve() for name in names}
+    others = sorted(path for path in Path(folder).iterdir() if path.resolve() not in told)
+    strangers = [path.name for path in others if cv2.haveImageReader(str(path))]
     named = "_".join(NAME.findall(Path(board).stem)) or "board"
     fitted = given is None
     return Observed(table, sheet, found, fitted, in_hand, pictures, strangers, camera, named)
@@ -187,8 +198,8 @@ def write_observed(
         (made / SETUP).write_text(setup + result.board.described(), encoding="utf-8")
         write_table(made / OBSERVED, _measurements(result))
         corners = (
-            {"row": row, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
-            for row, its in enumerate(result.used, 1)
+            {PICTURE: its.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
+            for its in result.used
             if its.corners is not None
             for number, (u, v) in zip(its.corners.numbers, its.corners.pixels, strict=True)
         )
@@ -200,7 +211,7 @@ def _searched(path: Path, row: int, name: str, board: Board) -> Picture:
     """A picture with its corners, or the reason why not."""
     if not path.is_file():
         return Picture(row, name, reason="there is no such file")
-    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    grey = read_picture(path)
     if grey is None:
         return Picture(row, name, reason="it is no picture")
     high, wide = grey.shape
@@ -241,8 +252,8 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
 def _posed(
     pictures: list[Picture], board: Board, size: tuple[int, int], lens: Lens | None
 ) -> tuple[Lens, list[Picture]]:
-    """The lens, and the pictures with their poses; those that fit badly are refused, twice over."""
-    for _ in range(3):
+    """The lens, and the pictures with their poses; those that fit badly are refused."""
+    while True:
         views = [its.corners for its in pictures if its.corners is not None]
         if len(views) < max(ENOUGH, FEWEST):
             first = next((f"; {its.name}: {its.reason}" for its in pictures if its.reason), "")
@@ -260,9 +271,8 @@ def _posed(
             else its
             for its, wrong in zip(pictures, bad, strict=True)
         ]
-        if not any(bad):
-            break
-    return found, pictures
+        if sum(its.corners is not None for its in pictures) == len(views):
+            return found, pictures
 
 
 def _measured(picture: Picture, board: Board, lens: Lens) -> Picture:

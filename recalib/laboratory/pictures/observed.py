@@ -17,14 +17,16 @@ from recalib.files.storage import read_file
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import BOARD, OPTICS, Optics
 from recalib.laboratory.pictures.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
-from recalib.laboratory.tables.columns import NUMBER, Table, read_table
+from recalib.laboratory.tables.columns import NUMBER, read_table
+from recalib.laboratory.tables.measurements import OBSERVED, PICTURE
 from recalib.vision.boards import MOST, Board, read_board
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.lenses import Lens, read_lens
 from recalib.vision.views import LENS_SIZE, optics_of
 
 PIXEL = Quantity("a pixel", {"px": 1.0})
-COLUMNS = {"row": NUMBER, "corner": NUMBER, "u": PIXEL, "v": PIXEL}
+COLUMNS = {"corner": NUMBER, "u": PIXEL, "v": PIXEL}
+MOST_CORNERS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -72,10 +74,8 @@ def with_pixels(rows: Sequence[Observations], folders: Sequence[Path]) -> Sighte
     """
     sessions, poses, parts = read_sessions(folders), [], []
     kinds, columns = _layout(sessions)
-    for its, session, own in zip(rows, sessions, columns, strict=True):
-        corners = read_table(session.folder / CORNERS)
-        views = _views(corners, len(session.board.points), len(its))
-        optics = session.board, session.lens, views, session.fitted, session.in_hand
+    for session, own in zip(sessions, columns, strict=True):
+        optics = session.board, session.lens, _views(session), session.fitted, session.in_hand
         found, part = optics_of(*optics)
         poses.append(found)
         parts.append(_placed(part, own, kinds))
@@ -199,17 +199,21 @@ def _placed(part: Optics, own: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
     return part.spread, slopes, information, gradient, part.pixels
 
 
-def _views(table: Table, points: int, count: int) -> list[Corners]:
-    for column in COLUMNS:
-        if column not in table:
-            raise InvalidFile(table.path, f"column {column!r} is missing")
-    row, corner, u, v = (table.numbers(column, kind) for column, kind in COLUMNS.items())
+def _views(session: Session) -> list[Corners]:
+    """The corners in each row's picture: rows may have been taken out or moved."""
+    rows = read_table(session.folder / OBSERVED)
+    table = read_table(session.folder / CORNERS, most=MOST_CORNERS)
+    for its, columns in ((rows, [PICTURE]), (table, [PICTURE, *COLUMNS])):
+        if missing := [column for column in columns if column not in its]:
+            raise InvalidFile(its.path, f"column {missing[0]!r} is missing")
+    pictures, points = np.array(table.cells[PICTURE]), len(session.board.points)
+    corner, u, v = (table.numbers(column, kind) for column, kind in COLUMNS.items())
     if not np.isin(corner, np.arange(points)).all():
         raise InvalidFile(table.path, f"a corner is not among the board's {points}")
     pixels, views = np.stack([u, v], axis=1), []
-    for number in range(1, count + 1):
-        its = row == number
+    for picture in rows.cells[PICTURE]:
+        its = pictures == picture
         if its.sum() < FEWEST:
-            raise InvalidFile(table.path, f"row {number} has {its.sum()} corners")
+            raise InvalidFile(table.path, f"{picture} has {its.sum()} corners")
         views.append(Corners(corner[its].astype(int), pixels[its], 0.0))
     return views

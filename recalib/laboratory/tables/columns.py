@@ -102,19 +102,25 @@ class Table:
                 raise InvalidFile(self.path, f"unknown column {column!r}{note}; {right}")
 
 
-def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:
+def read_table(
+    path: str | PathLike[str], columns: Mapping[str, str] | None = None, most: int = MOST_ROWS
+) -> Table:
     """The table at `path`; see `table_of`. Raises InvalidFile."""
-    return table_of(read_file(path, MOST), path, columns)
+    return table_of(read_file(path, MOST), path, columns, most)
 
 
 def table_of(
-    content: bytes, path: str | PathLike[str], columns: Mapping[str, str] | None = None
+    content: bytes,
+    path: str | PathLike[str],
+    columns: Mapping[str, str] | None = None,
+    most: int = MOST_ROWS,
 ) -> Table:
     """The table in a file's content: UTF-8, commas between cells, a header, rows below it.
 
     Args:
         path: of the file, for messages.
         columns: by a heading of the file what should have stood there, or "ignored".
+        most: rows.
 
     Raises InvalidFile: not such a table, or a heading in `columns` that is not there.
     """
@@ -122,11 +128,11 @@ def table_of(
     try:
         lines = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""))
         filled = (row for row in lines if any(cell.strip() for cell in row))
-        rows = list(islice(filled, MOST_ROWS + 2))
+        rows = list(islice(filled, most + 2))
     except (UnicodeDecodeError, csv.Error):
         raise InvalidFile(path, "it is no CSV in UTF-8") from None
-    if len(rows) > MOST_ROWS + 1:
-        raise InvalidFile(path, f"it has more than {MOST_ROWS} rows; try: every tenth of them")
+    if len(rows) > most + 1:
+        raise InvalidFile(path, f"it has more than {most} rows; try: every tenth of them")
     if len(rows) < 2:
         raise InvalidFile(path, "it is empty" if not rows else "it has a header and no row")
     headings = [cell.strip() for cell in rows[0]]
