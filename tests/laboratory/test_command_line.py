@@ -130,12 +130,12 @@ def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
 
 
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
-    columns = {"swing [deg]": [0, 0, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
+    columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
-    assert "1 of 3 commands leaves the measured range of swing; the farthest is row 3" in told
+    assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in told
     beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", told).groups()
     assert -52 < float(low) < -40 < 40 < float(high)
     assert float(beyond) == pytest.approx(100 - float(high), abs=3)

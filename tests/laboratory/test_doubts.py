@@ -69,15 +69,6 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
     assert not [*doubts(result(errors, GEOMETRIC))]
 
 
-def test_where_the_table_has_a_mistake_nothing_else_is_made_of_it():
-    errors = {(RANDOM, HYBRID): 1e-3, (BLOCKWISE, HYBRID): 9e-3, (RANDOM, GEOMETRIC): 9e-3}
-    its = result(errors)
-    assert len([*doubts(its)]) == 1
-    its.mistake = "joints that are those of the row before"
-    (only,) = doubts(its)
-    assert only.endswith("joints that are those of the row before.")
-
-
 @pytest.mark.parametrize(
     ("name", "unit", "value", "doubted"),
     [

@@ -94,9 +94,8 @@ def beyond_measured(correction: Correction, commands: Commands) -> str | None:
     low, high, far = (scale * its[joint] for its in (low, high, commands.beyond[row]))
     joints = correction.arm.joints
     names = listed(np.array(joints)[commands.beyond.any(axis=0)], "and")
-    leave = "leaves" if len(rows) == 1 else "leave"
     return (
-        f"{len(rows)} of {len(commands.beyond)} commands {leave} the measured range of {names}; the"
+        f"{len(rows)} of {len(commands.beyond)} commands leave the measured range of {names}; the"
         f" farthest is row {row + 1}, with {joints[joint]} {far:.3g} {unit} beyond {low:.4g} to"
         f" {high:.4g} {unit}"
     )

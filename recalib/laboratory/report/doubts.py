@@ -22,12 +22,12 @@ def doubts(result: Calibrated) -> Iterator[str]:
             "Careful: the table likely has a mistake, without which the URDF explains it far"
             f" better: {result.mistake}."
         )
-        return  # what else such a table shows may be of the mistake
     session = result.observations, result.frames, result.tables, result.instruments, result.ends
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
-    yield from _slipped(result)
+    if not result.mistake:
+        yield from _slipped(result)
     yield from _resized(result)
     validation = result.validation
     if validation.chosen != HYBRID:
