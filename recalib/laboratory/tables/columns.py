@@ -94,12 +94,13 @@ class Table:
             raise InvalidFile(self.path, f"{place} is {found}; {valid}")
 
     def check_columns(self, valid: Collection[str], note: str = "") -> None:
-        """Raise InvalidFile where a column is not among the valid ones; a note says why it is."""
+        """Raise InvalidFile of a column that is not valid; a note says of angles why."""
         for column in self.cells:
             if column not in valid:
                 bracketed = "expected: its unit in square brackets, as in 'x [mm]'"
+                why = note if self.units[column] in ANGLE.units else ""  # others are no joints
                 right = bracketed if column.endswith(")") else instead(column, valid)
-                raise InvalidFile(self.path, f"unknown column {column!r}{note}; {right}")
+                raise InvalidFile(self.path, f"unknown column {column!r}{why}; {right}")
 
 
 def read_table(path: str | PathLike[str], columns: Mapping[str, str] | None = None) -> Table:
