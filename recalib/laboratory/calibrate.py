@@ -33,6 +33,7 @@ from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
+from recalib.spelling import counted
 
 
 @dataclass(frozen=True)
@@ -212,7 +213,8 @@ def calibrate_arm(
     on_progress(its := origin(urdf, source))
     between = None
     for rows in measured:
-        on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
+        moving = counted(len(arm.joints), "joint")
+        on_progress(f"{len(rows)} rows of {moving}, from {arm.base} to {arm.tool}")
         if rows.nominal is not None:
             stand = None if given.instrument is None else np.linalg.inv(given.instrument)
             between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
