@@ -42,6 +42,11 @@ def instead(name: str, valid: Iterable[str]) -> str:
     return f"expected: {listed(valid, 'or') or 'none'}" + (meant and f"; {meant}")
 
 
+def counted(number: int, noun: str) -> str:
+    """A number and what it counts: 1 row, 2 rows."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
 def listed(words: Iterable[str], last: str) -> str:
     """Words with commas, and `last` before the last."""
     *rest, end = list(words) or [""]

@@ -15,7 +15,7 @@ from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.checks.repeatability import weigh
 from recalib.identification.checks.scales import Scale, scales
-from recalib.identification.checks.sequence import Fault, faults
+from recalib.identification.checks.sequence import LAG, Fault, faults
 from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
@@ -28,11 +28,12 @@ from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.fault_words import in_words
 from recalib.laboratory.tables.knowledge import check_distances, frames_by_sights, mistake_in
 from recalib.laboratory.tables.measurements import OBSERVED, read_measurements
-from recalib.laboratory.tables.nominal_checks import check_nominal
+from recalib.laboratory.tables.nominal_checks import SHIFTED, check_nominal
 from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.arms import arm_of
 from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
+from recalib.spelling import counted
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,8 @@ class Calibrated:
     @cached_property
     def faults(self) -> list[Fault]:
         """What the order of the rows shows: a lag, a drift, a jump."""
-        return faults(self.geometry, self.observations, self.validation.counted)
+        found = faults(self.geometry, self.observations, self.validation.counted)
+        return _not_told(found, self.mistake)
 
     @property
     def calibration(self) -> Calibration:
@@ -211,7 +213,8 @@ def calibrate_arm(
     on_progress(its := origin(urdf, source))
     between = None
     for rows in measured:
-        on_progress(f"{len(rows)} rows of {len(arm.joints)} joints, from {arm.base} to {arm.tool}")
+        moving = counted(len(arm.joints), "joint")
+        on_progress(f"{len(rows)} rows of {moving}, from {arm.base} to {arm.tool}")
         if rows.nominal is not None:
             stand = None if given.instrument is None else np.linalg.inv(given.instrument)
             between = check_nominal(arm, rows.joints, rows.nominal, stand, given.target)
@@ -240,7 +243,7 @@ def calibrate_arm(
         validation = validate(arm, observations, frames, on_progress)
     except Untrustworthy as error:
         session = observations, frames, tables, instruments, _ends(targets, observations)
-        reasons = [in_words(fault, *session) for fault in error.faults]
+        reasons = [in_words(fault, *session) for fault in _not_told(error.faults, mistake)]
         reasons += [f"likely: {mistake}"] if mistake else []
         ranges = rows_of(observations, names) if len(tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
@@ -259,6 +262,12 @@ def calibrate_arm(
         dict(zip(scaled, scales(arm, observations[validation.counted], frames), strict=True)),
         mistake,
     )
+
+
+def _not_told(found: Sequence[Fault], mistake: str | None) -> list[Fault]:
+    """Faults without the lag that a mistake names already: rows that are shifted by one."""
+    shifted = mistake is not None and mistake.startswith(SHIFTED)
+    return [fault for fault in found if not (shifted and fault.kind == LAG)]
 
 
 def _ends(targets: Sequence[str], observations: Observations) -> list[str]:

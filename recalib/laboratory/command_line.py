@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from recalib.errors import RecalibError, UnknownName
 from recalib.files.outputs import check_new, is_taken, new
 from recalib.laboratory.options import DONE, NO_BETTER, REFUSED, parser_of
+from recalib.spelling import counted
 
 TURNED = 0.01  # deg: a rotation that is off by less is reached
 CACHE = "MPLCONFIGDIR"  # the variable with the folder of Matplotlib's
@@ -124,7 +125,8 @@ def _correct(given: argparse.Namespace) -> int:
         )
     if beyond := beyond_measured(correction, commands):
         _warn(beyond)
-    print(f"{len(commands.joints)} commands in {given.out}: joint coordinates, and the poses that")
+    made = counted(len(commands.joints), "command")
+    print(f"{made} in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")
     return DONE
 
@@ -141,7 +143,7 @@ def _next(given: argparse.Namespace) -> int:
         given.out, correction.arm, proposal.joints, correction.arm.forward(proposal.joints)
     )
     before, after = 1e3 * proposal.uncertainty[[0, -1]]
-    print(f"{len(proposal.joints)} postures in {given.out}, the most informative first.")
+    print(f"{counted(len(proposal.joints), 'posture')} in {given.out}, the most informative first.")
     print(
         f"They would make the uncertainty of predicted positions fall from {before:.3g} mm to"
         f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")

@@ -131,6 +131,13 @@ def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
 
 def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
     columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
+    last = {name: angles[2:] for name, angles in columns.items()}
+    write(folder / "far.csv", last)
+    out = folder / "far_commands.csv"
+    assert main(["correct", str(calibrated), str(folder / "far.csv"), f"--out={out}"]) == DONE
+    said = capsys.readouterr()
+    assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in said.err
+    assert said.out.startswith("1 command in ")
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
     assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE

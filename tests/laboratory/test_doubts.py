@@ -19,7 +19,7 @@ from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import summary
 from recalib.nominal.arms import load_arm
-from tests.laboratory.conftest import NOISE, postures, table, true_positions, write
+from tests.laboratory.conftest import MIDDLE, NOISE, SEEN, postures, table, true_positions, write
 
 ROWS = 60
 LATE = "try to measure at rest, or to synchronise both"
@@ -90,6 +90,7 @@ def test_an_offset_or_a_turn_of_a_link_that_is_too_large_is_doubted(name, unit, 
     ("fault", "times", "said"),
     [
         (Fault(LAG, 0.05), None, f"poses seem to be 5 % of a step behind the joints; {LATE}"),
+        (Fault(LAG, 1.0), None, f"poses seem to be 100 % of a step behind the joints; {LATE}"),
         (Fault(LAG, -0.01), None, f"poses seem to be 1 % of a step ahead of the joints; {LATE}"),
         (Fault(LAG, 0.0203), np.arange(ROWS), f"poses seem to be 20 ms behind the joints; {LATE}"),
         (
@@ -158,6 +159,17 @@ def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, sai
     except Untrustworthy as error:
         told = str(error)
     assert re.search(said, told)
+
+
+def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):
+    """Slow rows look as if poses lagged behind, too."""
+    joints = MIDDLE + SEEN * np.sin(np.arange(ROWS)[:, None] * [0.31, 0.47, 0.23])
+    positions = true_positions(arm, joints)
+    positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
+    write(folder / "shifted.csv", table(arm, joints[1:], positions[:-1]))
+    with pytest.raises(Untrustworthy, match="likely: joints that are those of the row") as told:
+        calibrate_arm(folder / "arm.urdf", folder / "shifted.csv")
+    assert "of a step" not in str(told.value)
 
 
 def two_sessions(arm, folder, rows: int, moved: list[float]) -> Calibrated:

@@ -19,7 +19,7 @@ from recalib.laboratory.tables.measurements import STILL, Measurements
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.newton import solve_groups
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.spelling import listed
+from recalib.spelling import counted, listed
 
 TOLERANCE = 1e-8  # m, rad
 STEPS = 60
@@ -94,10 +94,11 @@ def beyond_measured(correction: Correction, commands: Commands) -> str | None:
     low, high, far = (scale * its[joint] for its in (low, high, commands.beyond[row]))
     joints = correction.arm.joints
     names = listed(np.array(joints)[commands.beyond.any(axis=0)], "and")
+    leave = "leaves" if len(rows) == 1 else "leave"
     return (
-        f"{len(rows)} of {len(commands.beyond)} commands leave the measured range of {names}; the"
-        f" farthest is row {row + 1}, with {joints[joint]} {far:.3g} {unit} beyond {low:.4g} to"
-        f" {high:.4g} {unit}"
+        f"{len(rows)} of {counted(len(commands.beyond), 'command')} {leave} the measured range of"
+        f" {names}; the farthest is row {row + 1}, with {joints[joint]} {far:.3g} {unit}"
+        f" beyond {low:.4g} to {high:.4g} {unit}"
     )
 
 
@@ -116,7 +117,7 @@ def reach(correction: Correction, desired: Measurements, in_instrument: bool) ->
         raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
     low, high = model.lowerPositionLimit, model.upperPositionLimit
     outside = (found[first] < low) | (found[first] > high)
-    names = ", ".join(np.array(correction.arm.joints)[outside])
+    names = listed(np.array(correction.arm.joints)[outside], "and")
     raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
 
 
@@ -212,7 +213,7 @@ def _targets(correction: Correction, desired: Measurements) -> np.ndarray:
         raise InvalidSetting("rotation", "that of a target", valid)
     if desired.targets is None:
         if len(names) > 1:
-            raise InvalidSetting("column target", None, f"one of {', '.join(names)} in each row")
+            raise InvalidSetting("column target", None, f"{listed(names, 'or')} in each row")
         return np.zeros(len(desired), dtype=int)
     for name in desired.targets:
         if name not in names:

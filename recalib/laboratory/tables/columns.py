@@ -16,7 +16,7 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.files.storage import read_file
-from recalib.spelling import instead
+from recalib.spelling import instead, listed
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
@@ -62,9 +62,8 @@ class Table:
         unit = self.units[column]
         if unit not in quantity.units:
             given = f"is in {unit!r}" if unit else "names no unit"
-            valid = ", ".join(
-                f"{column} [{unit}]" if unit else column for unit in sorted(quantity.units)
-            )
+            units = sorted(quantity.units)
+            valid = listed((f"{column} [{unit}]" if unit else column for unit in units), "or")
             raise InvalidFile(self.path, f"column {column!r} {given}; expected: {valid}")
         numbers = np.array([_number(cell) for cell in self.cells[column]])
         self._check(column, np.isfinite(numbers), "expected: a number")
@@ -94,12 +93,13 @@ class Table:
             raise InvalidFile(self.path, f"{place} is {found}; {valid}")
 
     def check_columns(self, valid: Collection[str], note: str = "") -> None:
-        """Raise InvalidFile where a column is not among the valid ones; a note says why it is."""
+        """Raise InvalidFile of a column that is not valid; a note says of angles why."""
         for column in self.cells:
             if column not in valid:
                 bracketed = "expected: its unit in square brackets, as in 'x [mm]'"
+                why = note if self.units[column] in ANGLE.units else ""  # others are no joints
                 right = bracketed if column.endswith(")") else instead(column, valid)
-                raise InvalidFile(self.path, f"unknown column {column!r}{note}; {right}")
+                raise InvalidFile(self.path, f"unknown column {column!r}{why}; {right}")
 
 
 def read_table(

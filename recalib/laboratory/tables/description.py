@@ -13,6 +13,7 @@ from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_file
 from recalib.laboratory.tables.columns import FARTHEST
+from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance"
 MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them
@@ -42,7 +43,7 @@ def read_description(path: str | PathLike[str]) -> Description:
         parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
         for part in parts:
             if part not in PARTS:
-                raise InvalidSetting("part", part, ", ".join(PARTS))
+                raise InvalidSetting("part", part, listed(PARTS, "or"))
         instrument, target = (_pose(part, parts) for part in ("instrument", "target"))
         return Description(
             _columns(parts.get("columns", {})),

@@ -30,13 +30,17 @@ def in_words(
     stands, moves = instruments[instrument], ends[target]
     series = observations.series
     rows = np.count_nonzero(series == series[observations.targets == sight][0])
-    size, late = f"{1e3 * fault.size:.2g} mm", abs(fault.size)
-    moved = f"{size} and {np.degrees(fault.turn):.2g} deg"
+    size, late = f"{_short(1e3 * fault.size)} mm", abs(fault.size)
+    moved = f"{size} and {_short(np.degrees(fault.turn))} deg"
     between = f"between rows {fault.row} and {fault.row + 1}"
     parts = f"try rows 1 to {fault.row} and {fault.row + 1} to {rows} each by themselves"
     if not fault.row:
         between, parts = "before row 1", "try each folder by itself"
-    lag = f"{100 * late:.2g} % of a step" if observations.times is None else f"{1e3 * late:.2g} ms"
+    lag = (
+        f"{_short(100 * late)} % of a step"
+        if observations.times is None
+        else f"{_short(1e3 * late)} ms"
+    )
     sentences = {
         LAG: f"poses seem to be {lag} {'behind' if fault.size > 0 else 'ahead of'} the joints; try"
         " to measure at rest, or to synchronise both",
@@ -47,3 +51,8 @@ def in_words(
         SLIP: f"{between} {moves} seems to have slipped on the tool by {moved}; {parts}",
     }
     return where + sentences[fault.kind]
+
+
+def _short(number: float) -> str:
+    """Two digits, and no power of ten where people write none: 100, not 1e+02."""
+    return f"{float(f'{number:.2g}'):g}"

@@ -13,7 +13,7 @@ from recalib.identification.checks.diagnostics import FEWEST
 from recalib.laboratory.tables.columns import FAKE, NUMBER, Table, read_table, table_of
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
-from recalib.spelling import listed
+from recalib.spelling import counted, listed
 
 POSITION = "x", "y", "z"
 NOMINAL = "x_nominal", "y_nominal", "z_nominal"
@@ -94,7 +94,7 @@ def read_measurements(
     if read.coordinates is None:
         raise InvalidFile(path, _lacking(arm, arm.joints[0]))
     if len(read) < FEWEST:
-        raise InvalidFile(path, f"it has {len(read)} rows; expected: at least {FEWEST}")
+        raise InvalidFile(path, f"it has {counted(len(read), 'row')}; expected: at least {FEWEST}")
     if read.positions is None and read.sockets is None:
         raise InvalidFile(path, "nothing was measured in it; expected: x, y, z or socket")
     if read.positions is not None and read.sockets is not None:
@@ -237,7 +237,7 @@ def _kinds(arm: Arm) -> list[Quantity]:
 def _columns(arm: Arm) -> str:
     units = {ANGLE: "deg", LENGTH: "mm"}
     pairs = zip(arm.joints, _kinds(arm), strict=True)
-    return ", ".join(f"{joint} [{units[kind]}]" for joint, kind in pairs)
+    return listed((f"{joint} [{units[kind]}]" for joint, kind in pairs), "and")
 
 
 def _moved_by(arm: Arm) -> str:
@@ -255,7 +255,7 @@ def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
         return positions
     if nominal is None or positions is not None:
         raise InvalidFile(
-            table.path, f"{', '.join(MISSED)} need {', '.join(NOMINAL)}, and no x, y, z"
+            table.path, f"{listed(MISSED, 'and')} need {listed(NOMINAL, 'and')}, and no x, y, z"
         )
     return nominal + error
 

@@ -21,6 +21,7 @@ from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
+SHIFTED = "joints that are those of the row"
 EXPLAINED = 0.2  # the part of a difference that a mistake may leave, if it is the one
 UNITS = {  # of positions that are wrong, by what makes them right
     1e-3: "in millimetres that say m",
@@ -170,7 +171,7 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
     yield "the joint columns in reverse order", np.fliplr, np.asarray
     for rows, row in ((-1, "before"), (1, "after")):
         rolled = partial(np.roll, shift=rows, axis=0)
-        yield f"joints that are those of the row {row}", rolled, np.asarray
+        yield f"{SHIFTED} {row}", rolled, np.asarray
 
 
 def _steps_of_rotations() -> Iterator[tuple[str, Change, Change]]:
