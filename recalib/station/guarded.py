@@ -52,7 +52,12 @@ class Guarded:
 
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """The lowest and highest angles (joints,) that it allows [rad, m]."""
-        lower, upper = self._ask("tell its limits", lambda its: (its.limits[0], its.limits[1]))
+
+        def both(station: Station) -> tuple[Any, Any]:
+            lower, upper = station.limits  # here, so that the station answers for three
+            return lower, upper
+
+        lower, upper = self._ask("tell its limits", both)
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
             joint = self._joints[int(wrong.argmax())]

@@ -186,6 +186,7 @@ STOPPED = {  # of what a station does, by what is said of it
             (r"\[inf, .*\]; expected: 6 finite numbers", [np.inf] * 6),
         )
     },
+    "asked to tell its limits, the station raised ValueError": {"limits": [np.zeros(6)] * 3},
     "the station's lower limits are .*; expected: 6 finite numbers": {
         "limits": (np.full(6, -np.inf), np.full(6, 2.0))
     },

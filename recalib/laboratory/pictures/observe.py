@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from hashlib import sha256
 from os import PathLike
 from pathlib import Path
@@ -102,7 +103,9 @@ class Observed:
         """A page of text."""
         lens, used = self.lens, self.used
         (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
-        source = "from these pictures" if self.fitted else self._beside_own()
+        source = "from these pictures"
+        if not self.fitted:
+            source = f"as given (one {source} would leave {self.own_error:.3f} px)"
         lines = [
             f"{len(used)} of {len(self.pictures)} pictures are used;"
             f" reprojection error {self.error:.3f} px along an axis",
@@ -119,15 +122,16 @@ class Observed:
             lines.append(f"not in {self.table.path.name}: {', '.join(self.strangers)}")
         return "\n".join([*lines, ""])
 
-    def _beside_own(self) -> str:
-        """What a lens from these pictures would do, in words: much less is another camera's."""
+    @cached_property
+    def own_error(self) -> float:
+        """px, the same with a lens from these pictures: much less says that it is another one's."""
         views = [its.corners for its in self.used if its.corners is not None]
         own = find_lens(self.board, views, self.lens.size)
         squares = [
             np.mean(reprojection(self.board, own, view, board_pose(self.board, own, view)) ** 2)
             for view in views
         ]
-        return f"as given (one from these pictures would leave {np.sqrt(np.mean(squares)):.3f} px)"
+        return float(np.sqrt(np.mean(squares)))
 
 
 def observe(
