@@ -7,6 +7,7 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
 from recalib.errors import RecalibError, UnknownName
 from recalib.files.outputs import check_new, is_taken, new
@@ -72,8 +73,15 @@ def _no_cache_at_home() -> Iterator[None]:
 def _live(given: argparse.Namespace) -> int:
     from recalib.laboratory.live.command import measure_live
 
+    seen = Path(given.out).with_name(f"{Path(given.out).name}_observed")
+    if given.board is not None:
+        check_new(seen, folder=True)
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
     given.measurements = [given.table]
+    if given.board is not None:  # all corners together tell more, also of the lens
+        given.pictures, given.joints, given.lens, given.name = ".", given.table, None, "camera"
+        _write_observed(given, seen)
+        given.measurements = [seen]
     return _calibrate(given)
 
 
@@ -179,15 +187,19 @@ def _board(given: argparse.Namespace) -> int:
 
 
 def _observe(given: argparse.Namespace) -> int:
+    _write_observed(given, given.out)
+    print(f"\n{given.out}: see page.html; next: recalib calibrate ARM.urdf {given.out}")
+    return DONE
+
+
+def _write_observed(given: argparse.Namespace, out: str | Path) -> None:
     from recalib.laboratory.pictures.observe import IN_HAND, observe, write_observed
     from recalib.laboratory.report.observed_page import write_observed_page
 
     files = given.pictures, given.joints, given.board, given.lens
     result = observe(*files, given.camera == IN_HAND, _print_progress, given.name)
-    write_observed(result, given.out, write_observed_page)
+    write_observed(result, out, write_observed_page)
     print(result.summary(), end="")
-    print(f"\n{given.out}: see page.html; next: recalib calibrate ARM.urdf {given.out}")
-    return DONE
 
 
 def _warn(text: str) -> None:

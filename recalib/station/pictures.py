@@ -8,7 +8,7 @@ import numpy as np
 
 from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
-from recalib.vision.detection import Unusable, find_corners, read_picture
+from recalib.vision.detection import FEWEST, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners
 
@@ -54,5 +54,8 @@ class PicturesOfABoard:
         if np.array_equal(grey, self._last):
             raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
         self._last = grey
-        pose = board_pose(self._board, self._lens, good_corners(self._board, self._lens, corners))
+        good = good_corners(self._board, self._lens, corners)
+        if len(good.numbers) < FEWEST:
+            return None
+        pose = board_pose(self._board, self._lens, good)
         return {PICTURE: path} | cells_of(np.linalg.inv(pose) if self._in_hand else pose)

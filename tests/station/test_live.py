@@ -17,6 +17,7 @@ import pytest
 import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.correction.correct import NotReached
@@ -27,6 +28,7 @@ from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.calibration import Interrupted, LiveSettings, calibrate_live
 from recalib.laboratory.live.running import PredictedError
 from recalib.laboratory.live.view import LiveView
+from recalib.laboratory.tables.description import Description
 from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
@@ -98,6 +100,21 @@ def test_errors_are_said_in_millimetres():
     its.error = lambda rows: PredictedError(by_model=0.999, by_rows=0.888, ahead=0.5)
     assert live._enough([1], its, LiveSettings(), told.append) is None
     assert told == ["row 1: predicted error by the model 999 mm, by the last rows 888 mm"]
+
+
+@pytest.mark.parametrize("count", [4, 25], ids=["without", "with a calibration"])
+def test_postures_are_proposed_on_the_side_where_the_target_was_seen(count):
+    its = Simulated()
+    home, joints = its.stands, its.arm.joints
+    postures = AllowedPostures(its.arm, home, its.limits, np.radians(45), None)
+    proposing = running.RunningCalibration(its.arm, Description(), postures)
+    seen = postures.joints[postures.joints[:, 0] < home[0]][:count]
+    unseen = [posture + 2 * (home[0] - posture[0]) * np.eye(len(joints))[0] for posture in seen]
+    rows = Observations(seen, its.real.poses(seen, noise=its.noise))
+    assert proposing.next_posture(rows, [])[0] > home[0]
+    assert proposing.next_posture(rows, unseen)[0] <= home[0]
+    everywhere = [posture + 0.05 for posture in postures.joints]
+    assert proposing.next_posture(rows, everywhere) is not None
 
 
 @pytest.mark.parametrize("error", [0.0, -1e-3, np.inf, np.nan])

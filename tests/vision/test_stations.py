@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 from recalib.laboratory.command_line import REFUSED, main
 from recalib.station.interface import StationFailed
 from recalib.station.pictures import PicturesOfABoard
+from recalib.vision.detection import Corners
 from tests.vision.rendering import Cell
 
 
@@ -57,6 +58,26 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
     assert seeing.measure() is None
     station.measure = lambda: None
     assert seeing.measure() is None
+
+
+def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monkeypatch):
+    """`observe` would refuse it at the end."""
+    cell, path = Cell(3), tmp_path / "000.png"
+    cv2.imwrite(str(path), cell.picture(*cell.board_poses(cell.postures(1))))
+
+    def few(board, lens, view):
+        return Corners(view.numbers[:7], view.pixels[:7], view.softness)
+
+    monkeypatch.setattr("recalib.station.pictures.good_corners", few)
+    assert PicturesOfABoard(Photographs(path), cell.board, cell.lens, False).measure() is None
+
+
+def test_what_its_pictures_would_go_to_is_there_before_anything_moves(tmp_path, capsys):
+    (tmp_path / "new_observed").mkdir()
+    (tmp_path / "new_observed" / "page.html").touch()
+    words = ["live", "nowhere", "ur10_robot.urdf", "--board=board.toml", "--lens=lens.yaml"]
+    assert main([*words, f"--out={tmp_path / 'new'}"]) == REFUSED
+    assert "new_observed" in capsys.readouterr().err
 
 
 def test_a_board_needs_a_lens(tmp_path, capsys):

@@ -69,9 +69,8 @@ PANDA = (  # one after the other, on an arm in MuJoCo
     "recalib observe pictures/ joints.csv --out lens",
     "recalib live examples/rehearsal/panda.py:BentPanda panda.urdf --tool panda_link8"
     ' --board board/board.toml --lens lens/lens.yaml --span "20 deg" --error "0.5 mm" --yes',
-    "recalib observe . measurements.csv --out observed",
-    "recalib calibrate panda.urdf observed --tool panda_link8 --out by_pixels",
-    "recalib correct by_pixels observed/measurements.csv --frame instrument --out commands.csv",
+    "recalib correct calibration calibration_observed/measurements.csv --frame instrument"
+    " --out commands.csv",
 )
 EXECUTED |= dict.fromkeys(PANDA, "tests/station/test_panda.py::rehearsed")
 PLANNED = {  # Snakemake or make says what would run, and the reason why it does not

@@ -107,20 +107,26 @@ class RunningCalibration:
         """What to measure next (joints,) [rad, m]; None where all was measured.
 
         The one farthest from those measured while there is no calibration, then the most
-        informative one.
+        informative one; of those that are nearer to one in which the target was seen than to one
+        in which it was not.
 
         Args:
             unseen: postures (joints,) in which the instrument did not see the target.
         """
-        done, candidates = observations.joints, self._postures.joints
-        known = np.array([*done, *unseen])
+        candidates, scale = self._postures.joints, np.where(self._arm.slides, 1.0, LEVER)
+        known = np.array([*observations.joints, *unseen])
         fresh = (cdist(candidates, known, "chebyshev") > 2 * REACHED).all(axis=1)
         if not fresh.any():
             return None
         candidates = candidates[fresh]
+        gaps = cdist(candidates * scale, known * scale)
+        by_seen, by_unseen = np.split(gaps, [len(observations)], axis=1)
+        # in sight as far as is known; where the target never is in sight, anywhere
+        likely = by_seen.min(axis=1) <= by_unseen.min(axis=1, initial=np.inf)
+        if likely.any():
+            candidates, gaps = candidates[likely], gaps[likely]
         if not self.is_ready(observations):
-            scale = np.where(self._arm.slides, 1.0, LEVER)
-            return candidates[cdist(candidates * scale, known * scale).min(axis=1).argmax()]
+            return candidates[gaps.min(axis=1).argmax()]
         ((best, _),) = most_informative(self.calibration(observations), candidates, 1)
         return candidates[best]
 
