@@ -73,15 +73,14 @@ def _no_cache_at_home() -> Iterator[None]:
 def _live(given: argparse.Namespace) -> int:
     from recalib.laboratory.live.command import measure_live
 
-    seen = Path(given.out).with_name(f"{Path(given.out).name}_observed")
+    observed = Path(given.out).with_name(f"{Path(given.out).name}_observed")
     if given.board is not None:
-        check_new(seen, folder=True)
+        check_new(observed, folder=True)
     _print_progress(f"enough: {measure_live(given, _print_progress)}")
     given.measurements = [given.table]
     if given.board is not None:  # all corners together tell more, also of the lens
-        given.pictures, given.joints, given.lens, given.name = ".", given.table, None, "camera"
-        _write_observed(given, seen)
-        given.measurements = [seen]
+        _write_observed(observed, ".", given.table, given.board, None, given.camera)
+        given.measurements = [observed]
     return _calibrate(given)
 
 
@@ -187,17 +186,26 @@ def _board(given: argparse.Namespace) -> int:
 
 
 def _observe(given: argparse.Namespace) -> int:
-    _write_observed(given, given.out)
+    files = given.pictures, given.joints, given.board, given.lens
+    _write_observed(given.out, *files, given.camera, given.name)
     print(f"\n{given.out}: see page.html; next: recalib calibrate ARM.urdf {given.out}")
     return DONE
 
 
-def _write_observed(given: argparse.Namespace, out: str | Path) -> None:
+def _write_observed(
+    out: str | Path,
+    pictures: str | Path,
+    joints: Path,
+    board: Path,
+    lens: Path | None,
+    camera: str | None,
+    name: str = "camera",
+) -> None:
     from recalib.laboratory.pictures.observe import IN_HAND, observe, write_observed
     from recalib.laboratory.report.observed_page import write_observed_page
 
-    files = given.pictures, given.joints, given.board, given.lens
-    result = observe(*files, given.camera == IN_HAND, _print_progress, given.name)
+    in_hand = camera == IN_HAND
+    result = observe(pictures, joints, board, lens, in_hand, _print_progress, name)
     write_observed(result, out, write_observed_page)
     print(result.summary(), end="")
 

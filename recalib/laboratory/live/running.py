@@ -107,8 +107,8 @@ class RunningCalibration:
         """What to measure next (joints,) [rad, m]; None where all was measured.
 
         The one farthest from those measured while there is no calibration, then the most
-        informative one; of those that are nearer to one in which the target was seen than to one
-        in which it was not.
+        informative one. Candidates nearer to an unseen posture than to a measured one are left
+        out, unless all are.
 
         Args:
             unseen: postures (joints,) in which the instrument did not see the target.
@@ -120,11 +120,10 @@ class RunningCalibration:
             return None
         candidates = candidates[fresh]
         gaps = cdist(candidates * scale, known * scale)
-        by_seen, by_unseen = np.split(gaps, [len(observations)], axis=1)
-        # in sight as far as is known; where the target never is in sight, anywhere
-        likely = by_seen.min(axis=1) <= by_unseen.min(axis=1, initial=np.inf)
-        if likely.any():
-            candidates, gaps = candidates[likely], gaps[likely]
+        to_measured, to_unseen = np.split(gaps, [len(observations)], axis=1)
+        in_sight = to_measured.min(axis=1) <= to_unseen.min(axis=1, initial=np.inf)  # most likely
+        if in_sight.any():
+            candidates, gaps = candidates[in_sight], gaps[in_sight]
         if not self.is_ready(observations):
             return candidates[gaps.min(axis=1).argmax()]
         ((best, _),) = most_informative(self.calibration(observations), candidates, 1)

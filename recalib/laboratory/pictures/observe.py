@@ -124,7 +124,7 @@ class Observed:
 
     @cached_property
     def own_error(self) -> float:
-        """px, the same with a lens from these pictures: much less says that it is another one's."""
+        """px, as `error`, with a lens from these pictures: if much less, the lens is another's."""
         views = [its.corners for its in self.used if its.corners is not None]
         own = find_lens(self.board, views, self.lens.size)
         squares = [
