@@ -46,7 +46,7 @@ PICTURES = {
     "station/pictures.py": {"cv2"},
     "vision/boards.py": {"cv2"},
     "vision/detection.py": {"cv2"},
-    "vision/lenses.py": {"cv2"},
+    "vision/lenses.py": {"yaml"},
     "vision/printing.py": {"matplotlib"},
     "vision/views.py": {"cv2"},
 }

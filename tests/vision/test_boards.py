@@ -80,7 +80,10 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
     storage.write("camera_matrix", LENS.matrix)
     storage.write("distortion_coefficients", LENS.distortion[:4])
     storage.release()
-    for name in ("ros.yaml", "cv.yaml"):
+    echoed = {"height": LENS.size[1], "width": LENS.size[0], "distortion_model": "plumb_bob"}
+    echoed |= {"d": LENS.distortion.tolist(), "k": LENS.matrix.ravel().tolist()}
+    (tmp_path / "message.yaml").write_text(f"header:\n  frame_id: a\n{yaml.dump(echoed)}---\n")
+    for name in ("ros.yaml", "cv.yaml", "message.yaml"):
         lens = read_lens(tmp_path / name)
         assert lens.size == LENS.size and np.allclose(lens.matrix, LENS.matrix)
         assert np.allclose(lens.distortion, LENS.distortion)
@@ -95,9 +98,13 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
         ("image_width|width_of", "image_width and image_height are no numbers"),
         ("image_width: 1280|image_width: wide", "image_width and image_height are no numbers"),
         ("image_width: 1280|image_width: 0", "image_width and image_height are no numbers"),
-        ("distortion_coefficients|d", "no 4, 5 or 8 numbers"),
+        ("distortion_coefficients|distortions", "no 4, 5 or 8 numbers"),
+        ("camera_matrix|matrix", "camera_matrix has no 9 numbers"),
+        ("image_width: 1280|image_width: 1280.5", "image_width and image_height are no numbers"),
         ("-0.21|.nan", "no 4, 5 or 8 numbers"),
+        ("distortion_model: plumb_bob|distortion_model: [a]", "distortion_model is ['a']"),
         ("[1105|[[1105", "it is no YAML"),
+        pytest.param("[1105|" + 10_000 * "[", "it is no YAML", id="deep"),
     ],
 )
 def test_a_lens_that_is_none_is_refused(change, said, tmp_path):
