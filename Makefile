@@ -114,7 +114,7 @@ check: setup ## only compare the final errors with their bands
 bench: setup ## measure moves per second, and their ratio to a bare loop
 	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
 
-latency: live ## measure how fast a live calibration answers, and a corrected command
+latency: vision live ## measure how fast a live calibration answers, and a corrected command
 	.venv/bin/python -m tests.station.latency
 
 report: all ## write all results into one page, results/report.html

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from recalib.identification.calibration import Calibration
+from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import Optics
 
 
 def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
@@ -21,17 +23,18 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
 
 
 def most_informative(
-    calibration: Calibration, joints: np.ndarray, count: int
+    calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:
     """The postures of the largest gains, each given those before it.
 
     Args:
         calibration, joints: as above.
         count: how many, if there are so many; none twice.
+        optics: what pictures would be worth there; None where no cameras measure.
 
     Yields each one's number, and the covariance (P, P) of the parameters once it is measured.
     """
-    rows, covariance = _rows(calibration, joints), calibration.estimate.covariance
+    rows, covariance = _rows(calibration, joints, optics), calibration.estimate.covariance
     unused = np.ones(len(rows), dtype=bool)
     for _ in range(min(count, len(rows))):
         spreads = _spreads(rows, covariance)
@@ -42,11 +45,14 @@ def most_informative(
         yield best, covariance
 
 
-def _rows(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
+def _rows(calibration: Calibration, joints: np.ndarray, optics: Optics | None = None) -> np.ndarray:
     """Jacobians (n, 3 or 6, P) of what is measured, over its noise."""
     model, estimate = calibration.model, calibration.estimate
     noise = np.repeat(estimate.noise, 3)
     _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
+    if optics is not None:
+        jacobians[..., model.optics_columns] = -optics.slopes
+        jacobians = Observations(joints, optics=optics).whitened(jacobians)
     return jacobians[:, : len(noise)] / noise[:, None]
 
 

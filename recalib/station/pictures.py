@@ -1,18 +1,67 @@
-"""A station that takes pictures of a board, as one that measures where the board is."""
+"""A station that takes pictures of a board: what they say, and the station as one of poses."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from recalib.errors import InvalidFile
+from recalib.identification.model.optics import Optics
 from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
-from recalib.vision.detection import FEWEST, Unusable, find_corners, read_picture
+from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose, good_corners
+from recalib.vision.views import Sighting, foreseen, good_corners, optics_of, sighting
 
 PICTURE = "picture"
+
+
+class BoardInPictures:
+    """A board in the pictures of a camera, each of which is searched once.
+
+    Args:
+        board: which is in them.
+        lens: of the camera, near the true one.
+        in_hand: whether the camera is on the hand.
+    """
+
+    def __init__(self, board: Board, lens: Lens, in_hand: bool):
+        self.lens, self._setup = lens, (board, lens, in_hand)
+        self._sightings: dict[str, Sighting] = {}
+
+    def search(self, path: str, grey: np.ndarray) -> Sighting | None:
+        """What a picture (height, width) at a path says; None where the board is not found."""
+        board, lens, _ = self._setup
+        try:
+            corners = good_corners(board, lens, find_corners(board, grey))
+        except Unusable:
+            return None
+        return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
+
+    def add(self, path: str, corners: Corners) -> Sighting:
+        """What a picture says with these corners."""
+        board, lens, in_hand = self._setup
+        self._sightings[path] = sighting(board, lens, corners, True, in_hand)
+        return self._sightings[path]
+
+    def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
+        """Poses (n, 4, 4) [m], and what is known of them, with the lens to be found.
+
+        Raises InvalidFile: the board is not in a picture.
+        """
+        for path in paths:
+            if path in self._sightings:
+                continue
+            grey = read_picture(Path(path))
+            if grey is None or self.search(path, grey) is None:
+                raise InvalidFile(path, "it is no picture of the board, as its row says")
+        return optics_of([self._sightings[path] for path in paths])
+
+    def foresee(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """See `foreseen`."""
+        board, lens, in_hand = self._setup
+        return foreseen(board, lens, poses, in_hand)
 
 
 class PicturesOfABoard:
@@ -20,13 +69,12 @@ class PicturesOfABoard:
 
     Args:
         station: whose `measure` returns `picture`, the path of a file.
-        board: which is in it.
-        lens: of the camera, which counts as exact.
-        in_hand: whether the camera is on the hand: then it is the pose of the camera in the board.
+        pictures: what searches it. Where the camera is on the hand, its pose in the board is what
+            is measured.
     """
 
-    def __init__(self, station: Station, board: Board, lens: Lens, in_hand: bool):
-        self._station, self._board, self._lens, self._in_hand = station, board, lens, in_hand
+    def __init__(self, station: Station, pictures: BoardInPictures):
+        self._station, self._pictures = station, pictures
         self._last: np.ndarray = np.zeros(0)
 
     def __getattr__(self, name: str) -> Any:
@@ -44,18 +92,12 @@ class PicturesOfABoard:
         grey = read_picture(Path(path))
         if grey is None:
             raise StationFailed(f"{path} is no picture")
-        if grey.shape[::-1] != self._lens.size:
-            found, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], self._lens.size))
+        if grey.shape[::-1] != (size := self._pictures.lens.size):
+            found, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
             raise StationFailed(f"{path} has {found} pixels; expected, as by the lens: {valid}")
-        try:
-            corners = find_corners(self._board, grey)
-        except Unusable:
+        if (seen := self._pictures.search(path, grey)) is None:
             return None
         if np.array_equal(grey, self._last):
             raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
         self._last = grey
-        good = good_corners(self._board, self._lens, corners)
-        if len(good.numbers) < FEWEST:
-            return None
-        pose = board_pose(self._board, self._lens, good)
-        return {PICTURE: path} | cells_of(np.linalg.inv(pose) if self._in_hand else pose)
+        return {PICTURE: path} | cells_of(seen.pose)

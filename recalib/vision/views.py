@@ -7,6 +7,7 @@ board are parameters, too, is one from pixels: its normal equations are the same
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -20,6 +21,7 @@ FEWEST = 6  # pictures, to know a lens by
 LENS_SIZE = len(OPTICS) - len(BOARD)  # parameters of a lens
 LENS = slice(6, 6 + LENS_SIZE)  # among OpenCV's derivatives, behind those of the pose
 FAR = 4.0  # standard deviations: a corner farther out is no part of the board
+NARROW = 12.0  # px of a marker's shorter side: if it has less, hardly half of them are found
 CONVERGED = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 100, 1e-12)
 
 
@@ -57,43 +59,97 @@ def good_corners(board: Board, lens: Lens, view: Corners) -> Corners:
     return Corners(view.numbers[good], view.pixels[good], view.softness)
 
 
-def optics_of(
-    board: Board, lens: Lens, views: Sequence[Corners], fitted: bool, in_hand: bool
-) -> tuple[np.ndarray, Optics]:
-    """Measured poses (n, 4, 4) [m], and what is known of them.
+class Sighting(NamedTuple):
+    """What the corners in a picture say, with a noise of 1 px; else as a row of `Optics`.
+
+    Attributes:
+        pose: (4, 4) m of the camera in the board where it is on the hand; of the board in the
+            camera otherwise.
+        squares: px^2, the sum of those of reprojection errors.
+        free: how many of these the pose does not make up for.
+    """
+
+    pose: np.ndarray
+    spread: np.ndarray
+    slopes: np.ndarray
+    information: np.ndarray
+    gradient: np.ndarray
+    pixels: np.ndarray
+    squares: float
+    free: int
+
+
+def sighting(board: Board, lens: Lens, view: Corners, fitted: bool, in_hand: bool) -> Sighting:
+    """What a view says.
 
     Args:
-        fitted: whether the lens is that of the views; otherwise it is known.
-        in_hand: whether poses are those of the camera in the board; those of the board in the
-            camera otherwise.
+        fitted: whether the lens is sought, too; otherwise it is known.
+        in_hand: whether the camera is on the hand.
     """
-    count, parts, poses, squares, free = len(OPTICS) if fitted else len(BOARD), [], [], 0.0, 0.0
-    for view in views:
-        pose = board_pose(board, lens, view)
-        residuals = reprojection(board, lens, view, pose).ravel()
-        by_pose, by_optics = _derivatives(board.points[view.numbers], lens, pose, in_hand)
-        parts.append(_marginal(by_pose, by_optics[:, :count], residuals))
-        poses.append(np.linalg.inv(pose) if in_hand else pose)
-        squares, free = squares + residuals @ residuals, free + len(residuals) - 6
-    variance = squares / (free - LENS_SIZE * fitted)
-    spread, slopes, information, gradient, pixels = map(np.array, zip(*parts, strict=True))
-    knowledge = information / variance, gradient / variance
-    return np.array(poses), Optics(variance * spread, slopes, *knowledge, pixels)
-
-
-def _marginal(
-    by_pose: np.ndarray, by_optics: np.ndarray, residuals: np.ndarray
-) -> tuple[np.ndarray, ...]:
-    """What corners with a noise of 1 px say, by their derivatives (2 c, 6) and (2 c, o).
-
-    Returns the covariance (6, 6) of the pose, how it makes up for a change of optics (6, o), what
-    is known of the optics with the pose free, (o, o) and (o,), and `pixels` (6, 6) of `Optics`.
-    """
+    pose = board_pose(board, lens, view)
+    residuals = reprojection(board, lens, view, pose).ravel()
+    by_pose, by_optics = _derivatives(board.points[view.numbers], lens, pose, in_hand)
+    by_optics = by_optics[:, : len(OPTICS if fitted else BOARD)]
     root = np.linalg.qr(by_pose).R
-    slopes = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
+    slopes = _made_up(by_pose, by_optics)
     left = by_optics + by_pose @ slopes
-    covariance, pixels = np.linalg.inv(root.T @ root), root * np.sqrt(2 / len(by_pose))
-    return covariance, slopes, left.T @ left, left.T @ residuals, pixels
+    return Sighting(
+        np.linalg.inv(pose) if in_hand else pose,
+        np.linalg.inv(root.T @ root),
+        slopes,
+        left.T @ left,
+        left.T @ residuals,
+        root * np.sqrt(2 / len(by_pose)),
+        float(residuals @ residuals),
+        len(residuals) - 6,
+    )
+
+
+def foreseen(
+    board: Board, lens: Lens, poses: np.ndarray, in_hand: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Where poses (n, 4, 4) [m] would be measured: their slopes (n, 6, o), as `Optics` has them.
+
+    Also whether most corners would be found there (n,). Arguments are those of `sighting`.
+    """
+    slopes, shown = np.zeros((len(poses), 6, len(OPTICS))), np.zeros(len(poses), dtype=bool)
+    for number, pose in enumerate(np.linalg.inv(poses) if in_hand else poses):
+        found = _shown(board, lens, pose)
+        if found.mean() > 0.5:
+            by_pose, by_optics = _derivatives(board.points[found], lens, pose, in_hand)
+            slopes[number], shown[number] = _made_up(by_pose, by_optics), True
+    return slopes, shown
+
+
+def optics_of(sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
+    """Measured poses (n, 4, 4) [m], and what is known of them."""
+    poses, *parts, squares, free = map(np.array, zip(*sightings, strict=True))
+    spread, slopes, information, gradient, pixels = parts
+    fitted = slopes.shape[-1] == len(OPTICS)
+    variance = squares.sum() / (free.sum() - LENS_SIZE * fitted)
+    knowledge = information / variance, gradient / variance
+    return poses, Optics(variance * spread, slopes, *knowledge, pixels)
+
+
+def _made_up(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
+    """How a pose makes up for a change of optics (6, o), by derivatives (2 c, 6) and (2 c, o)."""
+    slopes: np.ndarray = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
+    return slopes
+
+
+def _shown(board: Board, lens: Lens, pose: np.ndarray) -> np.ndarray:
+    """Which corners (c,) of a board at a pose (4, 4) in the camera would be found."""
+    points, turn, place = board.points, pose[:3, :3], pose[:3, 3]
+    pixels, slopes = cv2.projectPoints(
+        points, cv2.Rodrigues(turn)[0], place, lens.matrix, lens.distortion
+    )
+    pixels, ahead = pixels.reshape(-1, 2), points @ turn[2] + place[2] > 0
+    inside = ((pixels > 0) & (pixels < np.array(lens.size) - 1)).all(axis=1)
+    across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
+    narrow = board.marker * np.linalg.norm(across, -2, axis=(1, 2))
+    faces = np.linalg.det(across) > 0
+    found: np.ndarray = ahead & inside & faces & (narrow > NARROW)
+    return found
 
 
 def _derivatives(

@@ -20,9 +20,11 @@ import pinocchio as pin
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances, Noise
+from recalib.identification.closed_forms import solutions
+from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
-from recalib.laboratory.live.record import Record
+from recalib.laboratory.live.record import Pictures, Record
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.arms import load_arm
@@ -31,10 +33,13 @@ from recalib.station.interface import Station
 from recalib.station.physics import Gears, PhysicsStation
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import HOMES, Simulated
+from tests.vision.rendering import Cell
+from tests.vision.stations import Seeing
 
 Forward = Callable[[np.ndarray], np.ndarray]
 FINE = 5e-5, np.radians(0.01)  # m, rad
 DRAWS, ERROR, GEARS = 10, 3e-4, np.radians(0.03)
+FINER, SPAN = 2e-4, np.radians(25)  # m, rad: with a camera
 STIFFNESS, FRICTION = 5e3, 2.0  # N m/rad, of each gear; N m
 
 
@@ -45,29 +50,43 @@ class Live:
         arm: the nominal one.
         station: the real one.
         true, nominal: from postures to poses (n, 4, 4) [m] of the target in the instrument's frame.
+        pictures: what those that the station takes say; poses count unless given.
     """
 
-    def __init__(self, arm: Arm, station: Station, true: Forward, nominal: Forward):
+    def __init__(
+        self,
+        arm: Arm,
+        station: Station,
+        true: Forward,
+        nominal: Forward,
+        pictures: Pictures | None = None,
+    ):
+        self.station = station
         home, began = station.angles(), time.process_time()
+        settings = LiveSettings(ERROR) if pictures is None else LiveSettings(FINER, span=SPAN)
+        self._shifted = pictures is not None
         with tempfile.TemporaryDirectory() as folder:
-            table, settings = Path(folder) / "table.csv", LiveSettings(ERROR)
+            table = Path(folder) / "table.csv"
             self.reason = calibrate_live(
-                lambda: station, arm, table, settings, lambda posture: True
+                lambda: station, arm, table, settings, lambda posture: True, pictures=pictures
             )
             self.seconds = time.process_time() - began
-            record = Record(table, arm, Description())
+            record = Record(table, arm, Description(), pictures)
             self.rows = record.observations
             record.close()
-        postures = AllowedPostures(arm, home, station.limits, settings.span, None)
-        self.running = RunningCalibration(arm, Description(), postures)
-        self.fresh = postures.joints[-200:]
+        self.postures = AllowedPostures(arm, home, station.limits, settings.span, None)
+        self.running = RunningCalibration(arm, Description(), self.postures, pictures)
+        self.fresh = self.postures.joints[-200:]
         self.true = true(self.fresh)
         self.predicted = 1e3 * self.running.error(self.rows).total
         self.before = self.error(nominal(self.fresh))
         self.after = self.error(self.running.calibration(self.rows).predict(self.fresh))
 
     def error(self, poses: np.ndarray) -> float:
-        """Mean [mm] of position."""
+        """Mean [mm] of position; by pictures, after one shift and turn of base and tool."""
+        if self._shifted:
+            ends = next(solutions(poses, Observations(self.fresh, self.true)))
+            poses = ends.base @ poses @ ends.targets[0]
         gaps = poses - self.true
         return 1e3 * float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
 
@@ -98,6 +117,19 @@ def physical(name: str, seed: int, friction: float = 0.0) -> Live:
     return Live(nominal, noisy, PhysicsStation(damaged, gears).forward, nominal.forward)
 
 
+def pictured(seed: int, in_hand: bool) -> Live:
+    """A Panda of the bars of pictures, by corners."""
+    cell = Cell(seed, in_hand)
+    station, board = Seeing(cell), np.linalg.inv if in_hand else np.asarray
+    return Live(
+        cell.arm,
+        station,
+        lambda joints: board(cell.board_poses(joints)),
+        cell.arm.forward,
+        station.pictures,
+    )
+
+
 def outcomes(kind: str, live: Sequence[Live]) -> None:
     """A row of the table."""
     rows, seconds = [len(its.rows) for its in live], [its.seconds for its in live]
@@ -123,3 +155,6 @@ if __name__ == "__main__":
         for friction in (0.0, FRICTION):
             kind = f"{name} in MuJoCo, friction {friction:g} N m"
             outcomes(kind, [physical(name, seed, friction) for seed in seeds])
+    for place in ("beside the arm", "on the hand"):
+        kind = f"Panda, camera {place}, until {1e3 * FINER:g} mm"
+        outcomes(kind, [pictured(seed, place == "on the hand") for seed in seeds])

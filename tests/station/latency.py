@@ -9,6 +9,7 @@ import os
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
 
 import time
+from collections.abc import Callable
 
 import numpy as np
 
@@ -19,11 +20,15 @@ from recalib.identification.validation import CANDIDATES, HYBRID
 from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.correction.corrector import Corrector
 from recalib.laboratory.live.allowed import AllowedPostures
+from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.tables.description import Description
+from recalib.nominal.kinematics import Arm
 from tests.identification.real import ARMS, Real
 from tests.station.bars import FINE, GEARS
 from tests.station.simulated import Simulated
+from tests.vision.rendering import Cell
+from tests.vision.stations import Seeing
 
 TIMES = 20  # that are measured, for a median
 
@@ -38,26 +43,52 @@ def median(call) -> float:
     return 1e3 * float(np.median(times))
 
 
+def live(
+    name: str,
+    arm: Arm,
+    postures: AllowedPostures,
+    rows: Callable[[int], Observations],
+    pictures: Pictures | None = None,
+) -> None:
+    """Of an update and of a proposal, by the first rows of some number."""
+    for count in (50, 100, 200):
+
+        def running():
+            its = RunningCalibration(arm, Description(), postures, pictures)
+            its.error(rows(count))  # noqa: B023
+            return its
+
+        each = [running() for _ in range(TIMES)]
+        fresh, updated = iter(each), iter(each)
+        update = median(lambda: next(fresh).error(rows(count + 1)))  # noqa: B023
+        proposal = median(lambda: next(updated).next_posture(rows(count + 1), []))  # noqa: B023
+        print(f"{name}, {count} rows: an update {update:.0f} ms, a proposal {proposal:.0f} ms")
+
+
+def by_pictures() -> None:
+    station = Seeing(Cell(1))
+    cell, limits = station.cell, station.limits
+    joints = cell.postures(201)
+    for angles in joints:
+        station.move(angles, 1.0)
+        station.measure()
+    names = [str(number) for number in range(1, 202)]
+
+    def rows(count: int) -> Observations:
+        poses, optics = station.pictures(names[:count])
+        return Observations(joints[:count], poses, optics=optics)
+
+    postures = AllowedPostures(cell.arm, joints[0], limits, np.radians(25), None)
+    live("Panda by pictures", cell.arm, postures, rows, station.pictures)
+
+
 def latencies(name: str) -> None:
     station = Simulated(name, 1, FINE)
     home, random = station.stands, np.random.default_rng(1)
     postures = AllowedPostures(station.arm, home, station.limits, np.radians(45), None)
     joints = random.uniform(*(home + side * np.radians(45) for side in (-1, 1)), (202, len(home)))
     rows = Observations(joints, station.real.poses(joints, noise=FINE))
-    for count in (50, 100, 200):
-        before, now = rows[:count], rows[: count + 1]
-
-        def running():
-            its = RunningCalibration(station.arm, Description(), postures)
-            its.error(before)  # noqa: B023
-            return its
-
-        fresh = iter([running() for _ in range(TIMES)])
-        update = median(lambda: next(fresh).error(now))  # noqa: B023
-        last = running()
-        last.error(now)
-        proposal = median(lambda: last.next_posture(now, []))  # noqa: B023
-        print(f"{name}, {count} rows: an update {update:.0f} ms, a proposal {proposal:.0f} ms")
+    live(name, station.arm, postures, lambda count: rows[:count])
     eccentric = Real(station.arm, 1, gears=GEARS)
     uneven = Observations(joints, eccentric.poses(joints, noise=FINE))
     for its in (rows, uneven):
@@ -84,3 +115,4 @@ def latencies(name: str) -> None:
 if __name__ == "__main__":
     for name in ARMS:
         latencies(name)
+    by_pictures()

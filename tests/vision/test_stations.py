@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.laboratory.command_line import REFUSED, main
 from recalib.station.interface import StationFailed
-from recalib.station.pictures import PicturesOfABoard
+from recalib.station.pictures import BoardInPictures, PicturesOfABoard
 from recalib.vision.detection import Corners
 from tests.vision.rendering import Cell
 
@@ -28,7 +28,7 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
     cell, path = Cell(3, in_hand), tmp_path / "000.png"
     (pose,) = cell.board_poses(cell.postures(1))
     cv2.imwrite(str(path), cell.picture(pose))
-    seeing = PicturesOfABoard(Photographs(path), cell.board, cell.lens, in_hand)
+    seeing = PicturesOfABoard(Photographs(path), BoardInPictures(cell.board, cell.lens, in_hand))
     cells = seeing.measure()
     expected = np.linalg.inv(pose) if in_hand else pose
     assert cells.pop("picture") == str(path)
@@ -41,7 +41,7 @@ def test_what_stands_is_measured_in_what_moves(in_hand, tmp_path):
 
 def test_what_is_no_picture_of_it_is_told(tmp_path):
     station, cell = Photographs(tmp_path / "grey.png"), Cell(3)
-    seeing = PicturesOfABoard(station, cell.board, cell.lens, False)
+    seeing = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
     for cells, says in (
         ({"x [m]": 1.0}, "the station measured x .m.; expected: picture"),
         ({"picture": "nowhere.png"}, "nowhere.png is no picture"),
@@ -69,7 +69,8 @@ def test_a_picture_with_few_good_corners_is_no_sight_of_the_board(tmp_path, monk
         return Corners(view.numbers[:7], view.pixels[:7], view.softness)
 
     monkeypatch.setattr("recalib.station.pictures.good_corners", few)
-    assert PicturesOfABoard(Photographs(path), cell.board, cell.lens, False).measure() is None
+    pictures = BoardInPictures(cell.board, cell.lens, False)
+    assert PicturesOfABoard(Photographs(path), pictures).measure() is None
 
 
 def test_what_its_pictures_would_go_to_is_there_before_anything_moves(tmp_path, capsys):

@@ -18,9 +18,9 @@ from recalib.vision.detection import (
     read_picture,
 )
 from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose, good_corners, optics_of
+from recalib.vision.views import board_pose, foreseen, good_corners, optics_of, sighting
 from tests.vision.bars import NOISE, Draw
-from tests.vision.rendering import BOARD, LENS, Cell
+from tests.vision.rendering import BOARD, LENS, Cell, frame
 
 PLACES = pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])
 
@@ -81,7 +81,7 @@ def test_poses_move_with_optics_as_it_is_said(in_hand):
     cell = Cell(2, in_hand)
     (pose,) = cell.board_poses(cell.postures(1))
     view = cell.view(pose)
-    _, optics = optics_of(BOARD, LENS, [view, view], True, in_hand)
+    _, optics = optics_of([sighting(BOARD, LENS, view, True, in_hand)] * 2)
     places = [(0, 0), (1, 1), (0, 2), (1, 2)]
     for column, step in enumerate([1e-4] * 2 + [0.5] * 4 + [1e-3] * 2 + [1e-4] * 2):
         ends = []
@@ -106,13 +106,65 @@ def test_poses_are_as_sure_as_is_said(in_hand):
     poses = cell.board_poses(cell.postures(300))
     rng = np.random.default_rng(3)
     views = [cell.view(pose, NOISE, rng) for pose in poses]
-    measured, optics = optics_of(BOARD, LENS, views, False, in_hand)
+    measured, optics = optics_of([sighting(BOARD, LENS, view, False, in_hand) for view in views])
     gaps = displacements(np.linalg.inv(poses) if in_hand else poses, measured)
     squares = np.einsum("ni,nij,nj->n", gaps, np.linalg.inv(optics.spread), gaps)
     assert squares.mean() == pytest.approx(6, rel=0.1)
-    off = np.linalg.norm(np.einsum("nij,nj->ni", optics.pixels, gaps), axis=1)
+    off = optics.moved(gaps)
     per_axis = off.std() ** 2 + off.mean() ** 2  # six of the numbers of noise move the pose
     assert per_axis == pytest.approx(6 * NOISE**2 / len(BOARD.points), rel=0.1)
+
+
+@PLACES
+def test_what_moves_corners_is_a_length_across_the_line_of_sight(in_hand):
+    cell = Cell(3, in_hand)
+    poses, rng = cell.board_poses(cell.postures(200)), np.random.default_rng(3)
+    ends = [
+        optics_of(
+            [sighting(BOARD, LENS, cell.view(pose, noise, rng), False, in_hand) for pose in poses]
+        )
+        for noise in (0, NOISE)
+    ]
+    (exact, _), (measured, optics) = ends
+    off = optics.across(optics.moved(displacements(exact, measured)))
+    assert np.sqrt(np.mean(off**2)) == pytest.approx(optics.noise, rel=0.1)
+    sideways, away = np.zeros((2, len(poses), 6))
+    middle = poses[:, :3, :3] @ [*BOARD.size / 2, 0] + poses[:, :3, 3]
+    lines = middle / np.linalg.norm(middle, axis=1)[:, None]
+    across = np.cross(lines, [0.0, 1.0, 0.0])
+    turns = poses[:, :3, :3].swapaxes(1, 2) if in_hand else np.eye(3)[None]
+    for shifts, axes in ((sideways, across), (away, lines)):
+        shifts[:, :3] = (turns @ (1e-3 * axes)[..., None])[..., 0]
+    assert np.allclose(optics.across(optics.moved(sideways)), 1e-3, rtol=0.2)
+    assert optics.across(optics.moved(away)).max() < 5e-4
+
+
+@PLACES
+def test_pictures_are_foreseen(in_hand):
+    """Those in which the whole board is seen, and those in which it is not."""
+    cell = Cell(2, in_hand)
+    poses = cell.board_poses(cell.postures(5))
+    measured = np.linalg.inv(poses) if in_hand else poses
+    slopes, shown = foreseen(BOARD, LENS, measured, in_hand)
+    assert shown.all()
+    for its, pose in zip(slopes, poses, strict=True):
+        found = sighting(BOARD, LENS, cell.view(pose), True, in_hand).slopes
+        assert np.allclose(its, found, rtol=1e-3, atol=1e-4 * np.abs(found).max())
+    width, height = BOARD.size
+    front = frame([0, 0, 0], [-width / 2, -height / 2, 1.0])
+    turns = {"behind": [0, np.pi, 0], "edge on": [0, np.radians(75), 0], "near": [0, 0, 0]}
+    unseen = {name: front @ frame(turn, [0, 0, 0]) for name, turn in turns.items()}
+    unseen["near"][2, 3] = 0.08  # most of it is outside
+    unseen["beside"], unseen["far"] = front.copy(), front.copy()
+    unseen["beside"][0, 3] += 2.0
+    unseen["far"][2, 3] = 4.0
+    unseen["back"] = np.diag([1, 1, -1, 1]) @ front @ np.diag([1, 1, -1, 1])  # of the camera
+    seen = np.array([front, *unseen.values()])
+    _, shown = foreseen(BOARD, LENS, np.linalg.inv(seen) if in_hand else seen, in_hand)
+    assert dict(zip(["front", *unseen], shown, strict=True)) == {
+        "front": True,
+        **dict.fromkeys(unseen, False),
+    }
 
 
 @PLACES

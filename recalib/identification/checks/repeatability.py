@@ -20,8 +20,11 @@ COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
 RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 
 
-def weigh(model: ErrorModel, observations: Observations) -> Observations:
+def weigh(model: ErrorModel, observations: Observations, some: slice = slice(None)) -> Observations:
     """The same observations, whose optics take into account how well the arm returns.
+
+    Args:
+        some: rows by which that is judged: all take long if they are many.
 
     Raises BadMeasurement, as `identify`.
     """
@@ -31,6 +34,6 @@ def weigh(model: ErrorModel, observations: Observations) -> Observations:
         optics = observations.optics.with_noise(returns**2 * COVARIANCE)
         weighed = replace(observations, optics=optics)
         # a density of residuals before they were whitened
-        volume = np.linalg.slogdet(optics.whitening).logabsdet.sum()
-        tried.append((identify(model, weighed).log_evidence + volume, -returns, weighed))
+        volume = np.linalg.slogdet(optics.whitening[some]).logabsdet.sum()
+        tried.append((identify(model, weighed[some]).log_evidence + volume, -returns, weighed))
     return max(tried, key=lambda one: one[:2])[2]

@@ -66,6 +66,20 @@ class Optics:
         """m, the root mean square of what the noise of a picture moves its position."""
         return float(np.sqrt(np.trace(self.spread[:, :3, :3], axis1=1, axis2=2).mean()))
 
+    def moved(self, displacements: np.ndarray) -> np.ndarray:
+        """How far displacements (n, 6) move corners, each a root mean square: (n,) px."""
+        return np.linalg.norm(np.einsum("nij,nj->ni", self.pixels, displacements), axis=1)
+
+    def across(self, pixels: np.ndarray) -> np.ndarray:
+        """What pixels (n,) are at the board, across the line of sight: (n,) m."""
+        return pixels / np.linalg.norm(self.pixels[..., :3], 2, axis=(1, 2))
+
+    @property
+    def noise(self) -> float:
+        """m, the root mean square of what the noise of a picture moves corners, across its line."""
+        squares = np.einsum("nij,njk,nik->n", self.pixels, self.spread, self.pixels)
+        return float(np.sqrt(np.mean(self.across(np.sqrt(squares)) ** 2)))
+
     @property
     def deviations(self) -> np.ndarray:
         """Standard deviations (o,) of them, before any picture is taken."""

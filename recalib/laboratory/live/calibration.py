@@ -10,7 +10,7 @@ from recalib.errors import InvalidFile, InvalidSetting, RecalibError
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
-from recalib.laboratory.live.record import Record
+from recalib.laboratory.live.record import Pictures, Record
 from recalib.laboratory.live.running import AHEAD, RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
@@ -74,6 +74,7 @@ def calibrate_live(
     description: Description | None = None,
     on_progress: Callable[[str], None] = lambda line: None,
     on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
+    pictures: Pictures | None = None,
 ) -> str:
     """Move, measure and add rows to a table until it is enough, and say why it is.
 
@@ -88,11 +89,12 @@ def calibrate_live(
         description: what the table does not say itself.
         on_progress: called with a line for each row.
         on_row: called with the rows so far, and what calibrates by them.
+        pictures: what those of the column `picture` say, if the rows go by their pixels.
 
     Raises RecalibError: StationFailed, Interrupted, or rows that do not fit the arm.
     """
     description = description or Description()
-    record = Record(table, arm, description)
+    record = Record(table, arm, description, pictures)
     if record.dropped:
         on_progress(f"a row without its end was dropped: {record.dropped!r}")
     station = None
@@ -127,7 +129,7 @@ def _go_on(
     started = record.observations
     home = station.angles() if started is None else started.joints[0]
     postures = AllowedPostures(arm, home, station.limits(), settings.span, settings.box)
-    running = RunningCalibration(arm, description, postures)
+    running = RunningCalibration(arm, description, postures, record.pictures)
     rows = started or _measured(station, record, running)
     if rows is None:
         raise StationFailed(
@@ -136,7 +138,7 @@ def _go_on(
     unseen: list[np.ndarray] = []
     lost = 0
     while True:
-        reason = _enough(rows, running, settings, on_progress)
+        reason = _enough(rows, running, unseen, settings, on_progress)
         on_row(rows, running)
         if reason is not None:
             return reason
@@ -183,6 +185,7 @@ def _measured(station: Guarded, record: Record, running: RunningCalibration) -> 
 def _enough(
     rows: Observations,
     running: RunningCalibration,
+    unseen: list[np.ndarray],
     settings: LiveSettings,
     on_progress: Callable[[str], None],
 ) -> str | None:
@@ -201,6 +204,6 @@ def _enough(
     total = f"the predicted error is {f'{1e3 * error.total:.3g} mm' if known else 'not known yet'}"
     if settings.error is not None and error.total <= settings.error:
         return f"{total}; {1e3 * settings.error:g} mm was asked for"
-    if running.is_settled(rows) and error.ahead > (1 - USELESS) * error.by_model:
+    if running.is_settled(rows) and running.gain(rows, unseen) < USELESS:
         return f"{total}, and {AHEAD} further postures would hardly make it smaller"
     return f"{total}; {count} rows are as many as allowed" if count >= settings.most else None

@@ -13,6 +13,7 @@ from recalib.files.quantities import ANGLE, LENGTH, TIME
 from recalib.files.storage import read_file
 from recalib.laboratory.live.allowed import Box
 from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
+from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import MOST, find_urdf
@@ -31,8 +32,9 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
         signal.signal(number, signal.default_int_handler)
     opening: Callable[[], Station] = partial(open_station, given.station)
+    pictures: Pictures | None = None
     if given.board is not None:
-        opening = _with_board(opening, given)
+        opening, pictures = _with_board(opening, given)
     ask = partial(_ask_to_move, arm.joints, arm.slides.tolist())
     watch: dict[str, Any] = {}
     if given.view:
@@ -48,6 +50,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
         (lambda posture: True) if given.yes else ask,
         given.description and read_description(given.description),
         on_progress,
+        pictures=pictures,
         **watch,
     )
 
@@ -63,17 +66,20 @@ def _settings(given: argparse.Namespace) -> LiveSettings:
         raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
 
 
-def _with_board(opening: Callable[[], Station], given: argparse.Namespace) -> Callable[[], Station]:
-    """What opens a station that takes pictures, as one that measures the board in them."""
+def _with_board(
+    opening: Callable[[], Station], given: argparse.Namespace
+) -> tuple[Callable[[], Station], Pictures]:
+    """What opens a station that takes pictures as one that measures, and what is in them."""
     from recalib.laboratory.pictures.observe import IN_HAND
-    from recalib.station.pictures import PicturesOfABoard
+    from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens
 
     if given.lens is None:
         raise InvalidSetting("--lens", None, "the calibration of the lens, which --board needs")
     board, lens = read_board(given.board), read_lens(given.lens)
-    return lambda: PicturesOfABoard(opening(), board, lens, given.camera == IN_HAND)
+    pictures = BoardInPictures(board, lens, given.camera == IN_HAND)
+    return lambda: PicturesOfABoard(opening(), pictures), pictures
 
 
 def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:

@@ -4,19 +4,37 @@ import csv
 import fcntl
 import io
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import Optics
 from recalib.laboratory.tables.columns import MOST
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
 from recalib.laboratory.tables.observations import observations_of
 from recalib.nominal.kinematics import Arm
+
+
+class Pictures(Protocol):
+    """What pictures say beyond the poses that are measured in them."""
+
+    def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
+        """Poses (n, 4, 4) [m] in pictures, and what is known of them. Raises InvalidFile."""
+        ...
+
+    def foresee(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of pictures with these poses (n, 4, 4) [m]: slopes of `Optics`, and whether they show it.
+
+        The slopes are (n, 6, o); whether the whole target would be seen is (n,).
+        """
+        ...
 
 
 class Record:
@@ -29,16 +47,25 @@ class Record:
         path: of the table, which may be there already.
         arm: whose joints are in the first columns.
         description: what the table does not say itself.
+        pictures: what those in its column `picture` say, which is used instead of its poses.
 
     Attributes:
+        pictures: as given.
         observations: the rows; None while there are none.
         dropped: the row without an end, if there was one.
 
     Raises InvalidFile: it is no such table, or another process writes it.
     """
 
-    def __init__(self, path: str | os.PathLike[str], arm: Arm, description: Description):
+    def __init__(
+        self,
+        path: str | os.PathLike[str],
+        arm: Arm,
+        description: Description,
+        pictures: Pictures | None = None,
+    ):
         self.path, self._arm, self._description = Path(path), arm, description
+        self.pictures = pictures
         self.observations: Observations | None = None
         self.dropped = ""
         self._joints = [
@@ -70,14 +97,13 @@ class Record:
             self._content = b""
         start = ",".join(self._joints).encode()
         if self._content:
-            self.observations = self._read(self._content)
             header = next(csv.reader(io.StringIO(self._content.decode("utf-8-sig"))))
-            missing = [name for name in self._joints if name not in header]
-            if missing:
+            needed = [*self._joints, *[PICTURE] * (self.pictures is not None)]
+            if missing := [name for name in needed if name not in header]:
                 raise InvalidFile(
                     self.path, f"it has no column {missing[0]!r}, so that no row can be added"
                 )
-            self._header = header
+            self._header, self.observations = header, self._read(self._content)
         elif not (content.startswith(start) or start.startswith(content)):
             raise InvalidFile(self.path, "it is no table that recalib live began")
         os.ftruncate(self._file, len(self._content))
@@ -101,9 +127,8 @@ class Record:
                 f"its columns are {', '.join(header)}; the station gives {', '.join(names)}",
             )
         if len(self):
-            before = csv.DictReader(io.StringIO(self._content.decode("utf-8-sig")))
             picture = str(cells.get(PICTURE) or "")
-            if picture and picture in (its[PICTURE] for its in before):
+            if picture and picture in _pictures_in(self._content):
                 reason = f"{picture} is in an earlier row; expected: a new file for each picture"
                 raise InvalidFile(self.path, reason)
             row = [row[names.index(name)] for name in header]
@@ -144,4 +169,13 @@ class Record:
             raise InvalidFile(
                 self.path, f"it has the targets {', '.join(targets)}; expected: one and the same"
             )
-        return observations
+        if self.pictures is None:
+            return observations
+        poses, optics = self.pictures(_pictures_in(content))
+        return replace(observations, measured=poses, optics=optics)
+
+
+def _pictures_in(content: bytes) -> list[str]:
+    """The paths in the column `picture`; none where there is no such column."""
+    rows = csv.DictReader(io.StringIO(content.decode("utf-8-sig")))
+    return [its[PICTURE] for its in rows] if PICTURE in (rows.fieldnames or ()) else []

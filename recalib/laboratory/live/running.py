@@ -4,6 +4,7 @@ All of it follows from the rows alone, without what an earlier update found: a c
 killed goes on as if it had not been. That is fast enough without many waves and a process.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,14 +12,17 @@ from scipy.spatial.distance import cdist
 
 from recalib.identification.calibration import Calibration, most_probable
 from recalib.identification.checks.diagnostics import FEWEST
+from recalib.identification.checks.repeatability import weigh
 from recalib.identification.design import most_informative
 from recalib.identification.initial_estimate import SPARE, fewest
-from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
+from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import Optics
 from recalib.identification.validation import OUTLYING
 from recalib.laboratory.live.allowed import AllowedPostures
+from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.propose import PROBES, variances
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.knowledge import checked_frames
@@ -27,6 +31,7 @@ from recalib.station.guarded import REACHED
 
 MODELS = OFFSETS, JOINT_ERRORS  # of which the more probable one is used
 FIRST = 20  # rows that tell where instrument and target are, to start from: more take longer
+RETURNING = slice(60)  # rows that tell how well the arm returns, for the same reason
 LAST = 8  # rows whose prediction is compared with what was measured
 AHEAD = 10  # postures that have to be of use, or none is
 WILD, FAR = 10.0, 0.05  # standard deviations and m off a prediction: no outlier is both
@@ -40,12 +45,10 @@ class PredictedError:
         by_model: from the uncertainty of the parameters, and the noise.
         by_rows: how far the last rows were from what those before them predicted; infinite while
             they are too few. It holds what no parameter describes.
-        ahead: `by_model`, once the ten most informative postures are measured.
     """
 
     by_model: float
     by_rows: float
-    ahead: float
 
     @property
     def total(self) -> float:
@@ -60,12 +63,23 @@ class RunningCalibration:
         arm: the nominal one.
         description: frames that are known.
         postures: that may be measured.
+        pictures: by which the rows are measured, if cameras do it.
     """
 
-    def __init__(self, arm: Arm, description: Description, postures: AllowedPostures):
+    def __init__(
+        self,
+        arm: Arm,
+        description: Description,
+        postures: AllowedPostures,
+        pictures: Pictures | None = None,
+    ):
         self._arm, self._description, self._postures = arm, description, postures
+        self._pictures = pictures
+        self._scale = np.where(arm.slides, 1.0, LEVER)  # m for a rad, or for a m
         self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
         self._calibrations: dict[int, Calibration] = {}
+        self._optics: dict[int, Optics] = {}  # which take into account how well the arm returns
+        self._prospects: dict[int, tuple[np.ndarray, np.ndarray]] = {}
 
     @staticmethod
     def is_ready(observations: Observations) -> bool:
@@ -81,25 +95,46 @@ class RunningCalibration:
         count, some = len(observations), min(FIRST, len(observations))
         if some not in self._frames:
             given = self._description.instrument, self._description.target
-            self._frames[some] = checked_frames(self._arm, observations[:some], *given)
+            poses = replace(observations[:some], optics=None)
+            self._frames[some] = checked_frames(self._arm, poses, *given)
         if count not in self._calibrations:
             frames = self._frames[some]
+            if observations.optics is not None:
+                frames = frames.with_optics(observations.optics)
+                observations = weigh(
+                    ErrorModel(self._arm, OFFSETS, frames), observations, RETURNING
+                )
+                assert observations.optics is not None
+                self._optics[count] = observations.optics
             self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
         return self._calibrations[count]
 
     def error(self, observations: Observations) -> PredictedError:
         """Left in the arm after the rows so far."""
-        calibration = self.calibration(observations)
-        further = most_informative(calibration, self._postures.joints, AHEAD)
-        *_, (_, covariance) = further
-        now = self._expected(calibration, self._probes).mean()
+        by_model = self._expected(self.calibration(observations), self._probes, observations.optics)
+        return PredictedError(float(by_model.mean()), self._by_rows(observations))
+
+    def gain(self, observations: Observations, unseen: list[np.ndarray]) -> float:
+        """The part of `PredictedError.by_model` that the next postures would take away.
+
+        These are the most informative ones; `unseen` as in `next_posture`.
+        """
+        calibration, covariance = self.calibration(observations), None
+        for _, covariance in self._most_informative(observations, unseen, AHEAD):  # noqa: B007 the last
+            pass
+        if covariance is None:
+            return 0.0
         estimate = replace(calibration.estimate, covariance=covariance)
-        ahead = self._expected(replace(calibration, estimate=estimate), self._probes).mean()
-        return PredictedError(float(now), self._by_rows(observations), float(ahead))
+        now, then = (
+            self._expected(its, self._probes, observations.optics).mean()
+            for its in (calibration, replace(calibration, estimate=estimate))
+        )
+        return float(1 - then / now)
 
     def workspace(self, observations: Observations) -> tuple[np.ndarray, np.ndarray]:
         """Allowed postures (n, joints) [rad, m], and the deviation (n,) [m] expected in each."""
-        return self._probes, self._expected(self.calibration(observations), self._probes)
+        calibration = self.calibration(observations)
+        return self._probes, self._expected(calibration, self._probes, observations.optics)
 
     def next_posture(
         self, observations: Observations, unseen: list[np.ndarray]
@@ -108,26 +143,61 @@ class RunningCalibration:
 
         The one farthest from those measured while there is no calibration, then the most
         informative one. Candidates nearer to an unseen posture than to a measured one are left
-        out, unless all are.
+        out, and the more often the target was out of sight, the nearer they are to measured ones.
+        So are those where a camera would see less than half of its board. Something is left.
 
         Args:
             unseen: postures (joints,) in which the instrument did not see the target.
         """
-        candidates, scale = self._postures.joints, np.where(self._arm.slides, 1.0, LEVER)
-        known = np.array([*observations.joints, *unseen])
-        fresh = (cdist(candidates, known, "chebyshev") > 2 * REACHED).all(axis=1)
-        if not fresh.any():
-            return None
-        candidates = candidates[fresh]
-        gaps = cdist(candidates * scale, known * scale)
+        if self.is_ready(observations):
+            best = next((one for one, _ in self._most_informative(observations, unseen, 1)), None)
+            return None if best is None else self._postures.joints[best]
+        numbers, gaps = self._candidates(observations, unseen)
+        return self._postures.joints[numbers[gaps.argmax()]] if len(numbers) else None
+
+    def _candidates(
+        self, observations: Observations, unseen: list[np.ndarray]
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Numbers (n,) of postures to choose from, and how far (n,) [m] from known ones."""
+        joints, known = self._postures.joints, np.array([*observations.joints, *unseen])
+        (fresh,) = np.nonzero((cdist(joints, known, "chebyshev") > 2 * REACHED).all(axis=1))
+        gaps = cdist(joints[fresh] * self._scale, known * self._scale)
         to_measured, to_unseen = np.split(gaps, [len(observations)], axis=1)
-        in_sight = to_measured.min(axis=1) <= to_unseen.min(axis=1, initial=np.inf)  # most likely
-        if in_sight.any():
-            candidates, gaps = candidates[in_sight], gaps[in_sight]
-        if not self.is_ready(observations):
-            return candidates[gaps.min(axis=1).argmax()]
-        ((best, _),) = most_informative(self.calibration(observations), candidates, 1)
-        return candidates[best]
+        ratios = to_measured.min(axis=1) / to_unseen.min(axis=1, initial=np.inf)
+        largest = max(min(1.0, len(observations) / max(1, len(unseen))), ratios.min(initial=np.inf))
+        in_sight = ratios <= largest  # most likely
+        return fresh[in_sight], gaps[in_sight].min(axis=1)
+
+    def _most_informative(
+        self, observations: Observations, unseen: list[np.ndarray], count: int
+    ) -> Iterator[tuple[int, np.ndarray]]:
+        """Of candidates, numbers of postures as `most_informative` yields them.
+
+        A picture is worth as much as that of the nearest posture, by its own slopes.
+        """
+        calibration, optics = self.calibration(observations), None
+        numbers, _ = self._candidates(observations, unseen)
+        if not len(numbers):
+            return
+        if self._pictures is not None:
+            slopes, shown = self._foreseen(observations)
+            if shown[numbers].any():
+                numbers = numbers[shown[numbers]]
+            joints = self._postures.joints[numbers] * self._scale
+            nearest = cdist(joints, observations.joints * self._scale).argmin(axis=1)
+            optics = self._optics[len(observations)][nearest]
+            optics = replace(optics, slopes=slopes[numbers])
+        joints = self._postures.joints[numbers]
+        for best, covariance in most_informative(calibration, joints, count, optics):
+            yield int(numbers[best]), covariance
+
+    def _foreseen(self, observations: Observations) -> tuple[np.ndarray, np.ndarray]:
+        """See `Pictures.foresee`, of all postures."""
+        assert self._pictures is not None
+        if (count := len(observations)) not in self._prospects:
+            poses = self.calibration(observations).predict(self._postures.joints)
+            self._prospects[count] = self._pictures.foresee(poses)
+        return self._prospects[count]
 
     def check(self, observations: Observations) -> str | None:
         """What is wrong with the last row, in words, if those before it exclude it."""
@@ -149,11 +219,25 @@ class RunningCalibration:
         return self._postures.joints[:PROBES]
 
     @staticmethod
-    def _expected(calibration: Calibration, joints: np.ndarray) -> np.ndarray:
-        """Deviations (n,) [m] of measured positions from predicted ones."""
+    def _expected(
+        calibration: Calibration, joints: np.ndarray, optics: Optics | None = None
+    ) -> np.ndarray:
+        """Deviations (n,) [m] of measured positions from predicted ones.
+
+        By pixels, after one shift and turn of instrument and target: how far away a camera is, no
+        picture tells better than its board and lens are known.
+        """
         model, estimate = calibration.model, calibration.estimate
         _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints))
-        noise = 3 * estimate.noise[0] ** 2
+        if optics is None:
+            noise = 3 * estimate.noise[0] ** 2
+        else:
+            noise = optics.noise**2
+            by_position = jacobians[:, :3].reshape(-1, model.deviations.size)
+            ends = np.flatnonzero(model.free[: model.optics_columns.start])
+            shifts = np.linalg.qr(by_position[:, ends]).Q
+            left = by_position - shifts @ (shifts.T @ by_position)
+            jacobians = left.reshape(len(joints), 3, -1)
         return np.sqrt(variances(jacobians, estimate.covariance) + noise)
 
     def _by_rows(self, observations: Observations) -> float:
@@ -163,8 +247,13 @@ class RunningCalibration:
         rows = [row for row in range(count - LAST, count) if weights[row] >= OUTLYING]
         if count < FEWEST or not rows or not self.is_ready(observations[: max(0, count - LAST)]):
             return np.inf
-        residuals = [
-            self.calibration(observations[:row]).residuals(observations[row : row + 1])[0, :3]
-            for row in rows
-        ]
-        return float(np.linalg.norm(residuals, axis=1).mean())
+        residuals = np.array(
+            [
+                self.calibration(observations[:row]).residuals(observations[row : row + 1])[0]
+                for row in rows
+            ]
+        )
+        if (optics := observations.optics) is None:
+            return float(np.linalg.norm(residuals[:, :3], axis=1).mean())
+        its = optics[np.array(rows)]
+        return float(its.across(its.moved(residuals)).mean())

@@ -22,7 +22,7 @@ from recalib.laboratory.tables.measurements import OBSERVED, PICTURE
 from recalib.vision.boards import MOST, Board, read_board
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.lenses import Lens, read_lens
-from recalib.vision.views import LENS_SIZE, optics_of
+from recalib.vision.views import LENS_SIZE, optics_of, sighting
 
 PIXEL = Quantity("a pixel", {"px": 1.0})
 COLUMNS = {"corner": NUMBER, "u": PIXEL, "v": PIXEL}
@@ -75,8 +75,8 @@ def with_pixels(rows: Sequence[Observations], folders: Sequence[Path]) -> Sighte
     sessions, poses, parts = read_sessions(folders), [], []
     kinds, columns = _layout(sessions)
     for session, own in zip(sessions, columns, strict=True):
-        optics = session.board, session.lens, _views(session), session.fitted, session.in_hand
-        found, part = optics_of(*optics)
+        board, lens, *kind = session.board, session.lens, session.fitted, session.in_hand
+        found, part = optics_of([sighting(board, lens, view, *kind) for view in _views(session)])
         poses.append(found)
         parts.append(_placed(part, own, kinds))
     cameras, boards = _names("camera", sessions), _names("board", sessions)

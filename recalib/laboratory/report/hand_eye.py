@@ -22,8 +22,7 @@ def pixel_error(result: Calibrated, way: str, kind: str, sight: int | None = Non
     if sight is not None:
         counted = counted[result.observations.targets[counted] == sight]
     residuals = result.validation.held_out[way][kind].residuals
-    moved = np.einsum("nij,nj->ni", optics.pixels, residuals)
-    return float(np.linalg.norm(moved[counted], axis=1).mean())
+    return float(optics.moved(residuals)[counted].mean())
 
 
 def static_transform(place: Place) -> str:
