@@ -20,6 +20,7 @@ from recalib.identification.model.linearisation import LEVER, Linearisation, dis
 from recalib.identification.model.observations import Observations
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
+from recalib.spelling import counted
 
 SETS, SPARE = 60, 3  # small sets of rows, and how many rows they have beyond the fewest
 MOST = 200  # rows to estimate from: more tell little more
@@ -61,8 +62,8 @@ def initial_frames(
     """
     if len(observations) < fewest(observations):
         raise NoInitialEstimate(
-            f"{len(observations)} rows are too few to estimate where instrument and target are;"
-            f" expected: at least {fewest(observations)}"
+            "where instrument and target are cannot be estimated from"
+            f" {counted(len(observations), 'row')}; expected: at least {fewest(observations)}"
         )
     check_rows(observations)
     rng = generator(0, "first guess")

@@ -16,6 +16,7 @@ from recalib.laboratory.correction.correct import solve
 from recalib.laboratory.tables.measurements import Measurements
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
+from recalib.spelling import counted
 
 DRAWN = 400  # candidates
 BEYOND = 0.1  # of the measured range, on either side
@@ -111,12 +112,12 @@ def _useful(correction: Correction, candidates: Measurements) -> np.ndarray:
     useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
     if not reached.any():
         raise NoUsefulPosture(
-            f"none of the {len(candidates)} candidates can be reached;"
+            f"of {counted(len(candidates), 'candidate')} none can be reached;"
             " are their poses in the arm's base?"
         )
     if not useful.any():
         raise NoUsefulPosture(
-            f"{reached.sum()} of {len(candidates)} candidates can be reached, each with a joint"
-            " near the end of its range; try: candidates with all joints away from it"
+            f"{reached.sum()} of {counted(len(candidates), 'candidate')} can be reached, each with"
+            " a joint near the end of its range; try: candidates with all joints away from it"
         )
     return found[useful]

@@ -19,6 +19,7 @@ from recalib.identification.model.optics import BOARD, OPTICS, Optics
 from recalib.laboratory.pictures.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
 from recalib.laboratory.tables.columns import NUMBER, read_table
 from recalib.laboratory.tables.measurements import OBSERVED, PICTURE
+from recalib.spelling import counted
 from recalib.vision.boards import MOST, Board, read_board
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.lenses import Lens, read_lens
@@ -214,6 +215,6 @@ def _views(session: Session) -> list[Corners]:
     for picture in rows.cells[PICTURE]:
         its = pictures == picture
         if its.sum() < FEWEST:
-            raise InvalidFile(table.path, f"{picture} has {its.sum()} corners")
+            raise InvalidFile(table.path, f"{picture} has {counted(its.sum(), 'corner')}")
         views.append(Corners(corner[its].astype(int), pixels[its], 0.0))
     return views

@@ -20,6 +20,7 @@ from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.parameters import unidentifiable_directions
 from recalib.nominal.meshes import with_own_meshes
+from recalib.spelling import counted
 
 DOING = {
     NOTHING: "nothing",
@@ -112,8 +113,8 @@ def _notes(result: Calibrated) -> Iterator[str]:
     _, unseen = with_own_meshes(result.source, result.urdf)
     if unseen:
         yield (
-            f"{len(unseen)} meshes are in none of the URDF's packages and folders, and not in the"
-            f" recording, as {unseen[0]}"
+            f"not in the recording, since in none of the URDF's packages and folders:"
+            f" {counted(len(unseen), 'file')} of meshes, as {unseen[0]}"
         )
     used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
     yield f"noise of a measurement along an axis: {noise} (what is corrected: {used})"
@@ -151,7 +152,8 @@ def _notes(result: Calibrated) -> Iterator[str]:
     lasting = [one for one in zip(result.unidentifiable, directions, strict=True) if one[0].lasting]
     for one, (words, _) in lasting:
         if result.geometry.model.free[one.parameter]:  # instrument and target make up for it
-            yield f"not identifiable from any posture: {words}; try: describe [target]"
+            advice = "; try: describe [target]" if len(result.tables) == 1 else ""
+            yield f"not identifiable from any posture: {words}{advice}"
         elif words.startswith("offset"):
             yield f"not identifiable from any posture: {words}"
     yield f"parameters not identifiable from such measurements, kept small: {len(lasting)}"

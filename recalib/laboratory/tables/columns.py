@@ -16,7 +16,7 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
 from recalib.files.storage import read_file
-from recalib.spelling import instead, listed
+from recalib.spelling import counted, instead, listed
 
 _HEADING = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?\s*")
 NUMBER = Quantity("a number", {"": 1.0})
@@ -147,7 +147,8 @@ def table_of(
         if len(line) != len(headings):
             raise InvalidFile(
                 path,
-                f"row {row} has {len(line)} cells; expected: {len(headings)}, as in the header",
+                f"row {row} has {counted(len(line), 'cell')}; expected: {len(headings)}, as in the"
+                " header",
             )
     units: dict[str, str] = {}
     cells: dict[str, list[str]] = {}
