@@ -48,14 +48,15 @@ class BoardInPictures:
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
         """Poses (n, 4, 4) [m], and what is known of them, with the lens to be found.
 
-        Raises InvalidFile: the board is not in a picture.
+        Raises InvalidFile: the board is not in a picture, or its size is not that of the lens.
         """
         for path in paths:
             if path in self._sightings:
                 continue
-            grey = read_picture(Path(path))
-            if grey is None or self.search(path, grey) is None:
-                raise InvalidFile(path, "it is no picture of the board, as its row says")
+            grey = read_picture(Path(path)) if Path(path).is_file() else None
+            if grey is None or grey.shape[::-1] != self.lens.size or not self.search(path, grey):
+                reason = "by its row it is a picture of this board through this lens, and is not"
+                raise InvalidFile(path, reason)
         return optics_of([self._sightings[path] for path in paths])
 
     def foresee(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

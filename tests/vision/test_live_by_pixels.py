@@ -100,10 +100,18 @@ def test_a_calibration_that_goes_on_searches_its_pictures_again(begun):
         assert np.array_equal(getattr(again.optics, name), getattr(before.optics, name))
 
 
-def test_a_picture_that_is_gone_is_told_before_anything_moves(begun, tmp_path):
-    cell, _ = begun
-    (tmp_path / "1.png").write_bytes(b"")
-    with pytest.raises(InvalidFile, match=r"1.png: it is no picture of the board"):
+@pytest.mark.parametrize("gone", ["removed", "empty", "another size", "another board"])
+def test_a_picture_that_is_not_what_it_was_is_told_before_anything_moves(begun, tmp_path, gone):
+    (cell, _), picture = begun, tmp_path / "1.png"
+    if gone == "removed":
+        picture.unlink()
+    elif gone == "empty":
+        picture.write_bytes(b"")
+    elif gone == "another size":
+        cell = replace(cell, lens=replace(cell.lens, size=(1280, 962)))
+    else:
+        cell = replace(cell, board=replace(cell.board, dictionary="5X5_100"))
+    with pytest.raises(InvalidFile, match=r"\d.png: by its row it is a picture of this board"):
         read_again(cell)
 
 

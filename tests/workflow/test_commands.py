@@ -68,7 +68,7 @@ PANDA = (  # one after the other, on an arm in MuJoCo
     "python examples/rehearsal/panda.py",
     "recalib observe pictures/ joints.csv --out lens",
     "recalib live examples/rehearsal/panda.py:BentPanda panda.urdf --tool panda_link8"
-    ' --board board/board.toml --lens lens/lens.yaml --span "20 deg" --error "0.5 mm" --yes',
+    ' --board board/board.toml --lens lens/lens.yaml --span "20 deg" --error "0.1 mm" --yes',
     "recalib correct calibration calibration_observed/measurements.csv --frame instrument"
     " --out commands.csv",
 )
