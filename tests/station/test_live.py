@@ -97,8 +97,9 @@ def test_it_ends_where_it_is_told_to(tmp_path):
 
 def test_errors_are_said_in_millimetres():
     its, told = SimpleNamespace(is_ready=bool, is_settled=lambda rows: False), []
+    rows = Observations(np.zeros((1, 6)))
     its.error = lambda rows: PredictedError(by_model=0.999, by_rows=0.888)
-    assert live._enough([1], its, [], LiveSettings(), told.append) is None
+    assert live._enough(rows, its, [], LiveSettings(), told.append) is None
     assert told == ["row 1: predicted error by the model 999 mm, by the last rows 888 mm"]
 
 

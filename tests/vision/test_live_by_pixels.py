@@ -32,6 +32,7 @@ def with_row(station, rows):
 
 def test_it_ends_by_itself_with_less_than_half_of_the_error_of_poses(live):
     assert f"{1e3 * FINER:g} mm was asked for" in live.reason
+    assert live.running.is_settled(live.rows)
     by_poses = RunningCalibration(live.station.cell.arm, Description(), live.postures)
     error = live.error(by_poses.calibration(replace(live.rows, optics=None)).predict(live.fresh))
     assert live.after < 0.2 and live.after < 0.5 * error

@@ -202,7 +202,9 @@ def _enough(
     )
     known = np.isfinite(error.total)
     total = f"the predicted error is {f'{1e3 * error.total:.3g} mm' if known else 'not known yet'}"
-    if settings.error is not None and error.total <= settings.error:
+    # the last of few pictures say nothing of postures that the camera does not see
+    trusted = rows.optics is None or running.is_settled(rows)
+    if settings.error is not None and error.total <= settings.error and trusted:
         return f"{total}; {1e3 * settings.error:g} mm was asked for"
     if running.is_settled(rows) and running.gain(rows, unseen) < USELESS:
         return f"{total}, and {AHEAD} further postures would hardly make it smaller"
