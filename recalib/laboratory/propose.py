@@ -112,7 +112,7 @@ def _useful(correction: Correction, candidates: Measurements) -> np.ndarray:
     useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
     if not reached.any():
         raise NoUsefulPosture(
-            f"of {counted(len(candidates), 'candidate')} none can be reached;"
+            f"0 of {counted(len(candidates), 'candidate')} can be reached;"
             " are their poses in the arm's base?"
         )
     if not useful.any():

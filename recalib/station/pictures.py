@@ -1,4 +1,4 @@
-"""A station that takes pictures of a board: what they say, and the station as one of poses."""
+"""Pictures of a board: what they say, and a station that takes them as one that measures poses."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,7 +12,7 @@ from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
 from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
-from recalib.vision.views import Sighting, foreseen, good_corners, optics_of, sighting
+from recalib.vision.views import Sighting, good_corners, optics_of, predicted_views, sighting
 
 PICTURE = "picture"
 
@@ -55,14 +55,17 @@ class BoardInPictures:
                 continue
             grey = read_picture(Path(path)) if Path(path).is_file() else None
             if grey is None or grey.shape[::-1] != self.lens.size or not self.search(path, grey):
-                reason = "by its row it is a picture of this board through this lens, and is not"
+                size = " x ".join(map(str, self.lens.size))
+                reason = (
+                    f"it does not show the board in {size} pixels, as its row in the table says"
+                )
                 raise InvalidFile(path, reason)
         return optics_of([self._sightings[path] for path in paths])
 
-    def foresee(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """See `foreseen`."""
+    def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """See `predicted_views`."""
         board, lens, in_hand = self._setup
-        return foreseen(board, lens, poses, in_hand)
+        return predicted_views(board, lens, poses, in_hand)
 
 
 class PicturesOfABoard:
@@ -94,11 +97,11 @@ class PicturesOfABoard:
         if grey is None:
             raise StationFailed(f"{path} is no picture")
         if grey.shape[::-1] != (size := self._pictures.lens.size):
-            found, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
-            raise StationFailed(f"{path} has {found} pixels; expected, as by the lens: {valid}")
-        if (seen := self._pictures.search(path, grey)) is None:
+            its, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
+            raise StationFailed(f"{path} has {its} pixels; expected, as by the lens: {valid}")
+        if (found := self._pictures.search(path, grey)) is None:
             return None
         if np.array_equal(grey, self._last):
             raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
         self._last = grey
-        return {PICTURE: path} | cells_of(seen.pose)
+        return {PICTURE: path} | cells_of(found.pose)

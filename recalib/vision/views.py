@@ -47,9 +47,8 @@ def board_pose(board: Board, lens: Lens, view: Corners) -> np.ndarray:
 
 def reprojection(board: Board, lens: Lens, view: Corners, pose: np.ndarray) -> np.ndarray:
     """Of each corner, where it is less where it should be (c, 2) [px]."""
-    turn, points = cv2.Rodrigues(pose[:3, :3])[0], board.points[view.numbers]
-    expected, _ = cv2.projectPoints(points, turn, pose[:3, 3], lens.matrix, lens.distortion)
-    return view.pixels - expected.reshape(-1, 2)
+    expected, _ = _projected(board.points[view.numbers], lens, pose)
+    return view.pixels - expected
 
 
 def good_corners(board: Board, lens: Lens, view: Corners) -> Corners:
@@ -86,17 +85,18 @@ def sighting(board: Board, lens: Lens, view: Corners, fitted: bool, in_hand: boo
         fitted: whether the lens is sought, too; otherwise it is known.
         in_hand: whether the camera is on the hand.
     """
-    pose = board_pose(board, lens, view)
-    residuals = reprojection(board, lens, view, pose).ravel()
-    by_pose, by_optics = _derivatives(board.points[view.numbers], lens, pose, in_hand)
+    pose, points = board_pose(board, lens, view), board.points[view.numbers]
+    expected, slopes = _projected(points, lens, pose)
+    residuals = (view.pixels - expected).ravel()
+    by_pose, by_optics = _derivatives(points, slopes, pose, in_hand)
     by_optics = by_optics[:, : len(OPTICS if fitted else BOARD)]
     root = np.linalg.qr(by_pose).R
-    slopes = _made_up(by_pose, by_optics)
-    left = by_optics + by_pose @ slopes
+    compensation = _compensation(by_pose, by_optics)
+    left = by_optics + by_pose @ compensation
     return Sighting(
         np.linalg.inv(pose) if in_hand else pose,
         np.linalg.inv(root.T @ root),
-        slopes,
+        compensation,
         left.T @ left,
         left.T @ residuals,
         root * np.sqrt(2 / len(by_pose)),
@@ -105,20 +105,23 @@ def sighting(board: Board, lens: Lens, view: Corners, fitted: bool, in_hand: boo
     )
 
 
-def foreseen(
+def predicted_views(
     board: Board, lens: Lens, poses: np.ndarray, in_hand: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where poses (n, 4, 4) [m] would be measured: their slopes (n, 6, o), as `Optics` has them.
+    """Of pictures in which poses (n, 4, 4) [m] would be measured, before they are taken.
 
-    Also whether most corners would be found there (n,). Arguments are those of `sighting`.
+    Returns the slopes (n, 6, o) of `Optics`, with zeros where the board would not be found, and
+    whether most of its corners would be (n,). Arguments are those of `sighting`.
     """
-    slopes, shown = np.zeros((len(poses), 6, len(OPTICS))), np.zeros(len(poses), dtype=bool)
+    slopes, visible = np.zeros((len(poses), 6, len(OPTICS))), np.zeros(len(poses), dtype=bool)
     for number, pose in enumerate(np.linalg.inv(poses) if in_hand else poses):
-        found = _shown(board, lens, pose)
+        pixels, by_all = _projected(board.points, lens, pose)
+        found = _found(board, lens, pose, pixels, by_all)
         if found.mean() > 0.5:
-            by_pose, by_optics = _derivatives(board.points[found], lens, pose, in_hand)
-            slopes[number], shown[number] = _made_up(by_pose, by_optics), True
-    return slopes, shown
+            by_all = by_all[np.repeat(found, 2)]
+            derivatives = _derivatives(board.points[found], by_all, pose, in_hand)
+            slopes[number], visible[number] = _compensation(*derivatives), True
+    return slopes, visible
 
 
 def optics_of(sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
@@ -131,19 +134,25 @@ def optics_of(sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
     return poses, Optics(variance * spread, slopes, *knowledge, pixels)
 
 
-def _made_up(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
-    """How a pose makes up for a change of optics (6, o), by derivatives (2 c, 6) and (2 c, o)."""
+def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
+    """The pose (6, o) that compensates for optics, by derivatives (2 c, 6) and (2 c, o)."""
     slopes: np.ndarray = -np.linalg.lstsq(by_pose, by_optics, rcond=None)[0]
     return slopes
 
 
-def _shown(board: Board, lens: Lens, pose: np.ndarray) -> np.ndarray:
-    """Which corners (c,) of a board at a pose (4, 4) in the camera would be found."""
-    points, turn, place = board.points, pose[:3, :3], pose[:3, 3]
-    pixels, slopes = cv2.projectPoints(
-        points, cv2.Rodrigues(turn)[0], place, lens.matrix, lens.distortion
-    )
-    pixels, ahead = pixels.reshape(-1, 2), points @ turn[2] + place[2] > 0
+def _projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pixels (c, 2) of points (c, 3) [m] of a board at a pose, and their derivatives (2 c, k)."""
+    turn, place = cv2.Rodrigues(pose[:3, :3])[0], pose[:3, 3]
+    pixels, slopes = cv2.projectPoints(points, turn, place, lens.matrix, lens.distortion)
+    return pixels.reshape(-1, 2), slopes
+
+
+def _found(
+    board: Board, lens: Lens, pose: np.ndarray, pixels: np.ndarray, slopes: np.ndarray
+) -> np.ndarray:
+    """Which corners (c,) of a board at a pose (4, 4) would be found where they are projected."""
+    turn = pose[:3, :3]
+    ahead = board.points @ turn[2] + pose[2, 3] > 0
     inside = ((pixels > 0) & (pixels < np.array(lens.size) - 1)).all(axis=1)
     across = (slopes[:, 3:6].reshape(-1, 2, 3) @ turn)[..., :2]  # px for a m on the board
     narrow = board.marker * np.linalg.norm(across, -2, axis=(1, 2))
@@ -153,14 +162,17 @@ def _shown(board: Board, lens: Lens, pose: np.ndarray) -> np.ndarray:
 
 
 def _derivatives(
-    points: np.ndarray, lens: Lens, pose: np.ndarray, in_hand: bool
+    points: np.ndarray, slopes: np.ndarray, pose: np.ndarray, in_hand: bool
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o)."""
-    turn, place = cv2.Rodrigues(pose[:3, :3])[0], pose[:3, 3]
-    _, slopes = cv2.projectPoints(points, turn, place, lens.matrix, lens.distortion)
+    """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o).
+
+    Args:
+        points, slopes: as in `_projected`.
+        pose: of the board in the camera.
+    """
     by_place = slopes[:, 3:6].reshape(-1, 2, 3)
     if in_hand:  # displacements of the camera, along the axes of the board
-        levers = points + pose[:3, :3].T @ place
+        levers = points + pose[:3, :3].T @ pose[:3, 3]
         by_place = -by_place @ pose[:3, :3]
     else:
         levers = points @ pose[:3, :3].T

@@ -118,6 +118,19 @@ def test_postures_are_proposed_on_the_side_where_the_target_was_seen(count):
     assert proposing.next_posture(rows, everywhere) is not None
 
 
+def test_the_more_postures_are_without_a_sight_the_nearer_is_the_next():
+    its = Simulated()
+    postures = AllowedPostures(its.arm, its.stands, its.limits, np.radians(45), None)
+    proposing = running.RunningCalibration(its.arm, Description(), postures)
+    rows = Observations(its.stands[None], its.real.poses(its.stands[None], noise=its.noise))
+    gaps, unseen = [], []
+    for _ in range(9):
+        goal = proposing.next_posture(rows, unseen)
+        unseen.append(goal)
+        gaps.append(np.linalg.norm(goal - its.stands))
+    assert max(gaps[4:]) < 0.7 * gaps[0]
+
+
 @pytest.mark.parametrize("error", [0.0, -1e-3, np.inf, np.nan])
 def test_no_calibration_goes_by_impossible_settings(error):
     for wrong in (

@@ -6,9 +6,10 @@ from recalib.station.interface import cells_of
 from recalib.station.pictures import PICTURE, BoardInPictures
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.views import find_lens
+from tests.vision.bars import NOISE
 from tests.vision.rendering import Cell
 
-NOISE, FOR_THE_LENS = 0.15, 15  # px; pictures that were taken before, for a lens to begin with
+FOR_THE_LENS = 15  # pictures that were taken before, for a lens to begin with
 
 
 class Seeing:

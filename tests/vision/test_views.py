@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image
 
+from recalib.identification.checks.repeatability import weigh
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
@@ -18,7 +21,7 @@ from recalib.vision.detection import (
     read_picture,
 )
 from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose, foreseen, good_corners, optics_of, sighting
+from recalib.vision.views import board_pose, good_corners, optics_of, predicted_views, sighting
 from tests.vision.bars import NOISE, Draw
 from tests.vision.rendering import BOARD, LENS, Cell, frame
 
@@ -140,13 +143,13 @@ def test_what_moves_corners_is_a_length_across_the_line_of_sight(in_hand):
 
 
 @PLACES
-def test_pictures_are_foreseen(in_hand):
+def test_pictures_are_predicted(in_hand):
     """Those in which the whole board is seen, and those in which it is not."""
     cell = Cell(2, in_hand)
     poses = cell.board_poses(cell.postures(5))
     measured = np.linalg.inv(poses) if in_hand else poses
-    slopes, shown = foreseen(BOARD, LENS, measured, in_hand)
-    assert shown.all()
+    slopes, visible = predicted_views(BOARD, LENS, measured, in_hand)
+    assert visible.all()
     for its, pose in zip(slopes, poses, strict=True):
         found = sighting(BOARD, LENS, cell.view(pose), True, in_hand).slopes
         assert np.allclose(its, found, rtol=1e-3, atol=1e-4 * np.abs(found).max())
@@ -160,8 +163,8 @@ def test_pictures_are_foreseen(in_hand):
     unseen["far"][2, 3] = 4.0
     unseen["back"] = np.diag([1, 1, -1, 1]) @ front @ np.diag([1, 1, -1, 1])  # of the camera
     seen = np.array([front, *unseen.values()])
-    _, shown = foreseen(BOARD, LENS, np.linalg.inv(seen) if in_hand else seen, in_hand)
-    assert dict(zip(["front", *unseen], shown, strict=True)) == {
+    _, visible = predicted_views(BOARD, LENS, np.linalg.inv(seen) if in_hand else seen, in_hand)
+    assert dict(zip(["front", *unseen], visible, strict=True)) == {
         "front": True,
         **dict.fromkeys(unseen, False),
     }
@@ -176,6 +179,23 @@ def test_pixels_beat_poses(in_hand, returns):
         calibration = draw.calibration(observations)
         errors.append(draw.judge(calibration.forward(draw.fresh))[0])
     assert errors[1] < 0.5 and errors[1] < (0.5 if not returns else 0.9) * errors[0]
+
+
+def test_how_well_an_arm_returns_is_judged_by_the_rows_that_are_to_count():
+    draw = Draw(1, in_hand=False)
+    frames = initial_frames(draw.cell.arm, draw.poses).with_optics(draw.pixels.optics)
+    model, last = ErrorModel(draw.cell.arm, OFFSETS, frames), np.arange(len(draw.joints)) >= 20
+    off = np.radians(np.sin(np.arange(len(last))))[:, None] * last[:, None]
+    spoilt = replace(draw.pixels, joints=draw.joints + off)
+    by_all, *by_some = (
+        weigh(model, rows, some).optics.whitening
+        for rows, some in (
+            (spoilt, slice(None)),
+            (spoilt, slice(20)),
+            (draw.pixels, slice(20)),
+        )
+    )
+    assert np.array_equal(*by_some) and not np.allclose(by_all, by_some[0])
 
 
 def test_the_lens_of_an_arm_is_better_than_that_of_pictures():

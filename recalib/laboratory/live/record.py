@@ -29,7 +29,7 @@ class Pictures(Protocol):
         """Poses (n, 4, 4) [m] in pictures, and what is known of them. Raises InvalidFile."""
         ...
 
-    def foresee(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of pictures with these poses (n, 4, 4) [m]: slopes of `Optics`, and whether they show it.
 
         The slopes are (n, 6, o); whether the whole target would be seen is (n,).

@@ -78,8 +78,7 @@ class RunningCalibration:
         self._scale = np.where(arm.slides, 1.0, LEVER)  # m for a rad, or for a m
         self._frames: dict[int, Frames] = {}  # by the number of rows that they are from
         self._calibrations: dict[int, Calibration] = {}
-        self._optics: dict[int, Optics] = {}  # which take into account how well the arm returns
-        self._prospects: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self._whitening: dict[int, np.ndarray] = {}  # that takes into account how the arm returns
 
     @staticmethod
     def is_ready(observations: Observations) -> bool:
@@ -105,7 +104,7 @@ class RunningCalibration:
                     ErrorModel(self._arm, OFFSETS, frames), observations, RETURNING
                 )
                 assert observations.optics is not None
-                self._optics[count] = observations.optics
+                self._whitening[count] = observations.optics.whitening
             self._calibrations[count] = most_probable(self._arm, MODELS, observations, frames)
         return self._calibrations[count]
 
@@ -119,11 +118,10 @@ class RunningCalibration:
 
         These are the most informative ones; `unseen` as in `next_posture`.
         """
-        calibration, covariance = self.calibration(observations), None
-        for _, covariance in self._most_informative(observations, unseen, AHEAD):  # noqa: B007 the last
-            pass
-        if covariance is None:
+        further = [*self._most_informative(observations, unseen, AHEAD)]
+        if not further:
             return 0.0
+        calibration, (_, covariance) = self.calibration(observations), further[-1]
         estimate = replace(calibration.estimate, covariance=covariance)
         now, then = (
             self._expected(its, self._probes, observations.optics).mean()
@@ -173,31 +171,24 @@ class RunningCalibration:
     ) -> Iterator[tuple[int, np.ndarray]]:
         """Of candidates, numbers of postures as `most_informative` yields them.
 
-        A picture is worth as much as that of the nearest posture, by its own slopes.
+        A picture has the slopes of its own posture, and counts as sure as that of the nearest one.
         """
         calibration, optics = self.calibration(observations), None
         numbers, _ = self._candidates(observations, unseen)
         if not len(numbers):
             return
-        if self._pictures is not None:
-            slopes, shown = self._foreseen(observations)
-            if shown[numbers].any():
-                numbers = numbers[shown[numbers]]
-            joints = self._postures.joints[numbers] * self._scale
-            nearest = cdist(joints, observations.joints * self._scale).argmin(axis=1)
-            optics = self._optics[len(observations)][nearest]
-            optics = replace(optics, slopes=slopes[numbers])
         joints = self._postures.joints[numbers]
+        if self._pictures is not None:
+            assert observations.optics is not None
+            slopes, visible = self._pictures.predict(calibration.predict(joints))
+            if visible.any():
+                numbers, joints, slopes = numbers[visible], joints[visible], slopes[visible]
+            gaps = cdist(joints * self._scale, observations.joints * self._scale)
+            nearest = gaps.argmin(axis=1)
+            whitening = self._whitening[len(observations)][nearest]
+            optics = replace(observations.optics[nearest], slopes=slopes, whitening=whitening)
         for best, covariance in most_informative(calibration, joints, count, optics):
             yield int(numbers[best]), covariance
-
-    def _foreseen(self, observations: Observations) -> tuple[np.ndarray, np.ndarray]:
-        """See `Pictures.foresee`, of all postures."""
-        assert self._pictures is not None
-        if (count := len(observations)) not in self._prospects:
-            poses = self.calibration(observations).predict(self._postures.joints)
-            self._prospects[count] = self._pictures.foresee(poses)
-        return self._prospects[count]
 
     def check(self, observations: Observations) -> str | None:
         """What is wrong with the last row, in words, if those before it exclude it."""

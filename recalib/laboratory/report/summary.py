@@ -113,8 +113,8 @@ def _notes(result: Calibrated) -> Iterator[str]:
     _, unseen = with_own_meshes(result.source, result.urdf)
     if unseen:
         yield (
-            f"not in the recording, since in none of the URDF's packages and folders:"
-            f" {counted(len(unseen), 'file')} of meshes, as {unseen[0]}"
+            f"missing from the recording: {counted(len(unseen), 'mesh file')} in none of the URDF's"
+            f" packages and folders, as {unseen[0]}"
         )
     used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
     yield f"noise of a measurement along an axis: {noise} (what is corrected: {used})"
