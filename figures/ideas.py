@@ -12,7 +12,13 @@ from matplotlib.figure import Figure
 from scipy.optimize import root
 
 from recalib.learners.nets import Nets, regular_grid
-from recalib.learners.schedules import DIMENSIONS, equal_visits, expected_learning, exponential
+from recalib.learners.schedules import (
+    DIMENSIONS,
+    EXPONENTIAL,
+    equal_visits,
+    expected_learning,
+    fall,
+)
 from recalib.study.plots.palette import BOTH, FAILS, INK, NEUTRAL, STYLES, styles_of
 from recalib.study.plots.style import STYLE, plt, save, title
 
@@ -241,7 +247,7 @@ START, END = 1.5, 0.3  # widths, in workspace coordinates
 ITERATIONS = 200
 STEP = 0.1  # of the width, in which visits are counted
 VOLUME = 2.0**DIMENSIONS
-LAWS = {"ritter": exponential, "improved": equal_visits}
+POWERS = {"ritter": EXPONENTIAL, "improved": equal_visits()}
 NAMES = {"ritter": "Ritter: exponential", "improved": "improved: equal visits"}
 
 
@@ -249,8 +255,8 @@ def schedule() -> Figure:
     """Equation (10) at work, far from the border of the workspace."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 4.4))
     done = np.linspace(0, 1, 1001)
-    for name, style in styles_of(LAWS).items():
-        widths = LAWS[name](START, END, done)
+    for name, style in styles_of(POWERS).items():
+        widths = fall(START, END, done, POWERS[name])
         left.plot(ITERATIONS * done, widths, label=NAMES[name], **style.line())
         iterations = ITERATIONS * STEP / np.abs(np.gradient(widths, done))  # spent at each width
         visits = iterations * expected_learning(widths, DIMENSIONS, VOLUME)

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,12 +11,15 @@ import pytest
 from numba import config
 from numba.core import caching
 
-from recalib.learners.cells import Cells
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.kernels import WAITING
+from recalib.learners.rules import IMPROVED
+from recalib.learners.schedules import Schedule
+from recalib.loop.interfaces import Outcome
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.poses import COORDINATES, Workspace
 from recalib.numerics.compiled import compiled
-from recalib.numerics.monomials import monomials, polynomial
 
 ROOT = Path(__file__).parents[1]
 
@@ -54,12 +58,13 @@ def go_through_all_loops() -> None:
     for kind in COORDINATES:
         workspace = Workspace(poses[0], np.full(6, 0.3), kind)
         assert np.allclose(workspace.to_coordinates(workspace.to_poses(coordinates)), coordinates)
-    coefficients = random.normal(size=(monomials(coordinates, 3).shape[-1], 2))
-    expected = monomials(coordinates, 3) @ coefficients
-    assert np.allclose(polynomial(coefficients, coordinates, 3), expected)
-    cells = Cells(2, np.zeros((3, 4, 5)), increments=True)
-    cells.update(np.ones(2), np.ones((2, 3)), np.ones((2, 4)), np.ones((2, 5)))
-    assert np.array_equal(cells.at(np.array([0, 2]), np.array([3, 1])), np.ones((2, 5)))
+    for separate, names in ((True, ("position", "orientation")), (False, ("pose",))):
+        rules = replace(IMPROVED, separate_maps=separate, theta_increments=separate)
+        schedule = Schedule(1.0, dict.fromkeys(names, (0.5, 0.5)), 0.5, 0.1)
+        learner = HierarchicalLearner(rules, schedule, runs=2)
+        for desired in random.uniform(-1, 1, (WAITING + 2, 2, 6)):
+            learner.learn(desired, lambda sent: Outcome(1.1 * sent, np.ones((2, 1), bool)), 0.5)
+        assert not np.allclose(learner.command(np.zeros((2, 1, 6)) + 0.9), 0.9)
 
 
 def test_no_loop_writes_beside_an_array():

@@ -48,14 +48,17 @@ class DamagedArm:
         Args:
             angles: (n, joint) rad that the controller assumes.
         """
-        return self.chain.forward(self.standing(angles)[None])[0]
+        return self.chain.forward(self._deflected(angles)[None])[0]
 
     @cached_property
     def chain(self) -> "Chain":
-        """Its kinematics for many postures at once, once all damages are done."""
+        """Its kinematics, at angles that encoders report if nothing gives way.
+
+        Once all damages are done.
+        """
         from recalib.nominal.chain import Chain
 
-        return Chain.of(self.arm)
+        return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
         """Joint angles (n, joint) [rad] at which the arm stands.
@@ -66,11 +69,14 @@ class DamagedArm:
         Args:
             angles: (n, joint) rad that the controller assumes.
         """
-        shifted = angles + self.offsets
+        return self._deflected(angles) + self.offsets
+
+    def _deflected(self, angles: np.ndarray) -> np.ndarray:
         if not self.deflections:
-            return shifted
+            return angles
+        shifted = angles + self.offsets
         torques = self.arm.gravity_torque(shifted)
-        return sum((deflection(shifted, torques) for deflection in self.deflections), start=shifted)
+        return sum((deflection(shifted, torques) for deflection in self.deflections), start=angles)
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,14 @@
 """Damaged robots as a learner meets them: a pose command goes in, the achieved pose comes out."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.loop.interfaces import ForwardKinematics, Outcome
+from recalib.nominal import kernels
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller, Targets
 from recalib.nominal.poses import Workspace
@@ -24,7 +26,6 @@ class Plant:
 
     Attributes:
         moves: how many moves were commanded in each run.
-        refused: (run,) how many of them the controller refused; 0 before the first.
     """
 
     def __init__(
@@ -36,11 +37,17 @@ class Plant:
     ):
         self._controller = controller
         self._disturbances, self._generators = disturbances, generators
-        self._forward = _forward(arms)
-        different = 1 if isinstance(arms, ForwardKinematics) else len(arms)
-        self._home = self._forward(np.tile(controller.robot.home, (different, 1, 1)))
+        self._arms = [arms] if isinstance(arms, ForwardKinematics) else [*arms]
+        self._chain = _chain(self._arms)
+        self._home = self._forward(np.tile(controller.robot.home, (len(self._arms), 1, 1)))
+        self._home_coordinates = self.workspace.to_coordinates(self._home[:, 0])
         self.moves = 0
-        self.refused: np.ndarray | int = 0
+        self._refused = np.zeros(0, dtype=int)
+
+    @property
+    def refused(self) -> np.ndarray | int:
+        """(run,) how many moves the controller refused; 0 before the first."""
+        return self._refused.copy() if self.moves else 0
 
     @property
     def workspace(self) -> Workspace:
@@ -49,17 +56,28 @@ class Plant:
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what the robots achieve."""
-        targets = self._controller.targets(commands)
-        if self._disturbances is None:
-            poses, executed = self.achieve_targets(targets)
-        else:
-            stops = self._disturbances.of_joints(self._generators, targets.angles.shape[1:])
+        if self.moves == 0:
+            self._refused = np.zeros(len(commands), dtype=int)
+        self.moves += commands.shape[1]
+        if self._disturbances is None and self._chain is not None:
+            there = self._home_coordinates, np.ascontiguousarray(commands), self._refused
+            given: tuple[Any, ...] = *self._controller.flat, *self._chain, *there
+            return Outcome(*kernels.move(*given))
+        achieved, executed = self._disturbed(self._controller.targets(commands))
+        self._refused += np.sum(~executed, axis=1)
+        return Outcome(achieved, executed)
+
+    def _disturbed(self, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
+        """Achieved coordinates (run, move, 6), and whether each move was executed (run, move)."""
+        its, angles = self._disturbances, targets.angles
+        if its is not None:
+            stops = its.of_joints(self._generators, angles.shape[1:])
             stops[..., self._controller.robot.arm.slides] = 0  # an angle is no length
-            poses, executed = self.achieve_targets(targets._replace(angles=targets.angles + stops))
-            poses = self._disturbances.measure(self._generators, poses)
-        self.moves += executed.shape[1]
-        self.refused = self.refused + np.sum(~executed, axis=1)
-        return Outcome(self.workspace.to_coordinates(poses), executed)
+            angles = angles + stops
+        poses, executed = self.achieve_targets(targets._replace(angles=angles))
+        if its is not None:
+            poses = its.measure(self._generators, poses)
+        return self.workspace.to_coordinates(poses), executed
 
     def achieve(self, commands: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Achieved poses (run, move, 4, 4) and whether each was executed (run, move).
@@ -77,16 +95,18 @@ class Plant:
             poses[~executed] = homes[~executed]
         return poses, executed
 
+    def _forward(self, angles: np.ndarray) -> np.ndarray:
+        """Poses (run, move, 4, 4) [m] at the joint angles (run, move, joint) [rad]."""
+        if self._chain is not None:
+            return kernels.forward(self._chain, angles)
+        if len(self._arms) > 1:
+            pairs = zip(self._arms, angles, strict=True)
+            return np.stack([arm.forward(own) for arm, own in pairs])
+        poses = self._arms[0].forward(angles.reshape(-1, angles.shape[-1]))
+        return poses.reshape(*angles.shape[:-1], 4, 4)
 
-def _forward(
-    arms: ForwardKinematics | Sequence[DamagedArm],
-) -> Callable[[np.ndarray], np.ndarray]:
-    """From joint angles (run, move, joint) [rad] to poses (run, move, 4, 4) [m]."""
-    if isinstance(arms, ForwardKinematics):
-        return lambda angles: arms.forward(angles.reshape(-1, angles.shape[-1])).reshape(
-            *angles.shape[:-1], 4, 4
-        )
-    chain = Chain.side_by_side([arm.chain for arm in arms])
-    return lambda angles: chain.forward(
-        np.stack([arm.standing(own) for arm, own in zip(arms, angles, strict=True)])
-    )
+
+def _chain(arms: Sequence[ForwardKinematics]) -> Chain | None:
+    """The arms side by side, if geometry alone says where they go."""
+    chains = [arm.chain for arm in arms if isinstance(arm, DamagedArm) and not arm.deflections]
+    return Chain.side_by_side(chains) if len(chains) == len(arms) else None

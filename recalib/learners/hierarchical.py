@@ -1,24 +1,20 @@
 """The learners of the paper: hierarchical maps with Ritter's rules or the improved ones."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from recalib.learners.maps import HierarchicalMap
-from recalib.learners.nets import Nets
+from recalib.learners import kernels
+from recalib.learners.maps import Maps
 from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
+from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute, State
 from recalib.loop.measurements import check_moves
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot
-
-# Below this length of a move, in workspace coordinates, (3) and (8) would divide rounding errors by
-# rounding errors.
-SHORTEST_MOVE = 1e-6
 
 
 class HierarchicalLearner:
@@ -30,25 +26,24 @@ class HierarchicalLearner:
         rules: which rules to learn by.
         schedule: how widths and rates fall.
         runs: how many independent trainings.
+
+    Raises InvalidSetting where the schedule is for other maps than the rules.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, *, runs: int = 1):
         self.rules, self.schedule = rules, schedule.over(runs)
-        self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
-        self.maps = {
-            name: HierarchicalMap(runs, self.nets, rules, outputs)
-            for name, outputs in rules.maps.items()
-        }
-        self._runs = np.arange(runs)
+        self.maps = Maps(runs, rules)
+        self._runs = runs
+        self._metric = np.square(np.asarray(rules.metric, dtype=float))
+        widths = np.asarray(self.schedule.initial_width), self.schedule.ends(rules.maps)
+        self._widths = *widths, rules.width_power
+        start, end = np.asarray(self.schedule.initial_rate), np.asarray(self.schedule.final_rate)
+        self._rate = start, end, rules.rate_power
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
-        k, l = self.nets.winner(desired)
-        cells = self._runs[:, None], k, l
-        maps = self.maps.values()
-        theta = np.concatenate([net.theta.all[cells] for net in maps], axis=-1)
-        jacobian = np.concatenate([net.jacobian.all[cells] for net in maps], axis=-2)
-        return theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
+        self.maps.settle()
+        return kernels.commands(self.maps.cells, np.ascontiguousarray(desired))
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
@@ -56,40 +51,39 @@ class HierarchicalLearner:
         Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
         number, far off, or the same whatever is sent.
         """
-        k, l = self.nets.winner(desired)
-        maps = self.maps.values()
-        theta = np.concatenate([net.theta.at(k, l) for net in maps], axis=-1)
-        jacobian = np.concatenate([net.jacobian.at(k, l) for net in maps], axis=-2)
-        command = theta + applied(jacobian, desired - self.nets.centres[k, l])  # (1)
-        first = execute(command[:, None])
-        last = check_moves(command[:, None], first.achieved, first.executed)
-        # A_kl (u - u'): the correction of the second movement, and the increment of (6)
-        correction = applied(jacobian, desired - first.achieved[:, 0])
-        corrected = (command + correction)[:, None]
-        second = execute(corrected)
-        check_moves(corrected, second.achieved, second.executed, last)
-        moved = second.achieved[:, 0] - first.achieved[:, 0]  # u'' - u'
-        learn_theta = first.executed[:, 0]
-        far = np.square(moved).sum(axis=-1) > SHORTEST_MOVE**2
-        learn_jacobian = learn_theta & second.executed[:, 0] & far
-        # du^T / |du|^2 in the units of the metric; the Jacobian's columns are back in coordinates.
-        direction = np.square(self.rules.metric) * moved
-        length = (direction * moved).sum(axis=-1)
-        direction /= np.where(learn_jacobian, length, 1)[:, None]
-        # Both rules start from the same increments, (6) and (8); Ritter's targets add what the
-        # winner held, (2) and (3).
-        new_theta = correction
-        new_jacobian = (correction - applied(jacobian, moved))[:, :, None] * direction[:, None, :]
-        if not self.rules.theta_increments:
-            new_theta = theta + new_theta
-        if not self.rules.jacobian_increments:
-            new_jacobian = jacobian + new_jacobian
-        rate = self.rules.learning_rate(self.schedule, fraction)
-        for name, net in self.maps.items():
-            widths = self.rules.widths(self.schedule, name, fraction)
-            neighbourhood = self.nets.neighbourhood(k, l, *widths)
-            net.theta.update(rate * learn_theta, *neighbourhood, new_theta[:, net.outputs])
-            net.jacobian.update(rate * learn_jacobian, *neighbourhood, new_jacobian[:, net.outputs])
+        maps, desired = self.maps, np.ascontiguousarray(desired)
+        if maps.waiting == kernels.WAITING:
+            maps.settle()
+        cells = maps.cells, maps.waiting, maps.increments
+        command, winners, theta, jacobian = kernels.respond(*cells, desired)
+        sent = command[:, None]
+        first = execute(sent)
+        last = check_moves(sent, first.achieved, first.executed)
+        correction = kernels.corrections(jacobian, desired, first.achieved)
+        sent = (command + correction)[:, None]
+        second = execute(sent)
+        check_moves(sent, second.achieved, second.executed, last)
+        kernels.learn(
+            *cells,
+            winners,
+            theta,
+            jacobian,
+            correction,
+            first.achieved,
+            first.executed,
+            second.achieved,
+            second.executed,
+            self._metric,
+            self._widths,
+            self._rate,
+            fraction,
+        )
+        maps.waiting += 1
+
+    def widths(self, fraction: float) -> np.ndarray:
+        """Widths (run, map, 2) of g_k and g_kl after this fraction of the training."""
+        start, ends, power = self._widths
+        return fall(start[:, None, None], ends, fraction, power)
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
@@ -103,26 +97,30 @@ class HierarchicalLearner:
 
     def settings(self) -> dict[str, Any]:
         """The rules and, by run, the schedule."""
-        by_run = [asdict(self.schedule.of_run(run)) for run in range(len(self._runs))]
+        by_run = [asdict(self.schedule.of_run(run)) for run in range(self._runs)]
         return {"rules": asdict(self.rules), "by_run": by_run}
 
     def state(self) -> list[State]:
-        """For each run theta and Jacobian of each map, as `HierarchicalMap` describes them."""
+        """For each run theta (K, L, o) and Jacobians (K, L, o, 6) of each map, by its name."""
+        self.maps.settle()
         return [
             {
-                name: {"theta": net.theta.all[run].copy(), "jacobian": net.jacobian.all[run].copy()}
-                for name, net in self.maps.items()
+                name: {"theta": theta[run].copy(), "jacobian": jacobian[run].copy()}
+                for name, theta, jacobian in self._held()
             }
-            for run in self._runs
+            for run in range(self._runs)
         ]
 
     def restore(self, states: Sequence[State]) -> None:
         """Take over what `state` returned."""
-        for name, net in self.maps.items():
-            net.theta.all[:] = [state[name]["theta"] for state in states]
-            net.jacobian.all[:] = [state[name]["jacobian"] for state in states]
+        self.maps.settle()
+        for name, theta, jacobian in self._held():
+            theta[:] = [state[name]["theta"] for state in states]
+            jacobian[:] = [state[name]["jacobian"] for state in states]
 
-
-def applied(jacobian: np.ndarray, offset: np.ndarray) -> np.ndarray:
-    """A d (..., 6) of Jacobians A (..., 6, 6) and offsets d (..., 6)."""
-    return np.einsum("...oi,...i->...o", jacobian, offset)
+    def _held(self) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+        """The name of each map, its theta (run, K, L, o) and its Jacobians (run, K, L, o, 6)."""
+        cells = self.maps.cells
+        for each, name in enumerate(self.rules.maps):
+            jacobian = cells.jacobian[:, each]
+            yield name, cells.theta[:, each], jacobian.reshape(*jacobian.shape[:-1], -1, 6)

@@ -1,39 +1,88 @@
-"""The hierarchical map: what the cells of a supernet and its subnets hold, for (1).
-
-Everything is vectorised over `run`. Axes are named in this order: run, pose, cell of the supernet
-(k), cell of the subnet (l), output, coordinate.
-"""
+"""The hierarchical maps of a learner, and the updates of their cells that wait to be applied."""
 
 import numpy as np
 
-from recalib.learners.cells import Cells
+from recalib.learners import kernels
+from recalib.learners.kernels import JACOBIAN, THETA, WAITING, Cells
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 
 
-class HierarchicalMap:
-    """Maps, one for each run, from desired poses to (part of) the pose commands.
+class Maps:
+    """The maps of a learner in each run, from desired poses to (part of) the pose commands.
 
     They start as the identity, which is right for the intact robot (section 3). Values of theta may
     start at random, as Ritter's do: new values replace them. Increments of theta never replace
     their start, nor does anything where the Jacobian is random or zero: both start as the identity.
 
+    What one run learns depends on no other run.
+
     Args:
-        runs: how many independent maps.
-        nets: where their cells are.
+        runs: how many independent trainings.
         rules: to learn by.
-        outputs: which coordinates of the command are computed: a slice of the six.
 
     Attributes:
-        theta: `Cells` (run, K, L, output), the command at each centre.
-        jacobian: `Cells` (run, K, L, output, 6), how it changes with the desired pose about it.
+        nets: where the cells are, the same in all maps.
+        cells: what they hold, of `recalib.learners.kernels.Cells`.
+        waiting: how many updates of them wait.
+        increments: whether increments of theta and of Jacobians are propagated, or their values.
     """
 
-    def __init__(self, runs: int, nets: Nets, rules: Rules, outputs: slice):
-        self.outputs = outputs
-        start = nets.centres
+    def __init__(self, runs: int, rules: Rules):
+        self.nets = nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
+        shape, maps = nets.centres.shape[:2], len(rules.maps)
+        theta = nets.centres
         if rules.initial is not None and not rules.theta_increments:
-            start = np.random.default_rng(rules.initial).uniform(-1, 1, start.shape)
-        self.theta = Cells(runs, start[..., outputs], rules.theta_increments)
-        identity = np.broadcast_to(np.eye(6), (*nets.centres.shape, 6))
-        self.jacobian = Cells(runs, identity[..., outputs, :], rules.jacobian_increments)
+            theta = np.random.default_rng(rules.initial).uniform(-1, 1, theta.shape)
+        jacobian = np.broadcast_to(np.eye(6).ravel(), (*shape, 36))
+        theta, jacobian = (
+            np.stack([np.stack(np.split(start, maps, axis=-1))] * runs)
+            for start in (theta, jacobian)
+        )
+        waiting = runs, maps, WAITING
+        self.cells = Cells(
+            w_k=nets.w_k,
+            w_kl=nets.w_kl,
+            squares_k=nets.squares_k,
+            squares_kl=nets.squares_kl,
+            theta=theta,
+            jacobian=jacobian,
+            g_k=np.zeros((*waiting, shape[0])),
+            g_kl=np.zeros((*waiting, shape[1])),
+            theta_star=np.zeros((*waiting, 6 // maps)),
+            jacobian_star=np.zeros((*waiting, 36 // maps)),
+            rates=np.zeros((runs, WAITING, 2)),
+        )
+        self.waiting = 0
+        self.increments = rules.theta_increments, rules.jacobian_increments
+
+    def settle(self) -> None:
+        """Apply the updates that wait, run by run: so the cache holds what a run needs."""
+        waiting, self.waiting, cells = slice(self.waiting), 0, self.cells
+        if not waiting.stop:
+            return
+        for run, each in np.ndindex(cells.theta.shape[:2]):
+            here, rates = (run, each, waiting), cells.rates[run, waiting]
+            near = cells.g_k[here], cells.g_kl[here]
+            theta, jacobian = cells.theta[run, each], cells.jacobian[run, each]
+            _apply(theta, rates[:, THETA], *near, cells.theta_star[here], self.increments[THETA])
+            star = cells.jacobian_star[here]
+            _apply(jacobian, rates[:, JACOBIAN], *near, star, self.increments[JACOBIAN])
+
+
+def _apply(
+    held: np.ndarray,
+    rate: np.ndarray,
+    g_k: np.ndarray,
+    g_kl: np.ndarray,
+    star: np.ndarray,
+    increments: bool,
+) -> None:
+    """Move cells (K, L, n) by updates, (7) and (9), or draw them towards them, (4) and (5)."""
+    if increments:
+        weighted = rate[:, None] * g_k
+        held += (weighted.T @ kernels.spread_over(g_kl, star)).reshape(held.shape)
+    else:
+        weights, remaining = kernels.lasting(rate, g_k, g_kl)
+        held *= remaining.reshape(*held.shape[:2], 1)
+        held += (weights.T @ star).reshape(held.shape)

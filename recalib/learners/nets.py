@@ -1,7 +1,6 @@
 """Where the cells of a hierarchical map are: a supernet of positions, and subnets of orientations.
 
-Sections 2 and 3 of the paper. Everything is in workspace coordinates, and vectorised over `run`, a
-training of its own with its own maps.
+Sections 2 and 3 of the paper. Everything is in workspace coordinates.
 """
 
 from collections.abc import Sequence
@@ -9,6 +8,7 @@ from itertools import product
 
 import numpy as np
 
+from recalib.learners import kernels
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 # "A regular grid covering" the workspace (section 3): along a coordinate of [-1, 1], the middles of
@@ -30,10 +30,8 @@ def regular_grid(shape: Sequence[int], centres: str = "boxes") -> np.ndarray:
 
 def nearest(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
     """Index (...) of the nearest of the centres (cells, d) to each of the points (..., d)."""
-    # Point by point: in one product of matrices, a point's neighbours change how it is rounded.
-    products = (points[..., None, :] @ centres.T)[..., 0, :]
-    # |p - c|^2 without |p|^2, which is the same for every centre
-    return np.argmin((centres**2).sum(axis=1) - 2 * products, axis=-1)
+    found = kernels.nearest_of(points.reshape(-1, points.shape[-1]), centres)
+    return found.reshape(points.shape[:-1])
 
 
 class Nets:
@@ -47,20 +45,17 @@ class Nets:
     Attributes:
         w_k (K, 3), w_kl (L, 3): centres of the supernet's cells, and of the cells of each subnet.
         centres: (K, L, 6) both, as poses.
+        squares_k (K, K), squares_kl (L, L): squared distances between centres, in units of widths.
     """
 
     def __init__(
-        self,
-        supernet: Sequence[int],
-        subnet: Sequence[int],
-        centres: str,
-        units: Sequence[float],
+        self, supernet: Sequence[int], subnet: Sequence[int], centres: str, units: Sequence[float]
     ):
         self.w_k, self.w_kl = regular_grid(supernet, centres), regular_grid(subnet, centres)
         k, l = np.indices((len(self.w_k), len(self.w_kl)))
         self.centres = np.concatenate([self.w_k[k], self.w_kl[l]], axis=-1)
-        self._near_k, self._near_kl = (
-            -0.5 * (((w[:, None] - w[None]) * units[own]) ** 2).sum(axis=-1)
+        self.squares_k, self.squares_kl = (
+            (((w[:, None] - w[None]) * units[own]) ** 2).sum(axis=-1)
             for w, own in ((self.w_k, POSITION), (self.w_kl, ORIENTATION))
         )
 
@@ -79,6 +74,6 @@ class Nets:
         Gaussians of these widths, each (run,), in their units.
         """
         return (
-            np.exp(self._near_k[k] / np.square(width_k)[:, None]),
-            np.exp(self._near_kl[l] / np.square(width_kl)[:, None]),
+            np.exp(-self.squares_k[k] / (2 * np.square(width_k)[:, None])),
+            np.exp(-self.squares_kl[l] / (2 * np.square(width_kl)[:, None])),
         )

@@ -7,10 +7,9 @@
 import numpy as np
 from scipy.special import softmax
 
-from recalib.learners.cells import Cells
 from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
-from recalib.learners.schedules import Schedule
+from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute
 from recalib.loop.measurements import check_moves
 from recalib.nominal.poses import ORIENTATION, POSITION
@@ -41,16 +40,14 @@ class RadialLearner:
         runs: how many independent trainings.
 
     Attributes:
-        theta: by the name of each map, `Cells` (run, K, L, output).
+        theta: (run, K, L, 6) commands that the units hold.
     """
 
     def __init__(self, rules: Rules, schedule: Schedule, field: float = SPACING, *, runs: int = 1):
         self.rules, self.schedule = rules, schedule.over(runs)
         self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
-        self.theta = {
-            name: Cells(runs, self.nets.centres[..., outputs], rules.theta_increments)
-            for name, outputs in rules.maps.items()
-        }
+        self._final_widths = self.schedule.ends(rules.maps)
+        self.theta = np.tile(self.nets.centres, (runs, 1, 1, 1))
         self._field = field
 
     def command(self, desired: np.ndarray) -> np.ndarray:
@@ -58,8 +55,7 @@ class RadialLearner:
         # phi is a product of one Gaussian in each net, and so is its sum over all units
         phi_k = self._shares(desired[..., POSITION], self.nets.w_k)
         phi_kl = self._shares(desired[..., ORIENTATION], self.nets.w_kl)
-        held = np.concatenate([cells.all for cells in self.theta.values()], axis=-1)
-        corrections = held - self.nets.centres  # (run, K, L, 6)
+        corrections = self.theta - self.nets.centres  # (run, K, L, 6)
         runs, supernet = corrections.shape[:2]
         by_subnet = (phi_k @ corrections.reshape(runs, supernet, -1)).reshape(
             *phi_kl.shape, corrections.shape[-1]
@@ -76,14 +72,19 @@ class RadialLearner:
         outcome = execute(command)
         check_moves(command, outcome.achieved, outcome.executed)
         increment = desired - outcome.achieved[:, 0]  # e
-        rate = self.rules.learning_rate(self.schedule, fraction) * outcome.executed[:, 0]
+        start, end = np.asarray(self.schedule.initial_rate), np.asarray(self.schedule.final_rate)
+        rate = fall(start, end, fraction, self.rules.rate_power) * outcome.executed[:, 0]
         k, l = self.nets.winner(desired)
-        for name, outputs in self.rules.maps.items():
-            cells, target = self.theta[name], increment[:, outputs]
+        winner = self.theta[np.arange(len(k)), k, l]
+        initial = np.asarray(self.schedule.initial_width)[:, None, None]
+        widths = fall(initial, self._final_widths, fraction, self.rules.width_power)
+        for each, outputs in enumerate(self.rules.maps.values()):
+            g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
+            weights = rate[:, None, None, None] * g_k[:, :, None, None] * g_kl[:, None, :, None]
+            change = increment[:, None, None, outputs]
             if not self.rules.theta_increments:
-                target = cells.at(k, l) + target
-            widths = self.rules.widths(self.schedule, name, fraction)
-            cells.update(rate, *self.nets.neighbourhood(k, l, *widths), target)
+                change = winner[:, None, None, outputs] + change - self.theta[..., outputs]
+            self.theta[..., outputs] += weights * change
 
     def _shares(self, points: np.ndarray, centres: np.ndarray) -> np.ndarray:
         """phi over its sum (run, pose, cell), in one net, for points (run, pose, 3)."""

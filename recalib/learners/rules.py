@@ -10,9 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.learners import schedules
 from recalib.learners.nets import CENTRES
-from recalib.learners.schedules import DIMENSIONS, RATES, SPREADS, Schedule
+from recalib.learners.schedules import (
+    DIMENSIONS,
+    EXPONENTIAL,
+    RATES,
+    SPREADS,
+    equal_visits,
+)
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SEPARATE = {"position": POSITION, "orientation": ORIENTATION}
@@ -88,22 +93,15 @@ class Rules:
         """How the learning rate falls: `rate`, or what goes with how the widths fall."""
         return self.rate or ("linear" if self.equal_visits else "exponential")
 
-    def widths(self, schedule: Schedule, name: str, fraction: float) -> np.ndarray:
-        """Widths (2, run) of g_k and of g_kl after this fraction of the training.
+    @property
+    def width_power(self) -> float:
+        """The power of widths that is linear in time; see `recalib.learners.schedules`."""
+        return equal_visits(self.dimensions, self.spread) if self.equal_visits else EXPONENTIAL
 
-        Args:
-            name: of a map; see `maps`.
-        """
-        start, ends = map(np.asarray, (schedule.initial_width, schedule.final_widths[name]))
-        if not self.equal_visits:
-            return schedules.exponential(start, ends, fraction)
-        return schedules.equal_visits(start, ends, fraction, self.dimensions, self.spread)
-
-    def learning_rate(self, schedule: Schedule, fraction: float) -> np.ndarray:
-        """c' (run,) after this fraction of the training."""
-        weaken = RATES[self.law_of_rate]
-        start, end = map(np.asarray, (schedule.initial_rate, schedule.final_rate))
-        return weaken(start, end, fraction)
+    @property
+    def rate_power(self) -> float:
+        """The same of the learning rate."""
+        return RATES[self.law_of_rate]
 
 
 IMPROVED = Rules(

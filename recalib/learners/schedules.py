@@ -1,10 +1,14 @@
-"""How widths and learning rates fall during training: the laws, and from where to where.
+"""How widths and learning rates fall during training: one law, and from where to where.
 
-Each law takes the value at the start, the value at the end and the fraction of the training that
-is done, in [0, 1]; they broadcast.
+Some power p of what falls is linear in time: `fall(start, end, fraction, p)`. For p = 1, the same
+step in every iteration; in the limit p = 0, the same factor, Ritter's exponential decay. For the
+same mean number of visits of a cell at every width (section 6), the time spent at a width s is
+inversely proportional to the expected learning L of (10), which grows as s^n. With as many visits
+in every step of the width, dt is proportional to s^-n ds, and p = 1 - n; with as many in every step
+of its logarithm, dt is proportional to s^-n ds/s, and p = -n.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any
@@ -12,43 +16,22 @@ from typing import Any
 import numpy as np
 
 from recalib.errors import InvalidSetting
+from recalib.learners.kernels import fall as fall
 
+EXPONENTIAL, LINEAR = 0.0, 1.0  # powers
+RATES = {"linear": LINEAR, "exponential": EXPONENTIAL}
 DIMENSIONS = 3  # of each net's centres: positions for a supernet, orientations for a subnet
-
-# What is spread evenly by `equal_visits`, and what it adds to the power of the width.
-SPREADS = {"widths": 1, "logarithms": 0}
+SPREADS = {"widths": 1, "logarithms": 0}  # what equal visits are spread over, and its power
 
 
-def exponential(start: np.ndarray, end: np.ndarray, fraction: float) -> np.ndarray:
-    """The same factor in every iteration: Ritter's decay of widths and rates."""
-    return start * (end / start) ** fraction
-
-
-def linear(start: np.ndarray, end: np.ndarray, fraction: float) -> np.ndarray:
-    """The same step in every iteration: how the improved system's rate falls (section 7)."""
-    return start + (end - start) * fraction
-
-
-def equal_visits(
-    start: np.ndarray,
-    end: np.ndarray,
-    fraction: float,
-    dimensions: int = DIMENSIONS,
-    spread: str = "widths",
-) -> np.ndarray:
-    """The same mean number of visits of a cell at every width (section 6).
-
-    The time spent at a width s is inversely proportional to the expected learning L of (10), which
-    grows as s^n. With as many visits in every step of the width, dt is proportional to s^-n ds, and
-    s^(1-n) grows linearly in time; with as many in every step of its logarithm, dt is proportional
-    to s^-n ds/s, and s^-n does.
+def equal_visits(dimensions: int = DIMENSIONS, spread: str = "widths") -> float:
+    """The power for the same mean number of visits at every width (section 6).
 
     Args:
-        dimensions: n, at least 2.
-        spread: widths or logarithms.
+        dimensions: n of (10), at least 2.
+        spread: what visits are spread over evenly, of `SPREADS`.
     """
-    power = SPREADS[spread] - dimensions
-    return linear(np.power(start, power), np.power(end, power), fraction) ** (1 / power)
+    return float(SPREADS[spread] - dimensions)
 
 
 def expected_learning(
@@ -62,9 +45,6 @@ def expected_learning(
         volume: of the workspace there.
     """
     return np.power(width, dimensions) * (2 * np.pi) ** (dimensions / 2) / volume
-
-
-RATES = {"linear": linear, "exponential": exponential}
 
 
 @dataclass(frozen=True)
@@ -96,6 +76,16 @@ class Schedule:
     def over(self, runs: int) -> "Schedule":
         """The same for so many runs, all arrays (run,)."""
         return self._each(lambda number: np.full(runs, number))
+
+    def ends(self, maps: Collection[str]) -> np.ndarray:
+        """Final widths (run, map, 2) of the schedule of several runs.
+
+        Raises InvalidSetting where it is for other maps.
+        """
+        if {*maps} != {*self.final_widths}:
+            raise InvalidSetting("final_widths", [*self.final_widths], f"widths for {[*maps]}")
+        widths = np.array([np.array(self.final_widths[name]) for name in maps])
+        return np.ascontiguousarray(widths.transpose(2, 0, 1))
 
     def of_run(self, run: int) -> "Schedule":
         """That of one of several runs, all numbers."""

@@ -7,6 +7,7 @@ metres. All learners use the same `check_moves`.
 import numpy as np
 
 from recalib.errors import BadMeasurement
+from recalib.numerics.compiled import compiled
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
 # Workspace coordinates; the workspace reaches from -1 to 1. Links 12 cm too short and encoders 12
@@ -19,6 +20,7 @@ MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so close 
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 POSE = "a rotation and a position, above a row of 0, 0, 0, 1"
 Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
+NO_MOVES: Moves = np.empty((0, 1, 6)), np.empty((0, 1, 6)), np.empty((0, 1), dtype=bool)
 
 
 def check_moves(
@@ -34,38 +36,71 @@ def check_moves(
 
     Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
     """
-    allowed = OUTSIDE + WRAPPED * np.abs(commands).max(axis=-1)
-    size = np.abs(achieved).max(axis=-1)
-    # A command may be NaN where a learner diverges; such a move is refused, and harmless.
-    bad = ~np.isfinite(size) | (size > allowed)
-    if bad.any():
-        run, move = np.argwhere(bad)[0]
+    run, move = _first_bad(commands, achieved)
+    if run >= 0:
+        # A command may be NaN where a learner diverges; such a move is refused, and harmless.
+        allowed = OUTSIDE + WRAPPED * np.abs(commands[run, move]).max()
         valid = (
             "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
-            f" {allowed[run, move]:.3g} for such a command"
+            f" {allowed:.3g} for such a command"
         )
         raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    if last is not None:
-        commands, achieved, executed = (
-            np.concatenate(parts, axis=1)
-            for parts in zip(last, (commands, achieved, executed), strict=True)
-        )
-    _check_differ(commands, achieved, executed, first=int(last is None))
+    run, move = _first_stuck(commands, achieved, executed, *(last or NO_MOVES))
+    if run >= 0:
+        valid = "another pose than the move before it, whose command was another one"
+        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
     return commands[:, -1:], achieved[:, -1:], executed[:, -1:]
 
 
-def _check_differ(
-    commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, first: int
-) -> None:
-    """Raise BadMeasurement where another command led to the same pose; `first`: the second move."""
-    alike = np.abs(achieved[:, 1:] - achieved[:, :-1]).max(axis=-1) < STUCK
-    if not alike.any():
-        return
-    sent = np.abs(commands[:, 1:] - commands[:, :-1]).max(axis=-1)
-    stuck = alike & (sent > MOVED) & executed[:, 1:] & executed[:, :-1]
-    for run, move in np.argwhere(stuck)[:1]:
-        valid = "another pose than the move before it, whose command was another one"
-        raise BadMeasurement(f"move {move + first} of run {run}", achieved[run, move + 1], valid)
+@compiled
+def _first_bad(commands: np.ndarray, achieved: np.ndarray) -> tuple[int, int]:
+    """Run and move of the first that achieved no numbers, or was too far off; -1 if none."""
+    for run in range(achieved.shape[0]):
+        for move in range(achieved.shape[1]):
+            allowed, size = 0.0, 0.0
+            for number in range(6):
+                allowed = max(allowed, abs(commands[run, move, number]))
+            allowed = OUTSIDE + WRAPPED * allowed
+            for number in range(6):
+                size = abs(achieved[run, move, number])
+                if size > allowed or not np.isfinite(size):
+                    return run, move
+    return -1, -1
+
+
+@compiled
+def _first_stuck(
+    commands: np.ndarray,
+    achieved: np.ndarray,
+    executed: np.ndarray,
+    last_commands: np.ndarray,
+    last_achieved: np.ndarray,
+    last_executed: np.ndarray,
+) -> tuple[int, int]:
+    """Run and move of the first that led to the pose before it by another command; -1 if none."""
+    for run in range(achieved.shape[0]):
+        for move in range(achieved.shape[1]):
+            if move > 0:
+                before, there, done = (
+                    commands[run, move - 1],
+                    achieved[run, move - 1],
+                    executed[run, move - 1],
+                )
+            elif len(last_commands):
+                before, there, done = (
+                    last_commands[run, 0],
+                    last_achieved[run, 0],
+                    last_executed[run, 0],
+                )
+            else:
+                continue
+            gap, sent = 0.0, 0.0
+            for number in range(6):
+                gap = max(gap, abs(achieved[run, move, number] - there[number]))
+                sent = max(sent, abs(commands[run, move, number] - before[number]))
+            if gap < STUCK and sent > MOVED and executed[run, move] and done:
+                return run, move
+    return -1, -1
 
 
 def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:

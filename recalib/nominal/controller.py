@@ -16,20 +16,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from recalib.errors import UnfitWorkspace, Unreachable
+from recalib.nominal import kernels
 from recalib.nominal.chain import TOLERANCE, Chain
-from recalib.nominal.poses import ORIENTATION
 from recalib.nominal.robots import Robot, shown
-from recalib.numerics.monomials import monomials, polynomial
+from recalib.numerics.monomials import factors, monomials
 
 KNOTS = 3  # along each coordinate: the box's two faces and its middle
 BOXES = 0.25, 0.5, 0.75, 1.0  # on which they lie, as parts of the workspace
 DEGREE = 3  # of the first guess: off by a degree or less, where Newton's method needs three steps
-TRUSTED = 1.5  # coordinates for which it serves: learners command a little beyond the workspace
 NOT_REACHED = "no joint angles reach it"
 ROUNDS = 4  # in which the joint angles of a redundant arm settle; each leaves some hundredths
 GREATEST_CONDITION = 60.0  # of a Jacobian in units of the workspace; a UR10 at work has 12
@@ -94,34 +93,30 @@ class Controller:
         self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
 
     @cached_property
-    def _guess(self) -> np.ndarray:
-        """Coefficients of joint angles by coordinates: who only asks for reach needs none."""
+    def inverse_kinematics(self) -> tuple[Chain, kernels.Box, kernels.Inverse]:
+        """What compiled loops need to answer commands: the arm, its workspace, where they start.
+
+        The start is a polynomial through the knots, which are made when it is first needed.
+        """
         coordinates, angles = self._knots
-        return np.linalg.lstsq(monomials(coordinates, DEGREE), angles)[0]
+        q, r = np.linalg.qr(monomials(coordinates, DEGREE))
+        weights = np.linalg.solve(r, q.T @ angles)
+        inverse = kernels.Inverse(*factors(6, DEGREE), weights, self.robot.lower, self.robot.upper)
+        return self._chain, self.robot.workspace.box, inverse
+
+    @cached_property
+    def flat(self) -> tuple[Any, ...]:
+        """The same one by one, as `kernels.move` takes it."""
+        return tuple(array for part in self.inverse_kinematics for array in part)
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
-        return self._solve(poses, self.robot.workspace.to_coordinates(poses))
-
-    def _solve(self, poses: np.ndarray, coordinates: np.ndarray) -> Solution:
-        # farther out a polynomial means nothing: the nearest pose of the workspace has to do
-        beyond = np.abs(coordinates).max(axis=1) > TRUSTED
-        if beyond.any():
-            coordinates = np.where(beyond[:, None], np.clip(coordinates, -1, 1), coordinates)
-        start = polynomial(self._guess, coordinates, DEGREE)
-        angles, residuals = self._chain.solve(poses, start)
-        within = np.all((angles >= self.robot.lower) & (angles <= self.robot.upper), axis=-1)
-        return Solution(angles, residuals, within)
+        commands = self.robot.workspace.to_coordinates(poses)
+        return Solution(*kernels.targets(*self.inverse_kinematics, commands))
 
     def targets(self, commands: np.ndarray) -> Targets:
         """What the commands, coordinates (run, move, 6), ask of the joints."""
-        workspace, coordinates = self.robot.workspace, commands.reshape(-1, 6).copy()
-        poses = workspace.to_poses(coordinates)
-        # a turn of more than a right angle may be a smaller one the other way
-        turns = np.abs(coordinates[:, ORIENTATION] * workspace.half_ranges[ORIENTATION])
-        if (far := turns.max(axis=1) > np.pi / 2).any():
-            coordinates[far] = workspace.to_coordinates(poses[far])
-        solution = self._solve(poses, coordinates)
+        solution = Solution(*kernels.targets(*self.inverse_kinematics, commands.reshape(-1, 6)))
         return Targets(
             solution.angles.reshape(*commands.shape[:-1], -1),
             solution.reached.reshape(commands.shape[:-1]),

@@ -9,19 +9,17 @@ from recalib.numerics.compiled import compiled
 
 def monomials(points: np.ndarray, degree: int) -> np.ndarray:
     """The products (..., F) of up to `degree` coordinates of points (..., d), by their degrees."""
-    shorter, last = _factors(points.shape[-1], degree)
+    shorter, last = factors(points.shape[-1], degree)
     products = _products(points.reshape(-1, points.shape[-1]), shorter, last)
     return products.reshape(*points.shape[:-1], -1)
 
 
-def polynomial(weights: np.ndarray, points: np.ndarray, degree: int) -> np.ndarray:
-    """Sums (n, m) of the monomials of points (n, d) with weights (F, m), each point by itself."""
-    return _sums(monomials(points, degree), weights)
-
-
 @cache
-def _factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """The monomial (F,) and the coordinate (F,) whose product is each but the first, which is 1."""
+def factors(dimensions: int, degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Of each monomial but the first, which is 1: the shorter one and the coordinate it is made of.
+
+    Both are indices (F,), in the order of `monomials`.
+    """
     shorter, last, before = [0], [0], range(1)
     for _ in range(degree):
         longer = [
@@ -41,13 +39,3 @@ def _products(points: np.ndarray, shorter: np.ndarray, last: np.ndarray) -> np.n
         for index in range(1, len(shorter)):
             products[row, index] = products[row, shorter[index]] * points[row, last[index]]
     return products
-
-
-@compiled
-def _sums(products: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    sums = np.zeros((len(products), weights.shape[1]))
-    for row in range(len(products)):
-        for index in range(len(weights)):
-            for column in range(weights.shape[1]):
-                sums[row, column] += products[row, index] * weights[index, column]
-    return sums

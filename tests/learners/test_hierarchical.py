@@ -98,11 +98,11 @@ def test_the_rules_agree_with_the_paper_written_out_cell_by_cell(switches, conve
         for run in range(runs)
     ]
     assert np.allclose(learner.command(tests), expected, atol=1e-12)
-    for number, each in enumerate(learner.maps.values()):
-        for run, k, l in product(range(runs), range(12), range(6)):
-            held = each.theta.all[run, k, l], each.jacobian.all[run, k, l]
-            assert np.allclose(held[0], slow[run][number].theta[k, l], atol=1e-12)
-            assert np.allclose(held[1], slow[run][number].A[k, l], atol=1e-12)
+    for run, maps in enumerate(learner.state()):
+        for held, its in zip(maps.values(), slow[run], strict=True):
+            for k, l in product(range(12), range(6)):
+                assert np.allclose(held["theta"][k, l], its.theta[k, l], atol=1e-12)
+                assert np.allclose(held["jacobian"][k, l], its.A[k, l], atol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -154,13 +154,14 @@ def test_nothing_is_learned_from_a_refused_move():
 
     refused_first.learn(desired, refuse(0), 0.0)
     refused_second.learn(desired, refuse(1), 0.0)
-    for name, before in fresh.maps.items():
-        first, second = refused_first.maps[name], refused_second.maps[name]
-        assert np.array_equal(first.theta.all, before.theta.all)
-        assert np.array_equal(first.jacobian.all, before.jacobian.all)
-        # the first move teaches theta, the second the Jacobians
-        assert not np.array_equal(second.theta.all, before.theta.all)
-        assert np.array_equal(second.jacobian.all, before.jacobian.all)
+    learners = fresh, refused_first, refused_second
+    for before, first, second in zip(*(learner.state() for learner in learners), strict=True):
+        for name in before:
+            assert np.array_equal(first[name]["theta"], before[name]["theta"])
+            assert np.array_equal(first[name]["jacobian"], before[name]["jacobian"])
+            # the first move teaches theta, the second the Jacobians
+            assert not np.array_equal(second[name]["theta"], before[name]["theta"])
+            assert np.array_equal(second[name]["jacobian"], before[name]["jacobian"])
 
 
 @pytest.mark.parametrize("increments", [True, False])
@@ -179,9 +180,9 @@ def test_a_run_learns_the_same_alone_and_beside_others(increments):
     for t in range(40):
         beside.learn(desired[:, t], refuse_the_first if t % 3 else strange_world, t / 40)
         alone.learn(desired[1:2, t], strange_world, t / 40)
-    for name, learned in alone.maps.items():
-        assert np.array_equal(beside.maps[name].theta.all[1:2], learned.theta.all)
-        assert np.array_equal(beside.maps[name].jacobian.all[1:2], learned.jacobian.all)
+    for name, learned in alone.state()[0].items():
+        for kind, held in learned.items():
+            assert np.array_equal(beside.state()[1][name][kind], held)
 
 
 @pytest.mark.parametrize("separate", [True, False])

@@ -60,8 +60,7 @@ def test_radial_units_agree_with_their_rules_written_out_unit_by_unit(separate, 
     tests = poses(2, 5, 1)[:, :, 0]
     for run in range(2):
         theta = written_out(learner.rules, centres, desired[run])
-        held = np.concatenate([cells.all[run] for cells in learner.theta.values()], axis=-1)
-        assert np.allclose(held.reshape(-1, 6), theta, rtol=0, atol=1e-12)
+        assert np.allclose(learner.theta[run].reshape(-1, 6), theta, rtol=0, atol=1e-12)
         expected = [blend(u, centres, theta) for u in tests[run]]
         assert np.allclose(learner.command(tests)[run], expected, rtol=0, atol=1e-12)
 
@@ -85,7 +84,7 @@ def test_a_radial_unit_learns_by_one_move_nothing_of_a_refused_one_and_refuses_n
         return strange_world(commands)._replace(executed=np.array([[False], [True]]))
 
     learner = taught(False, False, True, poses(2, 3), refusing)
-    changes = learner.theta["pose"].all - learner.nets.centres
+    changes = learner.theta - learner.nets.centres
     assert not changes[0].any() and changes[1].any()
     assert moves == [(2, 1, 6)] * 3
     with pytest.raises(BadMeasurement):

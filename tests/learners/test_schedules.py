@@ -1,5 +1,3 @@
-from functools import partial
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,22 +5,17 @@ from hypothesis import strategies as st
 
 from recalib.learners import schedules
 
-LAWS = [
-    schedules.exponential,
-    schedules.linear,
-    *(
-        partial(schedules.equal_visits, dimensions=n, spread=spread)
-        for n in (3, 6)
-        for spread in schedules.SPREADS
-    ),
+POWERS = [
+    *schedules.RATES.values(),
+    *(schedules.equal_visits(n, spread) for n in (3, 6) for spread in schedules.SPREADS),
 ]
 starts, ends = st.floats(0.2, 5), st.floats(0.01, 0.19)
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("power", POWERS)
 @given(start=starts, end=ends)
-def test_laws_fall_from_start_to_end(law, start, end):
-    values = law(start, end, np.linspace(0, 1, 50))
+def test_what_falls_falls_from_start_to_end(power, start, end):
+    values = schedules.fall(start, end, np.linspace(0, 1, 50), power)
     assert values[0] == pytest.approx(start) and values[-1] == pytest.approx(end)
     assert (np.diff(values) < 0).all()
 
@@ -36,7 +29,8 @@ def test_time_at_each_width_is_inversely_proportional_to_the_expected_learning(
     """The law of section 6: dt L(width), over every step of what is spread, is the same."""
     time, step = np.linspace(0.05, 0.95, 50), 1e-5
     before, width, after = (
-        schedules.equal_visits(start, end, time + shift, n, spread) for shift in (-step, 0, step)
+        schedules.fall(start, end, time + shift, schedules.equal_visits(n, spread))
+        for shift in (-step, 0, step)
     )
     pace = 2 * step / (scale(after) - scale(before))
     learned = pace * schedules.expected_learning(width, n, 2.0**n)

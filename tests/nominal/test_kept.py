@@ -79,7 +79,6 @@ def test_what_a_controller_answers_is_as_kept(which, robot, data_regression):
         "residuals": np.where(solution.reached, 0, 1),
         "commands": controller.commands_for(good, lambda angles: angles * 1.01 + tilt),
         "inverse": controller.inverse(workspace.to_poses(good[0])),
-        "guess": controller._guess,
     }
     for name, pose in (("far", asked[0, 2]), ("limit", np.array([0.9, 1.5, -2.2, 1.2, 2, -2.0]))):
         try:

@@ -130,9 +130,8 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
 def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
     """Whether a command takes the damaged robot to the middle of its workspace."""
     damaged, home = apply(robot, damages), robot.home[None]
-    angles, errors = damaged.chain.solve(robot.arm.forward(home), home + damaged.offsets)
-    believed = angles - damaged.offsets
-    within = (robot.lower <= believed) & (believed <= robot.upper)
+    angles, errors = damaged.chain.solve(robot.arm.forward(home), home)
+    within = (robot.lower <= angles) & (angles <= robot.upper)
     return bool(errors[0] <= TOLERANCE and within.all())
 
 

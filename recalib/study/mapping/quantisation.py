@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from recalib.learners.nets import CENTRES, nearest, regular_grid
-from recalib.learners.schedules import exponential
+from recalib.learners.schedules import EXPONENTIAL, fall
 from recalib.numerics.randomness import generator
 
 SHAPE = (3, 3, 3)  # of a supernet and of a subnet (section 7)
@@ -49,8 +49,7 @@ def kohonen(starts: np.ndarray, poses: np.ndarray, shape: Sequence[int]) -> np.n
     centres, iterations = starts.copy(), poses.shape[1]
     for t in range(iterations):
         width, rate = (
-            exponential(np.array(start), np.array(end), t / iterations)
-            for start, end in (WIDTHS, RATES)
+            fall(start, end, t / iterations, EXPONENTIAL) for start, end in (WIDTHS, RATES)
         )
         offsets = poses[:, [t]] - centres
         winner = np.square(offsets).sum(axis=-1).argmin(axis=1)

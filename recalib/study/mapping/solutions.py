@@ -22,7 +22,7 @@ def joint_solutions(
         within: lower and upper limits of the joints, each (joint,).
     """
     angles, residuals = arm.chain.solve(np.tile(pose, (len(starts), 1, 1)), starts)
-    shown = angles[residuals <= TOLERANCE] - arm.offsets
+    shown = angles[residuals <= TOLERANCE]
     shown = shown[np.all((shown >= within[0]) & (shown <= within[1]), axis=1)]
     different: list[np.ndarray] = []
     for one in shown:
@@ -49,7 +49,7 @@ def solutions(
     poses = workspace.to_poses(desired)
     for pose, own in zip(poses, controller.solve(poses).angles, strict=True):
         anywhere = random.uniform(-np.pi, np.pi, (STARTS, len(own)))
-        starts = np.vstack([own, anywhere]) + arm.offsets
+        starts = np.vstack([own, anywhere])
         angles = joint_solutions(arm, pose, starts, (robot.lower, robot.upper))
         commands = workspace.to_coordinates(robot.arm.forward(angles))
         answers = controller.targets(commands[None])

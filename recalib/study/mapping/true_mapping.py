@@ -3,7 +3,7 @@
 import numpy as np
 
 from recalib.damaged.damage import DamagedArm
-from recalib.nominal.chain import TOLERANCE
+from recalib.nominal.chain import TOLERANCE, Chain
 from recalib.nominal.controller import Controller
 
 STEP = 1e-4  # of the central differences, in workspace coordinates: 25 um
@@ -16,9 +16,8 @@ def true_commands(controller: Controller, arm: DamagedArm, desired: np.ndarray) 
     """
     workspace = controller.robot.workspace
     poses = workspace.to_poses(desired)
-    start = controller.solve(poses).angles + arm.offsets
-    angles, residuals = arm.chain.solve(poses, start)
-    commands = workspace.to_coordinates(controller.robot.arm.forward(angles - arm.offsets))
+    angles, residuals = arm.chain.solve(poses, controller.solve(poses).angles)
+    commands = workspace.to_coordinates(Chain.of(controller.robot.arm).forward(angles[None])[0])
     commands[residuals > TOLERANCE] = np.nan
     return commands
 

@@ -64,12 +64,11 @@ def script(
 
 def _described(robot: Robot, links: tuple[str, ...]) -> dict[str, list]:
     """Its kinematics, and each of these links with the placement at its end."""
-    placements, axes, _ = Chain.of(robot.arm)
+    placements = Chain.of(robot.arm).placements
     return {
         "links": [[link, robot.links[link]] for link in links],
         "joints": [*robot.joints],
         "placements": np.round(placements[0].reshape(-1, 12), DIGITS).tolist(),
-        "axes": axes[0].tolist(),
         "home": robot.home.tolist(),
         "lower": robot.lower.tolist(),
         "upper": robot.upper.tolist(),

@@ -85,8 +85,7 @@ def watch(
     def on_progress(iteration: int, *_: float) -> None:
         commands.append(learner.command(shown[None])[0])
         if maps:
-            theta = next(iter(maps.maps.values())).theta
-            thetas.append(theta.all[0, ..., POSITION].copy())
+            thetas.append(maps.maps.cells.theta[0, 0, ..., POSITION].copy())
             weights.append(_neighbourhood(maps, poses.desired[0], iteration))
 
     history = train_for_results(plant, learner, poses, measure_at, progress=on_progress)
@@ -100,7 +99,7 @@ def watch(
     if maps:
         half_ranges = workspace.half_ranges[POSITION]
         cells = MapCells(
-            centres=workspace.centre[:3, 3] + maps.nets.w_k * half_ranges,
+            centres=workspace.centre[:3, 3] + maps.maps.nets.w_k * half_ranges,
             weights=np.stack(weights),
             corrections=(np.stack(thetas) - thetas[0]).mean(axis=2) * half_ranges,
         )
@@ -116,9 +115,8 @@ def watch(
 
 def _neighbourhood(learner: HierarchicalLearner, desired: np.ndarray, iteration: int) -> np.ndarray:
     """g_k (cell,) in the iteration before; zero where there was none."""
-    nets, last = learner.nets, iteration - 1
+    nets, last = learner.maps.nets, iteration - 1
     if iteration == 0:
         return np.zeros(len(nets.w_k))
-    name = next(iter(learner.maps))
-    widths = learner.rules.widths(learner.schedule, name, last / len(desired))
+    widths = learner.widths(last / len(desired))[:, 0].T
     return nets.neighbourhood(*nets.winner(desired[[last]]), *widths)[0][0]

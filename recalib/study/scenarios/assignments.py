@@ -107,7 +107,7 @@ def compare(
     believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
     errors = []
     for shortening in ways.short:
-        achieved = apply(robot, shortening).arm.forward(believed)
+        achieved = apply(robot, shortening).chain.forward(believed[None])
         achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
         both = pose_errors(robot.workspace, achieved, desired, error)
         errors.append([its.mean(axis=1) for its in both])

@@ -5,11 +5,11 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 import pytest
+from recalib.learners.cells import Cells
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
 from recalib.learners import schedules
-from recalib.learners.cells import Cells
 from recalib.learners.nets import Nets
 from recalib.study.evidence.checks import check
 from recalib.study.experiments.poses import Stream, train_for_results

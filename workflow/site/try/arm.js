@@ -4,31 +4,28 @@
 const TOLERANCE = 1e-11, STEPS = 25, LONGEST_STEP = 0.5, SINGULAR = 1e9;
 
 class Arm {
-  // placements: of each joint in the frame of the one before it, then of the tool; axes: of joints
-  constructor(placements, axes) {
-    Object.assign(this, { placements, axes });
+  // placements: of each joint, which turns about its z axis, in the frame of the one before it;
+  // then of the tool
+  constructor(placements) {
+    this.placements = placements;
   }
 
   // The tool's pose, and where the joints lie and point.
   stand(angles) {
     const pose = Float64Array.from(this.placements[0]);
-    const origins = [], directions = [], turned = [0, 0, 0];
+    const origins = [], directions = [];
     angles.forEach((angle, joint) => {
-      const [x, y, z] = this.axes[joint], placement = this.placements[joint + 1];
-      const sine = Math.sin(angle), cosine = Math.cos(angle), direction = [0, 0, 0];
+      const placement = this.placements[joint + 1];
+      const sine = Math.sin(angle), cosine = Math.cos(angle);
       origins.push([pose[3], pose[7], pose[11]]);
+      directions.push([pose[2], pose[6], pose[10]]);
       for (let row = 0; row < 12; row += 4) {
-        const a = pose[row], b = pose[row + 1], c = pose[row + 2], along = a * x + b * y + c * z;
-        direction[row / 4] = along;
-        // Rodrigues' formula, for a row of the frame
-        turned[0] = cosine * a + sine * (b * z - c * y) + (1 - cosine) * along * x;
-        turned[1] = cosine * b + sine * (c * x - a * z) + (1 - cosine) * along * y;
-        turned[2] = cosine * c + sine * (a * y - b * x) + (1 - cosine) * along * z;
+        const [x, y, z, p] = pose.slice(row, row + 4);
+        const a = cosine * x + sine * y, b = cosine * y - sine * x;
         for (let column = 0; column < 4; column++)
-          pose[row + column] = (column === 3 ? pose[row + 3] : 0) + turned[0] * placement[column]
-            + turned[1] * placement[4 + column] + turned[2] * placement[8 + column];
+          pose[row + column] = (column === 3 ? p : 0)
+            + a * placement[column] + b * placement[4 + column] + z * placement[8 + column];
       }
-      directions.push(direction);
     });
     return { pose, origins, directions };
   }

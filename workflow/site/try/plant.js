@@ -52,9 +52,9 @@ function errors(achieved, desired) {
 
 // Keeps the robot's intact arm; `near` are joint angles from which Newton's method starts.
 class Controller {
-  constructor({ placements, axes, home, lower, upper, half_ranges }) {
+  constructor({ placements, home, lower, upper, half_ranges }) {
     Object.assign(this, { home, lower, upper });
-    this.arm = new Arm(placements, axes);
+    this.arm = new Arm(placements);
     this.workspace = new Workspace(this.arm.forward(home), half_ranges);
   }
 
@@ -73,14 +73,14 @@ class Controller {
 // the angle [rad] by which each joint stands beyond what its encoder reports.
 class Plant {
   constructor(controller, links, damage) {
-    const { placements, axes } = controller.arm, shortened = [...placements];
+    const { placements } = controller.arm, shortened = [...placements];
     links.forEach(([, end], index) => {
       const at = placements[end], whole = Math.hypot(at[3], at[7], at[11]);
       const left = 1 - damage[index] / whole;
       shortened[end] = at.map((number, k) => (k % 4 === 3 ? left * number : number));
     });
     this.controller = controller;
-    this.arm = new Arm(shortened, axes);
+    this.arm = new Arm(shortened);
     this.offsets = damage.slice(links.length);
   }
 
