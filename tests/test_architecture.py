@@ -82,34 +82,6 @@ HEAVY = {
 }
 ARMS = {"numba", "pinocchio", "scipy.spatial"}
 # What modules bring when they are imported: of the library, and those with a function for a rule.
-BRINGS = {
-    "recalib recalib.laboratory.command_line recalib.damaged.kinds": set(),
-    "recalib.laboratory.report.files recalib.laboratory.report.page recalib.numerics.regression": {
-        "jinja2",
-        "matplotlib",
-        "pinocchio",
-        "scipy.optimize",
-        "scipy.spatial",
-    },
-    "recalib.study.multiverse.universe": set(),  # the workflow, whenever it starts
-    "evidence.claims evidence.pages.article evidence.pages.outcome evidence.pages.real_arm"
-    " evidence.pages.rendering evidence.pages.report"
-    " experiments.joining experiments.samples multiverse.design plots.registry": set(),
-    "evidence.benchmark evidence.checks evidence.summary mapping.visits multiverse.power": {
-        "pandas"
-    },
-    "scenarios.assignments experiments.speed multiverse.drawing scenarios.plants": ARMS,
-    "experiments.benchmark experiments.ensemble experiments.real_arm experiments.trials": ARMS
-    | {"pandas"},
-    "experiments.campaign": ARMS - {"scipy.spatial"},
-    "experiments.constant_widths experiments.replay mapping.measured multiverse.efforts"
-    " multiverse.horizon multiverse.measuring multiverse.reference": ARMS - {"scipy.spatial"}
-    | {"pandas"},
-    "experiments.tracker": ARMS - {"numba"},
-    "recording.in_browser": ARMS - {"scipy.spatial"} | {"pandas"},
-    "recording.pictures": {"rerun"},
-    "recording.writing": ARMS | {"pandas", "rerun"},
-}
 
 
 @cache
@@ -132,34 +104,6 @@ def files_of(name: str) -> set[str]:
     stems = ["/".join(parts[: count + 1]) for count in range(len(parts))]
     paths = {f"{stem}{end}" for stem in stems for end in (".py", "/__init__.py")}
     return {path for path in paths if (ROOT / path).is_file()}
-
-
-def brought(names: set[str]) -> set[str]:
-    """What is heavy of all that an import of these modules imports, by way of others of ours."""
-    known, waiting = set(), names
-    while waiting:
-        known |= waiting
-        paths = set().union(*map(files_of, waiting))
-        waiting = set().union(*(imported(ROOT / path, at_once=True) for path in paths)) - known
-    return {its for its in HEAVY if any(f"{name}.".startswith(f"{its}.") for name in known)}
-
-
-def called() -> set[str]:
-    """The modules of the functions that rules call."""
-    texts = (path.read_text(encoding="utf-8") for path in (ROOT / "workflow/rules").glob("*.smk"))
-    names = re.findall(r'calls\(\s*"recalib\.study\.([\w.]+)\.\w+"', "".join(texts))
-    return {*names}
-
-
-@pytest.mark.parametrize("modules", BRINGS)
-def test_an_import_brings_what_is_needed(modules):
-    names = {name if "recalib" in name else f"recalib.study.{name}" for name in modules.split()}
-    script = set() if "recalib" in modules else {"workflow.scripts.call"}
-    assert brought(names | script) == BRINGS[modules]
-
-
-def test_for_every_function_it_is_said_what_it_brings():
-    assert called() == {name for name in " ".join(BRINGS).split() if "recalib" not in name}
 
 
 def test_a_figure_of_results_moves_no_arm():

@@ -16,7 +16,7 @@ from recalib.identification.model.observations import Observations
 from recalib.learners.kinds import KINDS
 from recalib.loop.external import ExternalRobot
 from recalib.loop.interfaces import Outcome
-from recalib.loop.measurements import OUTSIDE, WRAPPED, check_moves
+from recalib.loop.moves import OUTSIDE, WRAPPED, check_moves
 from recalib.nominal.poses import position_error
 from recalib.study.experiments.ensemble import feasible, scaled_arm
 from recalib.study.experiments.poses import Stream

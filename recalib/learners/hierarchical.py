@@ -11,7 +11,7 @@ from recalib.learners.maps import Maps
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute, State
-from recalib.loop.measurements import check_moves
+from recalib.loop.moves import check_moves
 
 if TYPE_CHECKING:
     from recalib.nominal.robots import Robot

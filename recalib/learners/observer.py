@@ -5,7 +5,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from recalib.loop.interfaces import Execute
-from recalib.loop.measurements import Moves, check_moves
+from recalib.loop.moves import Moves, check_moves
 
 
 class Observer(ABC):

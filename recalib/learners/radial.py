@@ -11,7 +11,7 @@ from recalib.learners.nets import Nets
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule, fall
 from recalib.loop.interfaces import Execute
-from recalib.loop.measurements import check_moves
+from recalib.loop.moves import check_moves
 from recalib.nominal.poses import ORIENTATION, POSITION
 
 SPACING = 2 / 3  # of three cells along a coordinate of the workspace, which is 2 wide

@@ -1,106 +1,12 @@
-"""Checks of measurements before learning: unusable ones are refused by name.
-
-A NaN would spread silently through everything learned from it, and so would millimetres taken for
-metres. All learners use the same `check_moves`.
-"""
+"""Checks of a measured pose: one that is none, or grossly off, is refused by name."""
 
 import numpy as np
 
 from recalib.errors import BadMeasurement
-from recalib.numerics.compiled import compiled
 
 FARTHEST = 10.0  # m from where the tool should be: that is no arm, or not in metres
-# Workspace coordinates; the workspace reaches from -1 to 1. Links 12 cm too short and encoders 12
-# degrees off move an arm by 1 or 2. At 5 it is away by twice the size of the workspace.
-OUTSIDE = 5.0
-# A command beyond half a turn comes back as a smaller one. One beyond a quarter of a turn about the
-# middle axis comes back as up to half a turn about the others, which is at most twice as much.
-WRAPPED = 2.0
-MOVED, STUCK = 0.1, 0.01  # commands so far apart do not lead to poses so close together
 SKEW = 0.01  # of a rotation matrix, as instruments round it
 POSE = "a rotation and a position, above a row of 0, 0, 0, 1"
-Moves = tuple[np.ndarray, np.ndarray, np.ndarray]  # commands, achieved, executed
-NO_MOVES: Moves = np.empty((0, 1, 6)), np.empty((0, 1, 6)), np.empty((0, 1), dtype=bool)
-
-
-def check_moves(
-    commands: np.ndarray, achieved: np.ndarray, executed: np.ndarray, last: Moves | None = None
-) -> Moves:
-    """Raise BadMeasurement unless what moves achieved are numbers, no arm's length off, and differ.
-
-    Args:
-        commands, achieved: (run, move, 6) coordinates of the workspace. A refused move counts,
-            too: it leaves the arm at home.
-        executed: (run, move) whether it was carried out.
-        last: the move before these, as this function returned it.
-
-    Returns the last of these moves, commands, achieved and executed, with a move axis of 1.
-    """
-    run, move = _first_bad(commands, achieved)
-    if run >= 0:
-        # A command may be NaN where a learner diverges; such a move is refused, and harmless.
-        allowed = OUTSIDE + WRAPPED * np.abs(commands[run, move]).max()
-        valid = (
-            "six coordinates of the workspace, which reaches from -1 to 1, each a number up to"
-            f" {allowed:.3g} for such a command"
-        )
-        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    run, move = _first_stuck(commands, achieved, executed, *(last or NO_MOVES))
-    if run >= 0:
-        valid = "another pose than the move before it, whose command was another one"
-        raise BadMeasurement(f"move {move} of run {run}", achieved[run, move], valid)
-    return commands[:, -1:], achieved[:, -1:], executed[:, -1:]
-
-
-@compiled
-def _first_bad(commands: np.ndarray, achieved: np.ndarray) -> tuple[int, int]:
-    """Run and move of the first that achieved no numbers, or was too far off; -1 if none."""
-    for run in range(achieved.shape[0]):
-        for move in range(achieved.shape[1]):
-            allowed, size = 0.0, 0.0
-            for number in range(6):
-                allowed = max(allowed, abs(commands[run, move, number]))
-            allowed = OUTSIDE + WRAPPED * allowed
-            for number in range(6):
-                size = abs(achieved[run, move, number])
-                if size > allowed or not np.isfinite(size):
-                    return run, move
-    return -1, -1
-
-
-@compiled
-def _first_stuck(
-    commands: np.ndarray,
-    achieved: np.ndarray,
-    executed: np.ndarray,
-    last_commands: np.ndarray,
-    last_achieved: np.ndarray,
-    last_executed: np.ndarray,
-) -> tuple[int, int]:
-    """Run and move of the first that led to the pose before it by another command; -1 if none."""
-    for run in range(achieved.shape[0]):
-        for move in range(achieved.shape[1]):
-            if move > 0:
-                before, there, done = (
-                    commands[run, move - 1],
-                    achieved[run, move - 1],
-                    executed[run, move - 1],
-                )
-            elif len(last_commands):
-                before, there, done = (
-                    last_commands[run, 0],
-                    last_achieved[run, 0],
-                    last_executed[run, 0],
-                )
-            else:
-                continue
-            gap, sent = 0.0, 0.0
-            for number in range(6):
-                gap = max(gap, abs(achieved[run, move, number] - there[number]))
-                sent = max(sent, abs(commands[run, move, number] - before[number]))
-            if gap < STUCK and sent > MOVED and executed[run, move] and done:
-                return run, move
-    return -1, -1
 
 
 def check_pose(measured: np.ndarray, expected: np.ndarray) -> None:

@@ -93,7 +93,7 @@ class Controller:
         self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
 
     @cached_property
-    def inverse_kinematics(self) -> tuple[Chain, kernels.Box, kernels.Inverse]:
+    def inverse_kinematics(self) -> tuple[Chain, kernels.Region, kernels.Inverse]:
         """What compiled loops need to answer commands: the arm, its workspace, where they start.
 
         The start is a polynomial through the knots, which are made when it is first needed.
@@ -102,7 +102,7 @@ class Controller:
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
         weights = np.linalg.solve(r, q.T @ angles)
         inverse = kernels.Inverse(*factors(6, DEGREE), weights, self.robot.lower, self.robot.upper)
-        return self._chain, self.robot.workspace.box, inverse
+        return self._chain, self.robot.workspace.region, inverse
 
     @cached_property
     def flat(self) -> tuple[Any, ...]:

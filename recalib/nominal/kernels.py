@@ -35,7 +35,7 @@ class Arms(NamedTuple):
     slides: np.ndarray
 
 
-class Box(NamedTuple):
+class Region(NamedTuple):
     """A workspace, as `recalib.nominal.poses.Workspace` describes it."""
 
     centre: np.ndarray
@@ -60,22 +60,22 @@ class Inverse(NamedTuple):
 
 
 @compiled
-def poses_at(coordinates: np.ndarray, box: Box) -> np.ndarray:
+def poses_at(coordinates: np.ndarray, region: Region) -> np.ndarray:
     """Poses (n, 4, 4) [m] at coordinates (n, 6) of a workspace."""
     poses = np.zeros((len(coordinates), 4, 4))
     relative = np.empty((3, 3))
     for index in range(len(coordinates)):
-        _write_pose(coordinates[index], box, relative, poses[index])
+        _write_pose(coordinates[index], region, relative, poses[index])
         poses[index, 3, 3] = 1
     return poses
 
 
 @compiled
-def coordinates_of(poses: np.ndarray, box: Box) -> np.ndarray:
+def coordinates_of(poses: np.ndarray, region: Region) -> np.ndarray:
     """Coordinates (n, 6) in a workspace of poses (n, 4, 4) [m]."""
     coordinates, relative = np.empty((len(poses), 6)), np.empty((3, 3))
     for index in range(len(poses)):
-        _write_coordinates(poses[index], box, relative, coordinates[index])
+        _write_coordinates(poses[index], region, relative, coordinates[index])
     return coordinates
 
 
@@ -140,7 +140,7 @@ def solve(arms: Arms, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray,
 
 @compiled
 def targets(
-    arms: Arms, box: Box, inverse: Inverse, commands: np.ndarray
+    arms: Arms, region: Region, inverse: Inverse, commands: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Joint angles (n, joint) [rad] for commands (n, 6) in coordinates of a workspace.
 
@@ -151,7 +151,9 @@ def targets(
     within = np.empty(len(commands), dtype=np.bool_)
     scratch, room = _scratch(joints), _room(inverse)
     for index in range(len(commands)):
-        errors[index] = _answer(arms, box, inverse, commands[index], room, scratch, angles[index])
+        errors[index] = _answer(
+            arms, region, inverse, commands[index], room, scratch, angles[index]
+        )
         within[index] = _within(angles[index], inverse)
     return angles, errors, within
 
@@ -177,7 +179,7 @@ def move(
     """Where commands take damaged arms that stand at the angles that their controller finds.
 
     Args:
-        placements, slides: the nominal arm, of `Arms`; then its `Box` and its `Inverse`. One by
+        placements, slides: the nominal arm, of `Arms`; then its `Region` and its `Inverse`. One by
             one, since a call unpacks them three times as fast so: half of the time of few moves.
         damaged_placements, damaged_slides: one arm for each run, or one for all.
         homes: (arm, 6) where each stands after a refused move, in coordinates.
@@ -188,7 +190,7 @@ def move(
     (run, move).
     """
     nominal, damaged = Arms(placements, slides), Arms(damaged_placements, damaged_slides)
-    box = Box(centre, half_ranges, vectors)
+    region = Region(centre, half_ranges, vectors)
     inverse = Inverse(shorter, last, weights, lower, upper)
     runs, moves, _ = commands.shape
     joints = inverse.weights.shape[1]
@@ -199,11 +201,11 @@ def move(
         arm = run if len(homes) > 1 else 0
         for index in range(moves):
             command = commands[run, index]
-            error = _answer(nominal, box, inverse, command, room, scratch, angles)
+            error = _answer(nominal, region, inverse, command, room, scratch, angles)
             executed[run, index] = error <= TOLERANCE and _within(angles, inverse)
             if executed[run, index]:
                 _stand(damaged, arm, angles, pose, origins, axes)
-                _write_coordinates(pose, box, relative, achieved[run, index])
+                _write_coordinates(pose, region, relative, achieved[run, index])
             else:
                 _copy(homes[arm], achieved[run, index])
                 refused[run] += 1
@@ -219,7 +221,7 @@ def _room(inverse: Inverse) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndar
 @compiled
 def _answer(
     arms: Arms,
-    box: Box,
+    region: Region,
     inverse: Inverse,
     command: np.ndarray,
     room: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
@@ -228,13 +230,13 @@ def _answer(
 ) -> float:
     """Write the joint angles (n,) for a command, from the start polynomial; returns their error."""
     products, point, relative, pose = room
-    _write_pose(command, box, relative, pose)
+    _write_pose(command, region, relative, pose)
     _copy(command, point)
     beyond = far = False
     for number in range(6):
-        far |= number >= 3 and abs(point[number] * box.half_ranges[number]) > np.pi / 2
+        far |= number >= 3 and abs(point[number] * region.half_ranges[number]) > np.pi / 2
     if far:  # a turn of more than a right angle may be a smaller one the other way
-        _write_coordinates(pose, box, relative, point)
+        _write_coordinates(pose, region, relative, point)
     for number in range(6):
         beyond |= abs(point[number]) > TRUSTED
     if beyond:  # farther out a polynomial means nothing: the nearest pose inside has to do
@@ -451,35 +453,37 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
 
 
 @compiled
-def _write_pose(coordinates: np.ndarray, box: Box, relative: np.ndarray, pose: np.ndarray) -> None:
+def _write_pose(
+    coordinates: np.ndarray, region: Region, relative: np.ndarray, pose: np.ndarray
+) -> None:
     """Write the pose at coordinates (6,); `relative` (3, 3) is room for a turn."""
-    half = box.half_ranges
+    half = region.half_ranges
     one, two, three = coordinates[3] * half[3], coordinates[4] * half[4], coordinates[5] * half[5]
-    if box.vectors:
+    if region.vectors:
         _write_turn_by_vector(one, two, three, relative)
     else:
         _write_turn_by_angles(one, two, three, relative)
-    _write_product(box.centre, relative, pose)
+    _write_product(region.centre, relative, pose)
     for row in range(3):
-        pose[row, 3] = box.centre[row, 3] + coordinates[row] * half[row]
+        pose[row, 3] = region.centre[row, 3] + coordinates[row] * half[row]
 
 
 @compiled
 def _write_coordinates(
-    pose: np.ndarray, box: Box, relative: np.ndarray, coordinates: np.ndarray
+    pose: np.ndarray, region: Region, relative: np.ndarray, coordinates: np.ndarray
 ) -> None:
     """Write the coordinates (6,) of a pose; `relative` (3, 3) is room for a turn."""
     for row in range(3):
-        coordinates[row] = pose[row, 3] - box.centre[row, 3]
-    _write_product(box.centre.T, pose, relative)
-    if box.vectors:
+        coordinates[row] = pose[row, 3] - region.centre[row, 3]
+    _write_product(region.centre.T, pose, relative)
+    if region.vectors:
         _write_vector(relative, coordinates[3:])
     else:
         coordinates[3] = np.arctan2(relative[2, 1], relative[2, 2])
         coordinates[4] = np.arctan2(-relative[2, 0], np.hypot(relative[0, 0], relative[1, 0]))
         coordinates[5] = np.arctan2(relative[1, 0], relative[0, 0])
     for number in range(6):
-        coordinates[number] /= box.half_ranges[number]
+        coordinates[number] /= region.half_ranges[number]
 
 
 @compiled

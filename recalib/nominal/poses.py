@@ -53,7 +53,7 @@ class Workspace:
 
     def to_poses(self, coordinates: np.ndarray) -> np.ndarray:
         """Poses (..., 4, 4) at the coordinates (..., 6)."""
-        poses = kernels.poses_at(coordinates.reshape(-1, 6), self.box)
+        poses = kernels.poses_at(coordinates.reshape(-1, 6), self.region)
         return poses.reshape(*coordinates.shape[:-1], 4, 4)
 
     def to_coordinates(self, poses: np.ndarray) -> np.ndarray:
@@ -61,7 +61,7 @@ class Workspace:
 
         From the centre's orientation, a pitch must stay below 90 degrees, a turn below 180.
         """
-        numbers = kernels.coordinates_of(poses.reshape(-1, 4, 4), self.box)
+        numbers = kernels.coordinates_of(poses.reshape(-1, 4, 4), self.region)
         return numbers.reshape(*poses.shape[:-2], 6)
 
     @property
@@ -69,9 +69,9 @@ class Workspace:
         return self.coordinates == "rotation_vector"
 
     @cached_property
-    def box(self) -> kernels.Box:
+    def region(self) -> kernels.Region:
         """The workspace as compiled loops read it."""
-        return kernels.Box(self.centre, self.half_ranges, self._vectors)
+        return kernels.Region(self.centre, self.half_ranges, self._vectors)
 
     def sample(self, generator: np.random.Generator, *shape: int) -> np.ndarray:
         """Coordinates (*shape, 6) drawn uniformly from the box."""

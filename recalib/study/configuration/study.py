@@ -109,8 +109,8 @@ class PaperDamage(Part):
     """Random poses over which initial errors are averaged."""
 
 
-Cells = Annotated[int, Field(strict=True, ge=1, le=20)]
-Grid = tuple[Cells, Cells, Cells]
+CellCount = Annotated[int, Field(strict=True, ge=1, le=20)]
+Grid = tuple[CellCount, CellCount, CellCount]
 
 
 class LearnerSettings(Part):

@@ -5,12 +5,11 @@ from unittest import mock
 import numpy as np
 import pandas as pd
 import pytest
-from recalib.learners.cells import Cells
 
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
-from recalib.learners import schedules
-from recalib.learners.nets import Nets
+from recalib.learners import kernels
+from recalib.learners import rules as learning_rules
 from recalib.study.evidence.checks import check
 from recalib.study.experiments.poses import Stream, train_for_results
 from recalib.study.experiments.settings import build_tuned
@@ -54,37 +53,34 @@ def final_errors(study, controller, learner="improved"):
     return check(summary, expected)
 
 
-def random_winner(nets, u):
-    rng = np.random.default_rng(0)
-    return rng.integers(len(nets.w_k), size=u.shape[:-1]), rng.integers(
-        len(nets.w_kl), size=u.shape[:-1]
-    )
+def random_winners():
+    """Other cells than the winners teach their neighbours."""
+    learn, rng = kernels.learn, np.random.default_rng(0)
+
+    def mistaken(cells, waiting, increments, winners, *others):
+        learn(cells, waiting, increments, rng.integers(27, size=winners.shape), *others)
+
+    return mock.patch.object(kernels, "learn", mistaken)
 
 
-def planted_in_targets(mistake):
-    """Every update's target made another by the mistake."""
-    update = Cells.update
+def nothing_propagated(*names):
+    """Zeros are propagated in place of these, of `kernels.Cells`."""
+    learn = kernels.learn
 
-    def mistaken(cells, rate, g_k, g_kl, target):
-        update(cells, rate, g_k, g_kl, mistake(target))
+    def mistaken(cells, waiting, *others):
+        learn(cells, waiting, *others)
+        for name in names:
+            getattr(cells, name)[:, :, waiting] = 0
 
-    return mock.patch.object(Cells, "update", mistaken)
-
-
-def no_jacobian(target):
-    return np.zeros_like(target) if target.ndim == 3 else target
-
-
-def inverted(equal_visits):
-    return lambda start, end, fraction, n, spread: equal_visits(start, end, fraction, -n, spread)
+    return mock.patch.object(kernels, "learn", mistaken)
 
 
 PLANTED = {
-    "Jacobian increment off": lambda: planted_in_targets(no_jacobian),
-    "winner at random": lambda: mock.patch.object(Nets, "winner", random_winner),
+    "Jacobian increment off": lambda: nothing_propagated("jacobian_star"),
+    "winner at random": random_winners,
     # dt proportional to width^n d(width) instead of width^-n: most of the time at the large widths
     "equal visits inverted": lambda: mock.patch.object(
-        schedules, "equal_visits", inverted(schedules.equal_visits)
+        learning_rules, "equal_visits", lambda dimensions, _: 1.0 + dimensions
     ),
 }
 
@@ -95,7 +91,7 @@ def test_without_an_error_the_check_is_green(study, controller, learner):
 
 
 def test_an_error_planted_in_ritters_rules_turns_the_check_red(study, controller):
-    with planted_in_targets(np.zeros_like):
+    with nothing_propagated("theta_star", "jacobian_star"):
         assert not final_errors(study, controller, "ritter_200")["ok"].any()
 
 
