@@ -7,7 +7,6 @@ from functools import cache
 
 import pytest
 
-from recalib.study.plots.registry import FIGURES
 from tests.conftest import ROOT, loaded_with
 
 # Packages and loose modules, from the ground up: each imports those before it alone.
@@ -104,11 +103,6 @@ def files_of(name: str) -> set[str]:
     stems = ["/".join(parts[: count + 1]) for count in range(len(parts))]
     paths = {f"{stem}{end}" for stem in stems for end in (".py", "/__init__.py")}
     return {path for path in paths if (ROOT / path).is_file()}
-
-
-def test_a_figure_of_results_moves_no_arm():
-    homes = {its.home for its in FIGURES.values()}
-    assert brought(homes) == {"matplotlib", "pandas"}
 
 
 @pytest.mark.parametrize("name", ["recalib", "recalib.laboratory.command_line"])

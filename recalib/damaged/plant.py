@@ -61,7 +61,7 @@ class Plant:
         self.moves += commands.shape[1]
         if self._disturbances is None and self._chain is not None:
             there = self._home_coordinates, np.ascontiguousarray(commands), self._refused
-            given: tuple[Any, ...] = *self._controller.flat, *self._chain, *there
+            given: tuple[Any, ...] = *self._controller.nominal, *self._chain, *there
             return Outcome(*kernels.move(*given))
         achieved, executed = self._disturbed(self._controller.targets(commands))
         self._refused += np.sum(~executed, axis=1)
@@ -98,7 +98,7 @@ class Plant:
     def _forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (run, move, 4, 4) [m] at the joint angles (run, move, joint) [rad]."""
         if self._chain is not None:
-            return kernels.forward(self._chain, angles)
+            return kernels.forward(tuple(self._chain), angles)
         if len(self._arms) > 1:
             pairs = zip(self._arms, angles, strict=True)
             return np.stack([arm.forward(own) for arm, own in pairs])

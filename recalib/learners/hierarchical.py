@@ -43,7 +43,7 @@ class HierarchicalLearner:
     def command(self, desired: np.ndarray) -> np.ndarray:
         """Pose commands (run, pose, 6) for the desired poses (run, pose, 6)."""
         self.maps.settle()
-        return kernels.commands(self.maps.cells, np.ascontiguousarray(desired))
+        return kernels.commands(tuple(self.maps.cells), np.ascontiguousarray(desired))
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
         """One learning cycle with its two moves; see `Learner.learn`.
@@ -54,7 +54,7 @@ class HierarchicalLearner:
         maps, desired = self.maps, np.ascontiguousarray(desired)
         if maps.waiting == kernels.WAITING:
             maps.settle()
-        cells = maps.cells, maps.waiting, maps.increments
+        cells = tuple(maps.cells), maps.waiting, maps.increments
         command, winners, theta, jacobian = kernels.respond(*cells, desired)
         sent = command[:, None]
         first = execute(sent)

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from recalib.numerics.compiled import compiled
+from recalib.numerics.compiled import compiled, inner
 
 WAITING = 32  # updates, at most: more make reading a cell slower than they make updates faster
 THETA, JACOBIAN = 0, 1  # what cells hold, and the places of their numbers in pairs
@@ -64,7 +64,7 @@ def fall(start: Number, end: Number, fraction: Number | float, power: float) -> 
     return (start**power + (end**power - start**power) * fraction) ** (1 / power)
 
 
-@compiled
+@inner
 def nearest(point: np.ndarray, centres: np.ndarray) -> int:
     """Index of the nearest of the centres (cells, d) to a point (d,)."""
     found, least = 0, np.inf
@@ -87,11 +87,12 @@ def nearest_of(points: np.ndarray, centres: np.ndarray) -> np.ndarray:
 
 
 @compiled
-def commands(cells: Cells, desired: np.ndarray) -> np.ndarray:
+def commands(plain: tuple[np.ndarray, ...], desired: np.ndarray) -> np.ndarray:
     """Pose commands (run, pose, 6) for the desired poses (run, pose, 6), by (1).
 
     No update may wait.
     """
+    cells = Cells(*plain)
     found, outputs = np.empty(desired.shape), cells.theta.shape[-1]
     for run in range(desired.shape[0]):
         for pose in range(desired.shape[1]):
@@ -110,11 +111,15 @@ def commands(cells: Cells, desired: np.ndarray) -> np.ndarray:
 
 @compiled
 def respond(
-    cells: Cells, waiting: int, increments: tuple[bool, bool], desired: np.ndarray
+    plain: tuple[np.ndarray, ...],
+    waiting: int,
+    increments: tuple[bool, bool],
+    desired: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The first command of an iteration, by (1), and what it was made of.
 
     Args:
+        plain: `Cells` as a plain tuple.
         waiting: how many updates wait.
         increments: whether increments of theta and of Jacobians are propagated, or their values.
         desired: (run, 6) poses.
@@ -122,6 +127,7 @@ def respond(
     Returns the commands (run, 6), the winning cells (run, 2), and what they hold: theta (run, 6)
     and Jacobians (run, 6, 6).
     """
+    cells = Cells(*plain)
     runs, outputs = len(desired), cells.theta.shape[-1]
     command, winners = np.empty((runs, 6)), np.empty((runs, 2), dtype=np.int64)
     theta, jacobian = np.empty((runs, 6)), np.empty((runs, 6, 6))
@@ -178,7 +184,7 @@ def corrections(jacobian: np.ndarray, desired: np.ndarray, achieved: np.ndarray)
 
 @compiled
 def learn(
-    cells: Cells,
+    plain: tuple[np.ndarray, ...],
     waiting: int,
     increments: tuple[bool, bool],
     winners: np.ndarray,
@@ -200,6 +206,7 @@ def learn(
     without both.
 
     Args:
+        plain, waiting, increments: as of `respond`.
         winners, theta, jacobian: as `respond` returned them.
         correction: (run, 6) A_kl (u - u').
         first, second: (run, 1, 6) the achieved poses u' and u''.
@@ -209,6 +216,7 @@ def learn(
         rate: how the learning rate c' falls: from (run,) to (run,), by which power.
         fraction: of the training that is done.
     """
+    cells = Cells(*plain)
     moved, direction, outputs = np.empty(6), np.empty(6), cells.theta.shape[-1]
     for run in range(len(first)):
         square, length = 0.0, 0.0
@@ -245,7 +253,7 @@ def learn(
                 cells.jacobian_star[run, each, waiting, 6 * output + column] = star
 
 
-@compiled
+@inner
 def _neighbours(squares: np.ndarray, width: float, weights: np.ndarray) -> None:
     """Write the Gaussian neighbourhood (cells,) of a winner, by squared distances to it."""
     for cell in range(len(squares)):

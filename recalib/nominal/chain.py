@@ -52,7 +52,7 @@ class Chain(kernels.Arms):
         Raises ValueError: angles of other arms or joints.
         """
         self._check(angles, len(self.slides))
-        return kernels.forward(self, angles)
+        return kernels.forward(tuple(self), angles)
 
     def jacobians(self, angles: np.ndarray) -> np.ndarray:
         """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad].
@@ -61,7 +61,7 @@ class Chain(kernels.Arms):
         base's axes. Raises ValueError: angles of other joints.
         """
         self._check(angles)
-        return kernels.jacobians(self, angles)
+        return kernels.jacobians(tuple(self), angles)
 
     def solve(self, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint angles (posture, n) [rad] that take the tool of the first arm to poses.
@@ -82,7 +82,7 @@ class Chain(kernels.Arms):
         self._check(start)
         if poses.shape != (len(start), 4, 4):
             raise ValueError(f"poses are {poses.shape}; expected: ({len(start)}, 4, 4)")
-        return kernels.solve(self, poses, start.astype(float))
+        return kernels.solve(tuple(self), poses, start.astype(float))
 
     def _check(self, angles: np.ndarray, *arms: int) -> None:
         """Raise ValueError unless angles are (*arms, posture, n): compiled loops do not look."""

@@ -93,30 +93,26 @@ class Controller:
         self._knots = np.concatenate([grid * part for part in BOXES]), np.concatenate(solved)
 
     @cached_property
-    def inverse_kinematics(self) -> tuple[Chain, kernels.Region, kernels.Inverse]:
+    def nominal(self) -> kernels.ControllerArrays:
         """What compiled loops need to answer commands: the arm, its workspace, where they start.
 
-        The start is a polynomial through the knots, which are made when it is first needed.
+        The start is a polynomial through the knots, which is made when it is first needed.
         """
         coordinates, angles = self._knots
         q, r = np.linalg.qr(monomials(coordinates, DEGREE))
-        weights = np.linalg.solve(r, q.T @ angles)
-        inverse = kernels.Inverse(*factors(6, DEGREE), weights, self.robot.lower, self.robot.upper)
-        return self._chain, self.robot.workspace.region, inverse
-
-    @cached_property
-    def flat(self) -> tuple[Any, ...]:
-        """The same one by one, as `kernels.move` takes it."""
-        return tuple(array for part in self.inverse_kinematics for array in part)
+        start = *factors(6, DEGREE), np.linalg.solve(r, q.T @ angles)
+        limits = self.robot.lower, self.robot.upper
+        given: tuple[Any, ...] = *self._chain, *self.robot.workspace.region, *start, *limits
+        return kernels.ControllerArrays(*given)
 
     def solve(self, poses: np.ndarray) -> Solution:
         """Joint angles for the commanded poses (n, 4, 4), never raising: see `Solution.reached`."""
         commands = self.robot.workspace.to_coordinates(poses)
-        return Solution(*kernels.targets(*self.inverse_kinematics, commands))
+        return Solution(*kernels.targets(*self.nominal, commands))
 
     def targets(self, commands: np.ndarray) -> Targets:
         """What the commands, coordinates (run, move, 6), ask of the joints."""
-        solution = Solution(*kernels.targets(*self.inverse_kinematics, commands.reshape(-1, 6)))
+        solution = Solution(*kernels.targets(*self.nominal, commands.reshape(-1, 6)))
         return Targets(
             solution.angles.reshape(*commands.shape[:-1], -1),
             solution.reached.reshape(commands.shape[:-1]),

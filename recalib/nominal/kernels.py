@@ -8,11 +8,11 @@ A pose is three rows of a homogeneous matrix. Every joint turns about, or slides
 of its frame: `recalib.nominal.chain` turns the frames of an arm so.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from recalib.numerics.compiled import compiled
+from recalib.numerics.compiled import compiled, inner
 
 TOLERANCE = 1e-11  # of the residual, in m and rad: a hundredth of what is asked of the controller
 STEPS = 25
@@ -20,6 +20,9 @@ SMALL = 1e-6  # m, rad: a turn whose sine is less is none, or half a turn
 LONGEST_STEP = 0.5  # rad: keeps Newton's method on the branch that it starts on
 SINGULAR = 1e9  # rad: a step so long comes from a singular Jacobian
 TRUSTED = 1.5  # coordinates up to which a start polynomial serves: commands lie a little outside
+
+
+Plain = tuple[Any, ...]  # what is in one of the classes below, without its class
 
 
 class Arms(NamedTuple):
@@ -43,15 +46,30 @@ class Region(NamedTuple):
     vectors: bool
 
 
-class Inverse(NamedTuple):
-    """What inverse kinematics starts from, and the limits within which its answers count.
+class Polynomial(NamedTuple):
+    """Of `ControllerArrays`, the polynomial from which inverse kinematics starts."""
+
+    shorter: np.ndarray
+    last: np.ndarray
+    weights: np.ndarray
+
+
+class ControllerArrays(NamedTuple):
+    """A controller: the nominal arm, its workspace, and where inverse kinematics starts.
 
     Attributes:
+        placements, slides: of `Arms`.
+        centre, half_ranges, vectors: of `Region`.
         shorter, last: (F,) the monomials of the start polynomial; see `recalib.numerics.monomials`.
         weights: (F, n) of them, for joint angles [rad].
         lower, upper: (n,) joint limits [rad].
     """
 
+    placements: np.ndarray
+    slides: np.ndarray
+    centre: np.ndarray
+    half_ranges: np.ndarray
+    vectors: bool
     shorter: np.ndarray
     last: np.ndarray
     weights: np.ndarray
@@ -60,22 +78,22 @@ class Inverse(NamedTuple):
 
 
 @compiled
-def poses_at(coordinates: np.ndarray, region: Region) -> np.ndarray:
+def poses_at(coordinates: np.ndarray, region: Plain) -> np.ndarray:
     """Poses (n, 4, 4) [m] at coordinates (n, 6) of a workspace."""
-    poses = np.zeros((len(coordinates), 4, 4))
+    box, poses = Region(*region), np.zeros((len(coordinates), 4, 4))
     relative = np.empty((3, 3))
     for index in range(len(coordinates)):
-        _write_pose(coordinates[index], region, relative, poses[index])
+        _write_pose(coordinates[index], box, relative, poses[index])
         poses[index, 3, 3] = 1
     return poses
 
 
 @compiled
-def coordinates_of(poses: np.ndarray, region: Region) -> np.ndarray:
+def coordinates_of(poses: np.ndarray, region: Plain) -> np.ndarray:
     """Coordinates (n, 6) in a workspace of poses (n, 4, 4) [m]."""
-    coordinates, relative = np.empty((len(poses), 6)), np.empty((3, 3))
+    box, coordinates, relative = Region(*region), np.empty((len(poses), 6)), np.empty((3, 3))
     for index in range(len(poses)):
-        _write_coordinates(poses[index], region, relative, coordinates[index])
+        _write_coordinates(poses[index], box, relative, coordinates[index])
     return coordinates
 
 
@@ -100,12 +118,12 @@ def distances(achieved: np.ndarray, desired: np.ndarray) -> tuple[np.ndarray, np
 
 
 @compiled
-def forward(arms: Arms, angles: np.ndarray) -> np.ndarray:
+def forward(chain: Plain, angles: np.ndarray) -> np.ndarray:
     """Poses (run, posture, 4, 4) of the tools [m] at joint angles (run, posture, n) [rad].
 
     Of one arm for each run, or of one for all.
     """
-    count, postures, joints = angles.shape
+    arms, (count, postures, joints) = Arms(*chain), angles.shape
     poses = np.zeros((count, postures, 4, 4))
     origins, axes = np.empty((joints, 3)), np.empty((joints, 3))
     for run in range(count):
@@ -118,9 +136,9 @@ def forward(arms: Arms, angles: np.ndarray) -> np.ndarray:
 
 
 @compiled
-def jacobians(arms: Arms, angles: np.ndarray) -> np.ndarray:
+def jacobians(chain: Plain, angles: np.ndarray) -> np.ndarray:
     """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad]."""
-    postures, joints = angles.shape
+    arms, (postures, joints) = Arms(*chain), angles.shape
     found, pose = np.empty((postures, 6, joints)), np.empty((3, 4))
     origins, axes = np.empty((joints, 3)), np.empty((joints, 3))
     for posture in range(postures):
@@ -130,8 +148,9 @@ def jacobians(arms: Arms, angles: np.ndarray) -> np.ndarray:
 
 
 @compiled
-def solve(arms: Arms, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def solve(chain: Plain, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Joint angles (posture, n) [rad] that take the first arm's tool to poses, and their errors."""
+    arms = Arms(*chain)
     found, errors, scratch = start.copy(), np.empty(len(start)), _scratch(start.shape[1])
     for index in range(len(start)):
         errors[index] = _newton(arms, poses[index], found[index], scratch)
@@ -140,21 +159,36 @@ def solve(arms: Arms, poses: np.ndarray, start: np.ndarray) -> tuple[np.ndarray,
 
 @compiled
 def targets(
-    arms: Arms, region: Region, inverse: Inverse, commands: np.ndarray
+    placements: np.ndarray,
+    slides: np.ndarray,
+    centre: np.ndarray,
+    half_ranges: np.ndarray,
+    vectors: bool,
+    shorter: np.ndarray,
+    last: np.ndarray,
+    weights: np.ndarray,
+    lower: np.ndarray,
+    upper: np.ndarray,
+    commands: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Joint angles (n, joint) [rad] for commands (n, 6) in coordinates of a workspace.
+    """Joint angles (n, joint) [rad] with which a controller answers commands (n, 6).
 
     Also the errors (n,) of their poses [m, rad], and whether they lie within the limits (n,).
+
+    Args:
+        placements, ..., upper: those of `ControllerArrays`, one by one: a call unpacks them three times as
+            fast so, which is half of the time of few moves.
+        commands: in coordinates.
     """
-    joints = inverse.weights.shape[1]
+    arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
+    start = Polynomial(shorter, last, weights)
+    joints = weights.shape[1]
     angles, errors = np.empty((len(commands), joints)), np.empty(len(commands))
     within = np.empty(len(commands), dtype=np.bool_)
-    scratch, room = _scratch(joints), _room(inverse)
+    scratch, room = _scratch(joints), _room(start)
     for index in range(len(commands)):
-        errors[index] = _answer(
-            arms, region, inverse, commands[index], room, scratch, angles[index]
-        )
-        within[index] = _within(angles[index], inverse)
+        errors[index] = _answer(arms, box, start, commands[index], room, scratch, angles[index])
+        within[index] = _within(angles[index], lower, upper)
     return angles, errors, within
 
 
@@ -176,12 +210,11 @@ def move(
     commands: np.ndarray,
     refused: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where commands take damaged arms that stand at the angles that their controller finds.
+    """Where commands take damaged arms that stand at the angles with which a controller answers.
 
     Args:
-        placements, slides: the nominal arm, of `Arms`; then its `Region` and its `Inverse`. One by
-            one, since a call unpacks them three times as fast so: half of the time of few moves.
-        damaged_placements, damaged_slides: one arm for each run, or one for all.
+        placements, ..., upper: as of `targets`.
+        damaged_placements, damaged_slides: of `Arms`, one for each run, or one for all.
         homes: (arm, 6) where each stands after a refused move, in coordinates.
         commands: (run, move, 6) coordinates.
         refused: (run,) how many commands were refused; it is counted on.
@@ -190,39 +223,37 @@ def move(
     (run, move).
     """
     nominal, damaged = Arms(placements, slides), Arms(damaged_placements, damaged_slides)
-    region = Region(centre, half_ranges, vectors)
-    inverse = Inverse(shorter, last, weights, lower, upper)
+    box, start = Region(centre, half_ranges, vectors), Polynomial(shorter, last, weights)
     runs, moves, _ = commands.shape
-    joints = inverse.weights.shape[1]
+    joints = weights.shape[1]
     achieved, executed = np.empty(commands.shape), np.empty((runs, moves), dtype=np.bool_)
-    scratch, room, angles = _scratch(joints), _room(inverse), np.empty(joints)
+    scratch, room, angles = _scratch(joints), _room(start), np.empty(joints)
     pose, relative, origins, axes = scratch[1], room[2], scratch[2], scratch[3]
     for run in range(runs):
         arm = run if len(homes) > 1 else 0
         for index in range(moves):
-            command = commands[run, index]
-            error = _answer(nominal, region, inverse, command, room, scratch, angles)
-            executed[run, index] = error <= TOLERANCE and _within(angles, inverse)
+            error = _answer(nominal, box, start, commands[run, index], room, scratch, angles)
+            executed[run, index] = error <= TOLERANCE and _within(angles, lower, upper)
             if executed[run, index]:
                 _stand(damaged, arm, angles, pose, origins, axes)
-                _write_coordinates(pose, region, relative, achieved[run, index])
+                _write_coordinates(pose, box, relative, achieved[run, index])
             else:
                 _copy(homes[arm], achieved[run, index])
                 refused[run] += 1
     return achieved, executed
 
 
-@compiled
-def _room(inverse: Inverse) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+@inner
+def _room(start: Polynomial) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Where `_answer` works: monomials, coordinates, a relative turn and a pose."""
-    return np.empty(len(inverse.last)), np.empty(6), np.empty((3, 3)), np.empty((3, 4))
+    return np.empty(len(start.last)), np.empty(6), np.empty((3, 3)), np.empty((3, 4))
 
 
-@compiled
+@inner
 def _answer(
     arms: Arms,
-    region: Region,
-    inverse: Inverse,
+    box: Region,
+    start: Polynomial,
     command: np.ndarray,
     room: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray],
     scratch: tuple[np.ndarray, ...],
@@ -230,13 +261,13 @@ def _answer(
 ) -> float:
     """Write the joint angles (n,) for a command, from the start polynomial; returns their error."""
     products, point, relative, pose = room
-    _write_pose(command, region, relative, pose)
+    _write_pose(command, box, relative, pose)
     _copy(command, point)
     beyond = far = False
     for number in range(6):
-        far |= number >= 3 and abs(point[number] * region.half_ranges[number]) > np.pi / 2
+        far |= number >= 3 and abs(point[number] * box.half_ranges[number]) > np.pi / 2
     if far:  # a turn of more than a right angle may be a smaller one the other way
-        _write_coordinates(pose, region, relative, point)
+        _write_coordinates(pose, box, relative, point)
     for number in range(6):
         beyond |= abs(point[number]) > TRUSTED
     if beyond:  # farther out a polynomial means nothing: the nearest pose inside has to do
@@ -244,23 +275,23 @@ def _answer(
             point[number] = min(max(point[number], -1.0), 1.0)
     products[0] = 1
     for joint in range(len(angles)):
-        angles[joint] = inverse.weights[0, joint]
+        angles[joint] = start.weights[0, joint]
     for index in range(1, len(products)):
-        products[index] = products[inverse.shorter[index]] * point[inverse.last[index]]
+        products[index] = products[start.shorter[index]] * point[start.last[index]]
         for joint in range(len(angles)):
-            angles[joint] += products[index] * inverse.weights[index, joint]
+            angles[joint] += products[index] * start.weights[index, joint]
     return _newton(arms, pose, angles, scratch)
 
 
-@compiled
-def _within(angles: np.ndarray, inverse: Inverse) -> bool:
+@inner
+def _within(angles: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> bool:
+    within = True
     for joint in range(len(angles)):
-        if not inverse.lower[joint] <= angles[joint] <= inverse.upper[joint]:
-            return False
-    return True
+        within &= lower[joint] <= angles[joint] <= upper[joint]
+    return within
 
 
-@compiled
+@inner
 def _stand(
     arms: Arms,
     arm: int,
@@ -291,7 +322,7 @@ def _stand(
             pose[row, 3] = x * after[0, 3] + y * after[1, 3] + z * after[2, 3] + p
 
 
-@compiled
+@inner
 def _write_jacobian(
     arms: Arms, pose: np.ndarray, origins: np.ndarray, axes: np.ndarray, jacobian: np.ndarray
 ) -> None:
@@ -308,7 +339,7 @@ def _write_jacobian(
             jacobian[3 + row, joint] = axes[joint, row]
 
 
-@compiled
+@inner
 def _scratch(joints: int) -> tuple[np.ndarray, ...]:
     """Where `_newton` works: angles, a pose, origins, axes, a Jacobian, a residual and a step."""
     return (
@@ -322,7 +353,7 @@ def _scratch(joints: int) -> tuple[np.ndarray, ...]:
     )
 
 
-@compiled
+@inner
 def _newton(
     arms: Arms, goal: np.ndarray, found: np.ndarray, scratch: tuple[np.ndarray, ...]
 ) -> float:
@@ -354,13 +385,13 @@ def _newton(
     return error
 
 
-@compiled
+@inner
 def _copy(vector: np.ndarray, to: np.ndarray) -> None:
     for index in range(len(vector)):
         to[index] = vector[index]
 
 
-@compiled
+@inner
 def _shortest_step(jacobian: np.ndarray, residual: np.ndarray) -> np.ndarray:
     """Of the steps (n,) that leave least, the shortest; for n > 6, J' inv(J J') m."""
     if jacobian.shape[1] > 6:
@@ -378,7 +409,7 @@ def _shortest_step(jacobian: np.ndarray, residual: np.ndarray) -> np.ndarray:
     return np.linalg.pinv(jacobian, 1 / SINGULAR) @ residual
 
 
-@compiled
+@inner
 def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float:
     """Write what takes a pose to a goal (6,), along the base's axes; returns its largest number.
 
@@ -399,7 +430,7 @@ def _residual(pose: np.ndarray, goal: np.ndarray, residual: np.ndarray) -> float
     return np.inf if longest < SMALL and _is_half_a_turn(pose, goal) else longest
 
 
-@compiled
+@inner
 def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
     """Whether a turn from pose to goal that is none or half a one is half a one."""
     trace = 0.0
@@ -409,7 +440,7 @@ def _is_half_a_turn(pose: np.ndarray, goal: np.ndarray) -> bool:
     return trace < 1
 
 
-@compiled
+@inner
 def _longest(vector: np.ndarray) -> float:
     """Its largest number; nan if there is one."""
     longest = 0.0
@@ -421,7 +452,7 @@ def _longest(vector: np.ndarray) -> float:
     return longest
 
 
-@compiled
+@inner
 def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
     """Solve linear equations in place, and say whether they can be solved."""
     size = len(vector)
@@ -452,41 +483,41 @@ def _eliminate(matrix: np.ndarray, vector: np.ndarray) -> bool:
     return _longest(vector) <= SINGULAR
 
 
-@compiled
+@inner
 def _write_pose(
-    coordinates: np.ndarray, region: Region, relative: np.ndarray, pose: np.ndarray
+    coordinates: np.ndarray, box: Region, relative: np.ndarray, pose: np.ndarray
 ) -> None:
     """Write the pose at coordinates (6,); `relative` (3, 3) is room for a turn."""
-    half = region.half_ranges
+    half = box.half_ranges
     one, two, three = coordinates[3] * half[3], coordinates[4] * half[4], coordinates[5] * half[5]
-    if region.vectors:
+    if box.vectors:
         _write_turn_by_vector(one, two, three, relative)
     else:
         _write_turn_by_angles(one, two, three, relative)
-    _write_product(region.centre, relative, pose)
+    _write_product(box.centre, relative, pose)
     for row in range(3):
-        pose[row, 3] = region.centre[row, 3] + coordinates[row] * half[row]
+        pose[row, 3] = box.centre[row, 3] + coordinates[row] * half[row]
 
 
-@compiled
+@inner
 def _write_coordinates(
-    pose: np.ndarray, region: Region, relative: np.ndarray, coordinates: np.ndarray
+    pose: np.ndarray, box: Region, relative: np.ndarray, coordinates: np.ndarray
 ) -> None:
     """Write the coordinates (6,) of a pose; `relative` (3, 3) is room for a turn."""
     for row in range(3):
-        coordinates[row] = pose[row, 3] - region.centre[row, 3]
-    _write_product(region.centre.T, pose, relative)
-    if region.vectors:
+        coordinates[row] = pose[row, 3] - box.centre[row, 3]
+    _write_product(box.centre.T, pose, relative)
+    if box.vectors:
         _write_vector(relative, coordinates[3:])
     else:
         coordinates[3] = np.arctan2(relative[2, 1], relative[2, 2])
         coordinates[4] = np.arctan2(-relative[2, 0], np.hypot(relative[0, 0], relative[1, 0]))
         coordinates[5] = np.arctan2(relative[1, 0], relative[0, 0])
     for number in range(6):
-        coordinates[number] /= region.half_ranges[number]
+        coordinates[number] /= box.half_ranges[number]
 
 
-@compiled
+@inner
 def _write_product(one: np.ndarray, other: np.ndarray, product: np.ndarray) -> None:
     """Of two orientations, each the first three rows and columns."""
     for row in range(3):
@@ -498,12 +529,12 @@ def _write_product(one: np.ndarray, other: np.ndarray, product: np.ndarray) -> N
             )
 
 
-@compiled
+@inner
 def _write_row(row: np.ndarray, x: float, y: float, z: float) -> None:
     row[0], row[1], row[2] = x, y, z
 
 
-@compiled
+@inner
 def _write_turn_by_angles(roll: float, pitch: float, yaw: float, turn: np.ndarray) -> None:
     """Rz(yaw) Ry(pitch) Rx(roll)."""
     a, b, c = np.cos(roll), np.cos(pitch), np.cos(yaw)
@@ -513,7 +544,7 @@ def _write_turn_by_angles(roll: float, pitch: float, yaw: float, turn: np.ndarra
     _write_row(turn[2], -e, b * d, b * a)
 
 
-@compiled
+@inner
 def _write_turn_by_vector(x: float, y: float, z: float, turn: np.ndarray) -> None:
     """exp([r]), by Rodrigues' formula."""
     angle = np.sqrt(x * x + y * y + z * z)
@@ -525,7 +556,7 @@ def _write_turn_by_vector(x: float, y: float, z: float, turn: np.ndarray) -> Non
     _write_row(turn[2], s * x * z - part * y, s * y * z + part * x, s * z * z + c)
 
 
-@compiled
+@inner
 def _write_vector(turn: np.ndarray, vector: np.ndarray) -> None:
     """Of exp([r]), by its quaternion: of four ways to it, one divides by no small number."""
     trace = turn[0, 0] + turn[1, 1] + turn[2, 2]

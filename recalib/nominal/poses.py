@@ -69,9 +69,9 @@ class Workspace:
         return self.coordinates == "rotation_vector"
 
     @cached_property
-    def region(self) -> kernels.Region:
-        """The workspace as compiled loops read it."""
-        return kernels.Region(self.centre, self.half_ranges, self._vectors)
+    def region(self) -> tuple[np.ndarray, np.ndarray, bool]:
+        """The workspace as compiled loops read it: see `recalib.nominal.kernels.Region`."""
+        return self.centre, self.half_ranges, self._vectors
 
     def sample(self, generator: np.random.Generator, *shape: int) -> np.ndarray:
         """Coordinates (*shape, 6) drawn uniformly from the box."""

@@ -1,7 +1,8 @@
 """Loops compiled by Numba: what a training calls hundreds of times a second.
 
 A compiled function and those that it calls belong in one file: Numba's cache notices changes of
-that file alone.
+that file alone. What is cached takes and returns arrays, numbers and plain tuples of them: a cache
+with a class that a later version of the file lacks could not be read.
 
 Numbers are assigned one by one: an assignment to a slice takes two seconds longer to compile, for
 an error message that no call here can raise.
@@ -26,3 +27,8 @@ def compiled(function: Callable[Arguments, Result]) -> Callable[Arguments, Resul
         return njit(cache=True, error_model="numpy")(function)
     except RuntimeError:  # neither beside the file nor in the user's cache
         return njit(error_model="numpy")(function)
+
+
+def inner(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
+    """The function, for compiled ones to call: it is compiled, and cached, as a part of them."""
+    return njit(error_model="numpy")(function)

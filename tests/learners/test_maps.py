@@ -48,7 +48,8 @@ def test_any_sequence_equals_immediate_updates(separate, increments, steps, seed
             jacobian = at_once(jacobian, increments[JACOBIAN], rates[:, JACOBIAN], *near, star)
             maps.waiting += 1
         desired = rng.uniform(-1, 1, (RUNS, 6))
-        _, winners, held, slopes = kernels.respond(cells, maps.waiting, maps.increments, desired)
+        given = tuple(cells), maps.waiting, maps.increments, desired
+        _, winners, held, slopes = kernels.respond(*given)
         for run, (k, l) in enumerate(winners):
             assert np.allclose(held[run], theta[run, :, k, l].ravel(), atol=1e-12)
             assert np.allclose(slopes[run].ravel(), jacobian[run, :, k, l].ravel(), atol=1e-12)

@@ -70,7 +70,7 @@ def nothing_propagated(*names):
     def mistaken(cells, waiting, *others):
         learn(cells, waiting, *others)
         for name in names:
-            getattr(cells, name)[:, :, waiting] = 0
+            getattr(kernels.Cells(*cells), name)[:, :, waiting] = 0
 
     return mock.patch.object(kernels, "learn", mistaken)
 
