@@ -176,8 +176,8 @@ def targets(
     Also the errors (n,) of their poses [m, rad], and whether they lie within the limits (n,).
 
     Args:
-        placements, ..., upper: those of `ControllerArrays`, one by one: a call unpacks them three times as
-            fast so, which is half of the time of few moves.
+        placements, ..., upper: those of `ControllerArrays`, one by one: a call unpacks them three
+            times as fast so, which is half of the time of few moves.
         commands: in coordinates.
     """
     arms, box = Arms(placements, slides), Region(centre, half_ranges, vectors)
