@@ -19,8 +19,8 @@ from recalib.learners.schedules import (
     expected_learning,
     fall,
 )
-from recalib.study.plots.palette import BOTH, FAILS, INK, NEUTRAL, STYLES, styles_of
-from recalib.study.plots.style import STYLE, plt, save, title
+from replication.plots.palette import BOTH, FAILS, INK, NEUTRAL, STYLES, styles_of
+from replication.plots.style import STYLE, plt, save, title
 
 LEARNED = STYLES["improved"].color  # what the improved map makes
 

@@ -1,6 +1,6 @@
 """Automatic recalibration of damaged robots: Ruiz de Angulo and Torras (1996), and what came since.
 
-The library knows of arms, damages and learners; `recalib.study` replicates the paper with it. What
+The library knows of arms, damages and learners; `replication` replicates the paper with it. What
 a user needs can be imported from here; the examples show how it fits together.
 """
 

@@ -27,11 +27,11 @@ from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm
 from recalib.nominal.robots import Robot
-from recalib.study.configuration.reading import read_study
-from recalib.study.configuration.study import Study
-from recalib.study.plan.competitors import make_peer, peers
-from recalib.study.scenarios.nominal import Nominal, nominal
-from recalib.study.scenarios.plants import Resolved, nominal_controller, resolve
+from replication.config.reading import read_study
+from replication.config.study import Study
+from replication.scenarios.nominal import Nominal, nominal
+from replication.scenarios.plants import Resolved, nominal_controller, resolve
+from replication.training.competitors import make_peer, peers
 from tests.synthetic import NOISE, Synthetic
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once

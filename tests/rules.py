@@ -10,7 +10,7 @@ from snakemake.api import SnakemakeApi
 from snakemake.iocontainers import Wildcards
 from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
-from recalib.study.plan.trainings import Trainings
+from replication.training.trainings import Trainings
 from tests.conftest import ROOT
 from workflow.scripts.call import checked
 

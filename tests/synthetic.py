@@ -18,8 +18,8 @@ import numpy as np
 import pandas as pd
 
 from recalib.numerics.randomness import generator
-from recalib.study.configuration import lengths
-from recalib.study.configuration.shipped import (
+from replication.config import lengths
+from replication.config.shipped import (
     DESIGN,
     DEVIATIONS,
     EFFORTS,
@@ -29,21 +29,20 @@ from recalib.study.configuration.shipped import (
     REFERENCE,
     pieces,
 )
-from recalib.study.configuration.study import Study
-from recalib.study.configuration.switches import SWITCHES
-from recalib.study.evidence import effects
-from recalib.study.evidence.benchmark import errors, reached
-from recalib.study.evidence.claims import CLAIMS, judge, judging
-from recalib.study.evidence.needs import Request
-from recalib.study.evidence.pages.real_arm import real_errors
-from recalib.study.evidence.results import Evidence
-from recalib.study.evidence.summary import summarise
-from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.inference import hierarchy, intervals
-from recalib.study.inference.measured import ERRORS
-from recalib.study.mapping.quantisation import ITERATIONS
-from recalib.study.plan.trainings import Trainings, searches, training
-from recalib.study.plots.registry import FIGURES
+from replication.config.study import Study
+from replication.config.switches import SWITCHES
+from replication.judgement import effects, hierarchy, intervals
+from replication.judgement.benchmark import errors, reached
+from replication.judgement.claims import CLAIMS, judge, judging
+from replication.judgement.measured import ERRORS
+from replication.judgement.needs import Request
+from replication.judgement.results import Evidence
+from replication.judgement.summary import summarise
+from replication.mapping.quantisation import ITERATIONS
+from replication.pages.real_arm import real_errors
+from replication.plots.registry import FIGURES
+from replication.training.samples import sample_of, sought
+from replication.training.trainings import Trainings, searches, training
 
 ROOT = Path(__file__).parents[1]
 INITIAL = np.array([8.3, 4.7])

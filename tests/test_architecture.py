@@ -116,8 +116,8 @@ def test_what_is_imported_first_waits_for_nothing(name):
         ("recalib", LIBRARY),
         ("recalib.identification", IDENTIFICATION),
         ("recalib.laboratory", LABORATORY),
-        ("recalib.study", STUDY),
-        ("recalib.study.evidence", EVIDENCE),
+        ("replication", STUDY),
+        ("replication.judgement", EVIDENCE),
     ],
 )
 def test_imports_point_one_way(root, order):
@@ -138,7 +138,7 @@ def test_the_library_knows_of_no_study_and_needs_what_it_declares():
     for path in (ROOT / "recalib").rglob("*.py"):
         if "study" not in path.relative_to(ROOT).parts:
             names = imported(path)
-            assert not [name for name in names if name.startswith("recalib.study")], path
+            assert not [name for name in names if name.startswith("replication")], path
             tops = {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"recalib"}
             looks = (LOOKS | PROGRAM | PICTURES | LIVE).get(
                 path.relative_to(ROOT / "recalib").as_posix(), set()

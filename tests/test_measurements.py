@@ -18,11 +18,11 @@ from recalib.loop.external import ExternalRobot
 from recalib.loop.interfaces import Outcome
 from recalib.loop.moves import OUTSIDE, WRAPPED, check_moves
 from recalib.nominal.poses import position_error
-from recalib.study.experiments.ensemble import feasible, scaled_arm
-from recalib.study.experiments.poses import Stream
-from recalib.study.experiments.settings import rules_of
-from recalib.study.experiments.trials import Search
-from recalib.study.scenarios.assignments import Ways
+from replication.scenarios.assignments import Ways
+from replication.training.ensemble import feasible, scaled_arm
+from replication.training.poses import Stream
+from replication.training.settings import rules_of
+from replication.training.trials import Search
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))

@@ -7,10 +7,10 @@ from functools import cache
 import pandas as pd
 import pytest
 
-from recalib.study.evidence.checks import expect
-from recalib.study.evidence.pages import words
-from recalib.study.evidence.pages.readme import in_a_sentence
-from recalib.study.evidence.pages.rendering import PAGES, render
+from replication.judgement.checks import expect
+from replication.pages import words
+from replication.pages.readme import in_a_sentence
+from replication.pages.rendering import PAGES, render
 from tests.conftest import ROOT
 from tests.synthetic import Synthetic, few_resamples, unread
 

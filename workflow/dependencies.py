@@ -13,12 +13,12 @@ from functools import cache
 from pathlib import Path
 
 from recalib.files.storage import digest
-from recalib.study.configuration.shipped import RESULTS
+from replication.config.shipped import RESULTS
 
 ROOT = Path(__file__).parents[1]
 SCRIPT = "workflow/scripts/call.py"
 # Read as text: to parse all modules takes longer than all else that happens at the start.
-OURS = r"((?:recalib|workflow)[\w.]*)"
+OURS = r"((?:recalib|replication|workflow)[\w.]*)"
 IMPORT = re.compile(rf"^ *(?:from {OURS} import (\([^)]*\)|.*)|import {OURS})", re.MULTILINE)
 NAME = re.compile(r"(\w+)(?: as \w+)?")
 

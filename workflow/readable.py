@@ -5,8 +5,8 @@ Snakemake reads the file before the project does, and names no file when it cann
 
 import sys
 
-from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.configuration.values import from_file
+from replication.config.messages import InvalidConfiguration
+from replication.config.values import from_file
 
 
 def main(file: str) -> None:

@@ -17,11 +17,11 @@ from typing import Any
 
 from recalib.errors import RecalibError
 from recalib.laboratory.viewer.program import HERE
-from recalib.study.configuration.shipped import RESULTS, SHIPPED
-from recalib.study.evidence.pages.report import layout
-from recalib.study.recording.naming import in_words
-from recalib.study.recording.web_viewer import copy_viewer
-from recalib.study.scenarios.plants import Resolved
+from replication.config.shipped import RESULTS, SHIPPED
+from replication.pages.report import layout
+from replication.recording.naming import in_words
+from replication.recording.web_viewer import copy_viewer
+from replication.scenarios.plants import Resolved
 
 TEMPLATE = Path(__file__).with_name("watch.html.j2")
 FIGURES = Path(__file__).resolve().parents[1] / "figures"  # the committed ones

@@ -35,8 +35,7 @@ class HierarchicalLearner:
         self.maps = Maps(runs, rules)
         self._runs = runs
         self._metric = np.square(np.asarray(rules.metric, dtype=float))
-        widths = np.asarray(self.schedule.initial_width), self.schedule.ends(rules.maps)
-        self._widths = *widths, rules.width_power
+        self._widths = *self.schedule.widths(rules.maps), rules.width_power
         start, end = np.asarray(self.schedule.initial_rate), np.asarray(self.schedule.final_rate)
         self._rate = start, end, rules.rate_power
 
@@ -83,7 +82,7 @@ class HierarchicalLearner:
     def widths(self, fraction: float) -> np.ndarray:
         """Widths (run, map, 2) of g_k and g_kl after this fraction of the training."""
         start, ends, power = self._widths
-        return fall(start[:, None, None], ends, fraction, power)
+        return fall(start, ends, fraction, power)
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:

@@ -212,7 +212,7 @@ def learn(
         first, second: (run, 1, 6) the achieved poses u' and u''.
         first_executed, second_executed: (run, 1) whether these moves were executed.
         metric: (6,) squared units of the norm in (3) and (8).
-        widths: how those of g_k and g_kl fall: from (run,) to (run, map, 2), by which power.
+        widths: how those of g_k and g_kl fall: from and to (run, map, 2), by which power.
         rate: how the learning rate c' falls: from (run,) to (run,), by which power.
         fraction: of the training that is done.
     """
@@ -232,9 +232,9 @@ def learn(
         cells.rates[run, waiting, JACOBIAN] = c if both and far else 0.0
         k, l = winners[run]
         for each in range(6 // outputs):
-            width = fall(widths[0][run], widths[1][run, each, 0], fraction, widths[2])
+            width = fall(widths[0][run, each, 0], widths[1][run, each, 0], fraction, widths[2])
             _neighbours(cells.squares_k[k], width, cells.g_k[run, each, waiting])
-            width = fall(widths[0][run], widths[1][run, each, 1], fraction, widths[2])
+            width = fall(widths[0][run, each, 1], widths[1][run, each, 1], fraction, widths[2])
             _neighbours(cells.squares_kl[l], width, cells.g_kl[run, each, waiting])
         for row in range(6):
             each, output = row // outputs, row % outputs

@@ -46,7 +46,7 @@ class RadialLearner:
     def __init__(self, rules: Rules, schedule: Schedule, field: float = SPACING, *, runs: int = 1):
         self.rules, self.schedule = rules, schedule.over(runs)
         self.nets = Nets(rules.supernet, rules.subnet, rules.centres, rules.width_units)
-        self._final_widths = self.schedule.ends(rules.maps)
+        self._widths = self.schedule.widths(rules.maps)
         self.theta = np.tile(self.nets.centres, (runs, 1, 1, 1))
         self._field = field
 
@@ -76,8 +76,7 @@ class RadialLearner:
         rate = fall(start, end, fraction, self.rules.rate_power) * outcome.executed[:, 0]
         k, l = self.nets.winner(desired)
         winner = self.theta[np.arange(len(k)), k, l]
-        initial = np.asarray(self.schedule.initial_width)[:, None, None]
-        widths = fall(initial, self._final_widths, fraction, self.rules.width_power)
+        widths = fall(*self._widths, fraction, self.rules.width_power)
         for each, outputs in enumerate(self.rules.maps.values()):
             g_k, g_kl = self.nets.neighbourhood(k, l, *widths[:, each].T)
             weights = rate[:, None, None, None] * g_k[:, :, None, None] * g_kl[:, None, :, None]

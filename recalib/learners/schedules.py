@@ -10,7 +10,6 @@ of its logarithm, dt is proportional to s^-n ds/s, and p = -n.
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -47,26 +46,30 @@ def expected_learning(
     return np.power(width, dimensions) * (2 * np.pi) ** (dimensions / 2) / volume
 
 
+Width = float | np.ndarray
+Widths = Mapping[str, Sequence[Width] | np.ndarray]  # of g_k and of g_kl of each map
+
+
 @dataclass(frozen=True)
 class Schedule:
     """Widths and rates at the start and at the end of training, each a number or an array (run,).
 
     Args:
         initial_width: of all neighbourhoods (section 7), in workspace coordinates: the workspace
-            is 2 wide.
+            is 2 wide. Or that of each.
         final_widths: for each map (`Rules.maps`), those of g_k and of g_kl.
         initial_rate, final_rate: the learning rate c' of (4), (5), (7) and (9).
 
     Raises InvalidSetting where a width is not above 0 or a rate not in (0, 1].
     """
 
-    initial_width: float | np.ndarray
-    final_widths: Mapping[str, Sequence[float | np.ndarray] | np.ndarray]
+    initial_width: Width | Widths
+    final_widths: Widths
     initial_rate: float | np.ndarray
     final_rate: float | np.ndarray
 
     def __post_init__(self) -> None:
-        for width in (self.initial_width, *chain.from_iterable(self.final_widths.values())):
+        for width in (*_each(self.initial_width), *_each(self.final_widths)):
             if not np.all(np.greater(width, 0)):
                 raise InvalidSetting("width of a neighbourhood", width, "above 0")
         for rate in (self.initial_rate, self.final_rate):
@@ -75,37 +78,53 @@ class Schedule:
 
     def over(self, runs: int) -> "Schedule":
         """The same for so many runs, all arrays (run,)."""
-        return self._each(lambda number: np.full(runs, number))
+        return self._with(lambda number: np.full(runs, number))
 
-    def ends(self, maps: Collection[str]) -> np.ndarray:
-        """Final widths (run, map, 2) of the schedule of several runs.
+    def widths(self, maps: Collection[str]) -> tuple[np.ndarray, np.ndarray]:
+        """Initial and final widths (run, map, 2) of the schedule of several runs.
 
         Raises InvalidSetting where it is for other maps.
         """
         if {*maps} != {*self.final_widths}:
             raise InvalidSetting("final_widths", [*self.final_widths], f"widths for {[*maps]}")
-        widths = np.array([np.array(self.final_widths[name]) for name in maps])
-        return np.ascontiguousarray(widths.transpose(2, 0, 1))
+        final = np.array([[*map(np.asarray, self.final_widths[name])] for name in maps])
+        if isinstance(self.initial_width, Mapping):
+            initial = np.array([[*map(np.asarray, self.initial_width[name])] for name in maps])
+        else:
+            initial = np.broadcast_to(self.initial_width, final.shape)
+        return tuple(np.ascontiguousarray(array.transpose(2, 0, 1)) for array in (initial, final))
 
     def of_run(self, run: int) -> "Schedule":
         """That of one of several runs, all numbers."""
-        return self._each(lambda numbers: float(np.asarray(numbers)[run]))
+        return self._with(lambda numbers: float(np.asarray(numbers)[run]))
 
-    def _each(self, change: Callable[[Any], Any]) -> "Schedule":
-        widths = {name: [*map(change, pair)] for name, pair in self.final_widths.items()}
+    def _with(self, change: Callable[[Any], Any]) -> "Schedule":
+        def changed(widths: Width | Widths) -> Any:
+            if isinstance(widths, Mapping):
+                return {name: [*map(change, pair)] for name, pair in widths.items()}
+            return change(widths)
+
         rates = change(self.initial_rate), change(self.final_rate)
-        return Schedule(change(self.initial_width), widths, *rates)
+        return Schedule(changed(self.initial_width), changed(self.final_widths), *rates)
 
     @classmethod
     def of_runs(cls, schedules: Sequence["Schedule"]) -> "Schedule":
         """One for several runs, from that of each."""
-        first = schedules[0]
+
+        def together(widths: Sequence[Any]) -> Any:
+            if isinstance(widths[0], Mapping):
+                return {name: np.array([its[name] for its in widths]).T for name in widths[0]}
+            return np.array(widths)
+
         return cls(
-            np.array([schedule.initial_width for schedule in schedules]),
-            {
-                name: np.array([schedule.final_widths[name] for schedule in schedules]).T
-                for name in first.final_widths
-            },
+            together([schedule.initial_width for schedule in schedules]),
+            together([schedule.final_widths for schedule in schedules]),
             np.array([schedule.initial_rate for schedule in schedules]),
             np.array([schedule.final_rate for schedule in schedules]),
         )
+
+
+def _each(widths: Width | Widths) -> list[Width]:
+    if isinstance(widths, Mapping):
+        return [width for pair in widths.values() for width in pair]
+    return [widths]

@@ -9,7 +9,7 @@ from recalib.identification.model.error_model import (
     JOINT_WAVES,
     ErrorModel,
 )
-from recalib.study.scenarios.plants import nominal_robot
+from replication.scenarios.plants import nominal_robot
 
 TWISTS = 42  # parameters of an arm of six joints and one target
 

@@ -10,7 +10,7 @@ from recalib.errors import InvalidSetting
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.loop.interfaces import Outcome
 from recalib.loop.training import measure
-from recalib.study.plan.competitors import UNCORRECTED, make_peer, peers
+from replication.training.competitors import UNCORRECTED, make_peer, peers
 
 RUNS = 2
 

@@ -16,9 +16,9 @@ class Part(NamedTuple):
     tests: tuple[str, ...]
 
 
-EXPERIMENTS = "tests/study/experiments", "tests/study/test_search.py", "tests/test_experiment.py"
+EXPERIMENTS = "tests/replication/training", "tests/replication/test_search.py", "tests/test_experiment.py"
 EVIDENCE = tuple(
-    f"tests/study/evidence/test_{name}.py"
+    f"tests/replication/judgement/test_{name}.py"
     for name in (
         *("words", "tables", "criteria", "evidence", "claims", "report_texts", "article"),
         *("across", "deviations", "factor", "findings", "outcome"),
@@ -26,15 +26,15 @@ EVIDENCE = tuple(
     )
 )
 OF_STATISTICS = (
-    *(f"tests/study/evidence/test_{name}.py" for name in ("statistics", "speedup", "kept")),
-    "tests/study/test_hierarchy.py",
+    *(f"tests/replication/judgement/test_{name}.py" for name in ("statistics", "speedup", "kept")),
+    "tests/replication/test_hierarchy.py",
 )
 PARTS = {
-    "experiments": Part(("recalib/study/experiments", "recalib/loop/training.py"), EXPERIMENTS),
-    "multiverse": Part(("recalib/study/multiverse",), ("tests/study/multiverse", *EXPERIMENTS[:2])),
-    "mapping": Part(("recalib/study/mapping",), ("tests/study/mapping",)),
-    "evidence": Part(("recalib/study/evidence",), (*EVIDENCE, *OF_STATISTICS[1:2])),
-    "statistics": Part(("recalib/study/inference",), OF_STATISTICS),
+    "experiments": Part(("replication/training", "recalib/loop/training.py"), EXPERIMENTS),
+    "multiverse": Part(("replication/campaign",), ("tests/replication/campaign", *EXPERIMENTS[:2])),
+    "mapping": Part(("replication/mapping",), ("tests/replication/mapping",)),
+    "evidence": Part(("replication/judgement",), (*EVIDENCE, *OF_STATISTICS[1:2])),
+    "statistics": Part(("replication/judgement",), OF_STATISTICS),
     "learners": Part(
         ("recalib/learners",),
         ("tests/learners", "tests/test_learned.py", *EXPERIMENTS[2:]),
@@ -48,7 +48,7 @@ PARTS = {
     ),
     "station": Part(("recalib/station",), ("tests/station", "tests/vision/test_stations.py")),
     "vision": Part(("recalib/vision",), ("tests/vision",)),
-    "recording": Part(("recalib/study/recording",), ("tests/study/recording",)),
+    "recording": Part(("replication/recording",), ("tests/replication/recording",)),
     "nominal": Part(
         ("recalib/nominal",),
         (
@@ -59,24 +59,24 @@ PARTS = {
     "damaged": Part(("recalib/damaged",), ("tests/damaged", *EXPERIMENTS[2:])),
     "configuration": Part(
         (
-            *(f"recalib/study/configuration/{name}.py" for name in ("units", "values")),
-            *(f"recalib/study/configuration/{name}.py" for name in ("damages", "universes")),
-            "recalib/study/scenarios",
-            "recalib/study/plan/trainings.py",
+            *(f"replication/config/{name}.py" for name in ("units", "values")),
+            *(f"replication/config/{name}.py" for name in ("damages", "universes")),
+            "replication/scenarios",
+            "replication/training/trainings.py",
         ),
-        ("tests/study/configuration", "tests/study/test_assignments.py", *EXPERIMENTS[:1]),
+        ("tests/replication/config", "tests/replication/test_assignments.py", *EXPERIMENTS[:1]),
     ),
 }
 TOO_LONG = (  # tests that take minutes: no mutant meets them
-    "tests/study/experiments/test_poses.py::"
+    "tests/replication/training/test_poses.py::"
     "test_no_test_pose_of_any_job_was_learned_from_or_searched_with",
-    "tests/study/experiments/test_planted.py::test_without_an_error_the_check_is_green",
-    "tests/study/test_hierarchy.py::test_intervals_hold_the_truth_as_often_as_they_say",
+    "tests/replication/training/test_planted.py::test_without_an_error_the_check_is_green",
+    "tests/replication/test_hierarchy.py::test_intervals_hold_the_truth_as_often_as_they_say",
 )
 LEFT_OUT = {
-    "recalib/study/plots": "Figures are inspected by eye; their numbers come from `evidence`.",
-    "recalib/study/configuration": "The rest reads files; lists of mistakes test its messages.",
-    "recalib/study": "The rest names files and makes objects from descriptions.",
+    "replication/plots": "Figures are inspected by eye; their numbers come from `evidence`.",
+    "replication/config": "The rest reads files; lists of mistakes test its messages.",
+    "replication": "The rest names files and makes objects from descriptions.",
     "recalib": "The rest reads and writes files, and finds names.",
     "workflow": "It calls functions; whole runs test it.",
 }

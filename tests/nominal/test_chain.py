@@ -13,7 +13,7 @@ from recalib.damaged.damage import BaseShift, LinkShortening, apply
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
-from recalib.study.scenarios.plants import nominal_robot
+from replication.scenarios.plants import nominal_robot
 
 POSTURES = arrays(float, (3, 8), elements=st.floats(-np.pi, np.pi))  # of so many joints or fewer
 OTHERS = (

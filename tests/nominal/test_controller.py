@@ -7,7 +7,7 @@ from recalib.errors import UnfitWorkspace, Unreachable
 from recalib.nominal.chain import Chain
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
-from recalib.study.scenarios.plants import nominal_controller
+from replication.scenarios.plants import nominal_controller
 from tests.arms import panda
 from tests.conftest import changed
 

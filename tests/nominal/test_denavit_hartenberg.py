@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
-from recalib.study.scenarios.plants import nominal_robot
+from replication.scenarios.plants import nominal_robot
 
 
 def turn(axis: int, angle: float) -> np.ndarray:

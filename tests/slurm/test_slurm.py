@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 import pytest
 
-from recalib.study.configuration.shipped import DESIGN
+from replication.config.shipped import DESIGN
 from tests.project import Project, ended, kill
 from tests.slurm.cluster import Cluster, missing
 

@@ -10,9 +10,9 @@ from recalib.damaged.plant import Plant
 from recalib.nominal.poses import position_error
 from recalib.station.engine import mujoco
 from recalib.station.physics import PhysicsStation
-from recalib.study.experiments.poses import Stream
-from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.trainings import rules
+from replication.training.poses import Stream
+from replication.training.settings import build_tuned
+from replication.training.trainings import rules
 from tests.station.paper_live import CONDITIONS, FIGURE, NOISY, ROOT, scenario, study
 
 FILM, SIZE = FIGURE.with_suffix(".webp"), (640, 480)

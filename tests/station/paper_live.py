@@ -30,21 +30,21 @@ from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
 from recalib.station.camera import UPWARDS, PicturedStation
 from recalib.station.physics import Gears, PhysicsStation
-from recalib.study.configuration.damages import damages_among
-from recalib.study.configuration.study import Study
-from recalib.study.experiments.poses import Stream
-from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.competitors import label_of, make_peer
-from recalib.study.plan.trainings import rules
-from recalib.study.plots.palette import STYLES
-from recalib.study.plots.style import STYLE, logarithmic, save, title
-from recalib.study.scenarios.assignments import assign
-from recalib.study.scenarios.nominal import nominal
-from recalib.study.scenarios.plants import nominal_controller
-from recalib.study.studies import read_studies
 from recalib.vision.boards import printable
 from recalib.vision.detection import find_corners
 from recalib.vision.views import board_pose
+from replication.config.damages import damages_among
+from replication.config.study import Study
+from replication.plots.palette import STYLES
+from replication.plots.style import STYLE, logarithmic, save, title
+from replication.scenarios.assignments import assign
+from replication.scenarios.nominal import nominal
+from replication.scenarios.plants import nominal_controller
+from replication.studies import read_studies
+from replication.training.competitors import label_of, make_peer
+from replication.training.poses import Stream
+from replication.training.settings import build_tuned
+from replication.training.trainings import rules
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 KEPT = ROOT / "results" / "live_paper"

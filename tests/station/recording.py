@@ -14,13 +14,13 @@ from recalib.loop.interfaces import Learner
 from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
 from recalib.station.physics import PhysicsStation
-from recalib.study.experiments.settings import build_tuned
-from recalib.study.plan.competitors import make_peer
-from recalib.study.plan.recordings import Recording, recording
-from recalib.study.recording.writing import write_recording
-from recalib.study.scenarios.assignments import assign
-from recalib.study.scenarios.nominal import nominal
-from recalib.study.scenarios.plants import Resolved, resolve
+from replication.recording.writing import write_recording
+from replication.scenarios.assignments import assign
+from replication.scenarios.nominal import nominal
+from replication.scenarios.plants import Resolved, resolve
+from replication.training.competitors import make_peer
+from replication.training.recordings import Recording, recording
+from replication.training.settings import build_tuned
 from tests.station.paper_live import CONDITIONS, KEPT, ROOT, short, study
 
 SEED = 0

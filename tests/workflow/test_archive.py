@@ -9,7 +9,7 @@ from importlib.resources import files
 
 import pytest
 
-from recalib.study.evidence.claims import CLAIMS
+from replication.judgement.claims import CLAIMS
 from tests.conftest import ROOT
 
 pytest.importorskip("rocrate")

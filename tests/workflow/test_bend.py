@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from recalib.study.plan.trainings import Trainings
-from recalib.study.studies import read_studies
+from replication.studies import read_studies
+from replication.training.trainings import Trainings
 from tests.conftest import ROOT
 from tests.project import Project
 from workflow import readable

@@ -3,7 +3,7 @@ import os
 import pytest
 from snakemake.iocontainers import Wildcards
 
-from recalib.study.plots.registry import FIGURES
+from replication.plots.registry import FIGURES
 from tests.conftest import ROOT
 from tests.test_architecture import files_of, imported
 from workflow import dependencies
@@ -19,7 +19,7 @@ def test_imports_are_seen_as_python_sees_them(path):
 
 
 def test_a_training_depends_on_its_rules_and_not_on_figures_or_other_learners():
-    needed = dependencies.modules("recalib.study.experiments.campaign")
+    needed = dependencies.modules("replication.training.campaign")
     assert {"recalib/learners/hierarchical.py", "recalib/nominal/controller.py"} <= {*needed}
     assert "workflow/scripts/call.py" in needed
     others = ("plots", "evidence", "recording", "identification", "learners/geo", "regression")
@@ -46,10 +46,10 @@ def test_a_job_depends_on_the_peer_that_it_is_told(rule, which, module, rules, s
 
 
 def test_a_figure_depends_on_the_module_that_draws_it_and_not_on_other_figures():
-    needed = dependencies.modules("recalib.study.plots.registry", FIGURES["figure5"].home)
+    needed = dependencies.modules("replication.plots.registry", FIGURES["figure5"].home)
     homes = {figure.home.replace(".", "/") + ".py" for figure in FIGURES.values()}
-    assert homes & {*needed} == {"recalib/study/plots/mapping.py"}
-    palette = {"recalib/study/plots/palette.py", "recalib/study/inference/measured.py"}
+    assert homes & {*needed} == {"replication/plots/mapping.py"}
+    palette = {"replication/plots/palette.py", "replication/judgement/measured.py"}
     assert palette < {*needed}
 
 
@@ -75,7 +75,7 @@ def test_a_source_counts_by_what_stands_in_it_whatever_its_date(tmp_path, monkey
     template, seen = tmp_path / "page.md.j2", []
     reads = [template.name, "not_there.csv"]
     digest = dependencies.calls(
-        "recalib.study.evidence.pages.rendering.page", reads=lambda w: reads
+        "replication.pages.rendering.page", reads=lambda w: reads
     )["code"]
     for written in ("as it was", "edited", "as it was"):
         template.write_text(written)

@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from tests.project import Project
-from tests.study.configuration.test_own_robots import ARMS, entry_of
+from tests.replication.config.test_own_robots import ARMS, entry_of
 from tests.workflow.conftest import CORES
 
 LESS = {

@@ -16,12 +16,12 @@ import pytest
 import yaml
 from snakemake.settings.types import DAGSettings
 
-from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.configuration.reading import read_study
-from recalib.study.configuration.shipped import EFFORTS, REFERENCE, SEARCHED
-from recalib.study.experiments.samples import sample_of, sought
-from recalib.study.plan.trainings import Trainings
-from recalib.study.studies import layers_of
+from replication.config.messages import InvalidConfiguration
+from replication.config.reading import read_study
+from replication.config.shipped import EFFORTS, REFERENCE, SEARCHED
+from replication.studies import layers_of
+from replication.training.samples import sample_of, sought
+from replication.training.trainings import Trainings
 from tests.conftest import ROOT, copy_project
 from tests.rules import Rules
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from recalib.errors import RecalibError
-from recalib.study import studies
-from recalib.study.configuration.messages import InvalidConfiguration
-from recalib.study.studies import LOCK, read_studies, ship
+from replication import studies
+from replication.config.messages import InvalidConfiguration
+from replication.studies import LOCK, read_studies, ship
 
 
 @pytest.fixture

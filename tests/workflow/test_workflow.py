@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from recalib.learners.learned import load
-from recalib.study.scenarios.plants import Resolved
+from replication.scenarios.plants import Resolved
 from tests.conftest import ROOT
 from tests.project import Project
 from tests.workflow.conftest import CORES
@@ -94,7 +94,7 @@ def test_the_same_configuration_gives_the_same_bytes_and_all_searches_the_same_t
 
 @shared
 def test_a_final_error_outside_of_its_band_ends_the_run_with_its_name(continued):
-    """That an error in a learning rule is one, tests/study/experiments/test_planted.py shows."""
+    """That an error in a learning rule is one, tests/replication/training/test_planted.py shows."""
     bands = pd.read_csv(continued.folder / "tests" / "tiny" / "expected.csv")
     wrong = continued.folder / "wrong.csv"
     bands.assign(low=bands["low"] + 10, high=bands["high"] + 10).to_csv(wrong, index=False)

@@ -1,7 +1,7 @@
 """What should one use today? No part of the default run."""
 
-from recalib.study.plan.competitors import TWIN, homes_of
-from recalib.study.plan.trainings import rules_unless_peer
+from replication.training.competitors import TWIN, homes_of
+from replication.training.trainings import rules_unless_peer
 
 
 def sample_of_competitor(wildcards):
@@ -25,7 +25,7 @@ rule benchmark_run:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls(
-            "recalib.study.experiments.benchmark.compete",
+            "replication.training.benchmark.compete",
             also=lambda w: homes_of([w.learner]),
             reads=lambda w: [sample_of_competitor(w)],
         ),
@@ -59,7 +59,7 @@ rule benchmark_table:
         "{root}/logs/benchmark_table.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.benchmark.put_together"),
+        **calls("replication.judgement.benchmark.put_together"),
         arguments=lambda w: as_text(
             scenarios=study(w).benchmark.scenarios,
             learners=study(w).benchmark.learners,
@@ -82,7 +82,7 @@ rule real_data:
         part="fit|test",
     localrule: True
     params:
-        **calls("recalib.study.experiments.tracker.fetch"),
+        **calls("replication.training.tracker.fetch"),
         arguments=lambda w: as_text(source=getattr(study(w).real.data, w.part)),
     message:
         "Bring the poses of the real arm to {wildcards.part}"
@@ -104,7 +104,7 @@ rule real_run:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls(
-            "recalib.study.experiments.real_arm.learn_from_tables",
+            "replication.training.real_arm.learn_from_tables",
             also=lambda w: homes_of([w.learner]),
             reads=lambda w: [study(w).real.description],
         ),
@@ -135,7 +135,7 @@ rule real_twin:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls(
-            "recalib.study.experiments.real_arm.learn_on_twin",
+            "replication.training.real_arm.learn_on_twin",
             also=lambda w: homes_of([TWIN]),
             reads=lambda w: [study(w).real.description, sample(w, w.learner)],
         ),
@@ -166,7 +166,7 @@ rule real_table:
         "{root}/logs/real_table.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.pages.real_arm.put_together"),
+        **calls("replication.pages.real_arm.put_together"),
         arguments=lambda w: as_text(seed=study(w).seed),
         digits=5,
     message:

@@ -11,7 +11,7 @@ rule check:
         "{root}/logs/check.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.checks.report", reads=lambda w: [study(w).expected]),
+        **calls("replication.judgement.checks.report", reads=lambda w: [study(w).expected]),
     message:
         "Check the final errors against {input.expected}"
     script:
@@ -27,7 +27,7 @@ rule expect:
         "{root}/logs/expect.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.checks.propose"),
+        **calls("replication.judgement.checks.propose"),
         digits=4,
     message:
         "Propose new bands for the check"

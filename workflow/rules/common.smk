@@ -15,11 +15,11 @@ from pydantic_core import to_json
 from snakemake.logging import logger
 
 from recalib.errors import RecalibError
-from recalib.study.scenarios.nominal import nominal
-from recalib.study.configuration.shipped import RESULTS, SEARCHED
-from recalib.study.studies import ask_robots, read_studies
-from recalib.study.plan.trainings import Trainings, measuring, searches, seeds
-from recalib.study.plan.trainings import rules as rules_of
+from replication.scenarios.nominal import nominal
+from replication.config.shipped import RESULTS, SEARCHED
+from replication.studies import ask_robots, read_studies
+from replication.training.trainings import Trainings, measuring, searches, seeds
+from replication.training.trainings import rules as rules_of
 from workflow.dependencies import calls
 from workflow.time_left import TimeLeft
 

@@ -2,10 +2,10 @@
 
 from functools import partial
 
-from recalib.study.evidence.claims import judging
-from recalib.study.evidence.needs import Request
-from recalib.study.evidence.pages.outcome import NEEDS as NEEDS_OF_OUTCOME
-from recalib.study.evidence.pages.rendering import PAGES as PAGES_OF_EVIDENCE
+from replication.judgement.claims import judging
+from replication.judgement.needs import Request
+from replication.pages.outcome import NEEDS as NEEDS_OF_OUTCOME
+from replication.pages.rendering import PAGES as PAGES_OF_EVIDENCE
 
 
 def request(root):
@@ -33,7 +33,7 @@ rule summary:
         "{root}/logs/summary.log",
     localrule: True
     params:
-        **calls("recalib.study.evidence.summary.summarise"),
+        **calls("replication.judgement.summary.summarise"),
         arguments=lambda w: as_text(trainings=TRAININGS[w.root].runs, seed=study(w).seed),
         digits=6,
     message:
@@ -58,7 +58,7 @@ rule claims:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.evidence.claims.judge", reads=judged_by),
+        **calls("replication.judgement.claims.judge", reads=judged_by),
         arguments=lambda w: as_text(claims=judging(request(w.root))),
     message:
         "Judge every claim of the paper"
@@ -80,7 +80,7 @@ rule outcome:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.pages.outcome.outcome",
+            "replication.pages.outcome.outcome",
             reads=lambda w: outcome_evidence(w).inputs,
         ),
         arguments=lambda w: as_text(evidence=outcome_evidence(w)),
@@ -107,7 +107,7 @@ rule page:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.pages.rendering.page",
+            "replication.pages.rendering.page",
             reads=lambda w: [f"workflow/templates/{w.page}.j2", *page_evidence(w).inputs],
         ),
         arguments=lambda w: as_text(name=w.page, evidence=page_evidence(w)),
@@ -134,7 +134,7 @@ rule article:
     localrule: True
     params:
         **calls(
-            "recalib.study.evidence.pages.article.typeset",
+            "replication.pages.article.typeset",
             reads=lambda w: ["workflow/article/references.bib", *COMMITTED],
         ),
     message:

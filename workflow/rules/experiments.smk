@@ -31,7 +31,7 @@ rule train:
         **room(mem_mb=2000, runtime=20),
     params:
         **calls(
-            "recalib.study.experiments.campaign.train_seeds",
+            "replication.training.campaign.train_seeds",
             reads=lambda w: [sample(w, w.learner)],
         ),
         arguments=lambda w: as_text(
@@ -96,7 +96,7 @@ rule run:
         root="|".join(IN_CHUNKS) or NOWHERE,
     localrule: True
     params:
-        **calls("recalib.study.experiments.joining.training"),
+        **calls("replication.training.joining.training"),
     message:
         "Put the seeds of {wildcards.learner} on {wildcards.scenario} together"
     script:
@@ -120,7 +120,7 @@ rule ensemble_chunk:
         **room(mem_mb=2000, runtime=20),
     params:
         **calls(
-            "recalib.study.experiments.ensemble.train_draws",
+            "replication.training.ensemble.train_draws",
             reads=lambda w: [sample(w, w.learner)],
         ),
         arguments=lambda w: as_text(
@@ -153,7 +153,7 @@ rule ensemble:
         "{root}/logs/ensemble/{series}.{learner}.log",
     localrule: True
     params:
-        **calls("recalib.study.experiments.joining.put_together"),
+        **calls("replication.training.joining.put_together"),
     message:
         "Put the other damages for {wildcards.learner} together: {wildcards.series}"
     script:
@@ -171,7 +171,7 @@ rule bench:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.experiments.speed.measure_speed"),
+        **calls("replication.training.speed.measure_speed"),
     message:
         "Measure the speed of moves"
     script:

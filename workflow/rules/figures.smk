@@ -1,6 +1,6 @@
 """Figures: each is drawn from what it declares, and an unchanged result leaves it unchanged."""
 
-from recalib.study.plots.registry import FIGURES, drawn, possible
+from replication.plots.registry import FIGURES, drawn, possible
 
 
 def figure_evidence(wildcards):
@@ -22,7 +22,7 @@ rule figure:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls(
-            "recalib.study.plots.registry.publish",
+            "replication.plots.registry.publish",
             also=lambda w: [FIGURES[w.figure].home],
             reads=lambda w: figure_evidence(w).inputs,
         ),

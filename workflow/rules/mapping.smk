@@ -21,7 +21,7 @@ rule study_mapping:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.mapping.measured.measure"),
+        **calls("replication.mapping.measured.measure"),
         arguments=lambda w: as_text(
             poses=study(w).mapping.poses,
             balls=study(w).mapping.balls,
@@ -45,7 +45,7 @@ rule study_visits:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.mapping.visits.visits"),
+        **calls("replication.mapping.visits.visits"),
         arguments=lambda w: as_text(seed=study(w).seed),
     message:
         "Measure the expected learning of section 6"
@@ -64,7 +64,7 @@ rule study_widths:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("recalib.study.experiments.constant_widths.constant_widths"),
+        **calls("replication.training.constant_widths.constant_widths"),
         arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),
     message:
         "Learn with neighbourhoods whose widths stay as they are, as section 6 compares"
@@ -85,7 +85,7 @@ rule study_replay:
         **room(mem_mb=2000, runtime=20),
     params:
         **calls(
-            "recalib.study.experiments.replay.replay",
+            "replication.training.replay.replay",
             reads=lambda w: [sample(w, "improved")],
         ),
         arguments=lambda w: as_text(rules=rules_of(study(w), "improved"), seed=study(w).seed),

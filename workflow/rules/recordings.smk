@@ -1,8 +1,8 @@
 """Recordings of the arm before and after recalibration, for the rerun viewer."""
 
-from recalib.study.configuration.switches import IMPROVED
-from recalib.study.plan.competitors import homes_of
-from recalib.study.plan.recordings import recording as what_is_recorded
+from replication.config.switches import IMPROVED
+from replication.training.competitors import homes_of
+from replication.training.recordings import recording as what_is_recorded
 
 
 @cache
@@ -39,7 +39,7 @@ rule recording:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls(
-            "recalib.study.recording.writing.record",
+            "replication.recording.writing.record",
             also=lambda w: homes_of(recorded(w).learners),
             reads=lambda w: [*samples_of_recorded(w), *TEXTS_OF_RECORDINGS],
         ),
@@ -67,7 +67,7 @@ rule in_browser:
     localrule: True
     params:
         **calls(
-            "recalib.study.recording.in_browser.script",
+            "replication.recording.in_browser.script",
             reads=lambda w: [sample(w, IMPROVED)],
         ),
         arguments=lambda w: as_text(
@@ -108,7 +108,7 @@ rule before_and_after:
         "{root}/logs/before_and_after/{recording}.log",
     localrule: True
     params:
-        **calls("recalib.study.recording.pictures.before_and_after"),
+        **calls("replication.recording.pictures.before_and_after"),
     message:
         "Take pictures of the arm with the viewer, which needs a Vulkan driver"
     script:
@@ -124,7 +124,7 @@ rule film:
         "{root}/logs/film/{recording}.log",
     localrule: True
     params:
-        **calls("recalib.study.recording.pictures.take_film"),
+        **calls("replication.recording.pictures.take_film"),
     message:
         "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
     script:

@@ -2,7 +2,7 @@
 
 import re
 
-from recalib.study.evidence.pages import report as report_
+from replication.pages import report as report_
 
 TEXTS = Path(report_.TEXTS)
 PAGES_BY_DEFAULT = ["README.md", "results.md", "choices.md"]
@@ -102,7 +102,7 @@ for root_ in STUDIES:
         localrule: True
         params:
             **calls(
-                "recalib.study.evidence.pages.report.write",
+                "replication.pages.report.write",
                 reads=lambda w, root=root_: read_by_report(root),
             ),
             arguments=lambda w, root=root_: as_text(evidence=asked(root, report_.NEEDS)),

@@ -1,7 +1,7 @@
 """Which damage, on which robot."""
 
-from recalib.study.configuration.damages import Assigned, describe
-from recalib.study.plan.trainings import scenario_of
+from replication.config.damages import Assigned, describe
+from replication.training.trainings import scenario_of
 
 
 rule assignments:
@@ -14,7 +14,7 @@ rule assignments:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.scenarios.assignments.assign"),
+        **calls("replication.scenarios.assignments.assign"),
         arguments=lambda w: as_text(
             nominal=nominal(study(w), w.robot),
             damage=study(w).paper_damage,
@@ -49,7 +49,7 @@ rule scenario:
     resources:
         **room(mem_mb=2000, runtime=10),
     params:
-        **calls("recalib.study.scenarios.plants.resolve"),
+        **calls("replication.scenarios.plants.resolve"),
         arguments=lambda w: as_text(
             name=w.scenario,
             nominal=nominal(study(w), scenario_of(study(w), w.scenario)[1]),

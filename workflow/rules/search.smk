@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from recalib.study.plan.chunks import bounds, chunks, searches_per_job
-from recalib.study.experiments.samples import searched_for, sought
-from recalib.study.plan.trainings import budget, training
+from replication.training.chunks import bounds, chunks, searches_per_job
+from replication.training.samples import searched_for, sought
+from replication.training.trainings import budget, training
 
 
 def sample(wildcards, learner):
@@ -35,7 +35,7 @@ rule search:
     resources:
         **room(mem_mb=2000, runtime=30),
     params:
-        **calls("recalib.study.experiments.trials.search_for"),
+        **calls("replication.training.trials.search_for"),
         arguments=lambda w: as_text(
             training=w.training,
             learner=rules_of(study(w), w.training),
@@ -67,7 +67,7 @@ rule search_sample:
         "{root}/logs/search_sample/{training}.log",
     localrule: True
     params:
-        **calls("recalib.study.experiments.samples.put_together"),
+        **calls("replication.training.samples.put_together"),
         arguments=lambda w: as_text(sought=sought(study(w), w.training)),
     message:
         "Keep all trials of the searches for {wildcards.training}"

@@ -3,9 +3,9 @@
 from functools import cache
 
 from recalib.files.storage import digest
-from recalib.study.configuration import shipped
-from recalib.study.multiverse.design import read_design
-from recalib.study.multiverse.universe import universe
+from replication.config import shipped
+from replication.campaign.design import read_design
+from replication.campaign.universe import universe
 
 REPLICATES = 8  # of the reference study
 
@@ -74,7 +74,7 @@ rule design:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("recalib.study.multiverse.drawing.design"),
+        **calls("replication.campaign.drawing.design"),
         arguments=lambda w: as_text(setting=setting(study(w))),
     message:
         "Draw the universes of the multiverse"
@@ -93,7 +93,7 @@ rule power:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("recalib.study.multiverse.power.power"),
+        **calls("replication.campaign.power.power"),
         arguments=lambda w: as_text(
             setups=study(w).universes.count,
             replicates=study(w).universes.replicates,
@@ -116,7 +116,7 @@ rule universe:
     resources:
         **room(mem_mb=2000, runtime=30),
     params:
-        **calls("recalib.study.multiverse.measuring.measure"),
+        **calls("replication.campaign.measuring.measure"),
         arguments=lambda w: as_text(universe=universe_of(w)),
         digits=6,
     message:
@@ -136,7 +136,7 @@ rule horizon:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("recalib.study.multiverse.horizon.horizon"),
+        **calls("replication.campaign.horizon.horizon"),
         arguments=lambda w: as_text(universe=universe_of(w)),
         digits=6,
     message:
@@ -154,7 +154,7 @@ rule piece:
         "{root}/logs/piece/{table}.{piece}.log",
     localrule: True
     params:
-        **calls("recalib.study.multiverse.design.put_together"),
+        **calls("replication.campaign.design.put_together"),
         arguments=lambda w: as_text(design=digest((ROOT / shipped.DESIGN).read_bytes())),
         digits=6,
     message:
@@ -190,7 +190,7 @@ rule reference_replicate:
     resources:
         **room(mem_mb=2000, runtime=30),
     params:
-        **calls("recalib.study.multiverse.reference.reference"),
+        **calls("replication.campaign.reference.reference"),
         arguments=lambda w: as_text(study=study(w), number=int(w.number)),
         digits=6,
     message:
@@ -214,7 +214,7 @@ rule efforts_of:
         **room(mem_mb=4000, runtime=30),
     params:
         **calls(
-            "recalib.study.multiverse.efforts.efforts",
+            "replication.campaign.efforts.efforts",
             reads=lambda w: [sample_at(w.root, w.training)],
         ),
         arguments=lambda w: as_text(
@@ -241,7 +241,7 @@ rule reference:
         f"{MAIN}/logs/reference.log",
     localrule: True
     params:
-        **calls("recalib.study.multiverse.design.put_together"),
+        **calls("replication.campaign.design.put_together"),
         digits=6,
     script:
         "../scripts/call.py"
@@ -256,7 +256,7 @@ rule efforts:
         f"{MAIN}/logs/efforts.log",
     localrule: True
     params:
-        **calls("recalib.study.multiverse.design.put_together"),
+        **calls("replication.campaign.design.put_together"),
         digits=6,
     script:
         "../scripts/call.py"

@@ -7,7 +7,7 @@ from pathlib import Path
 from mkdocs.structure.files import File, Files
 
 import recalib
-from recalib.study.recording.web_viewer import ADDRESS, embed
+from replication.recording.web_viewer import ADDRESS, embed
 
 SHOWN = (
     "*.md",

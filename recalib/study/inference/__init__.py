@@ -1,1 +1,0 @@
-"""What measurements say: intervals, and what alternative setups have in common."""

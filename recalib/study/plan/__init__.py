@@ -1,1 +1,0 @@
-"""What a study consists of: trainings, competitors, recordings, jobs."""

@@ -1,0 +1,92 @@
+"""Drawing the setups of a design: their levels, and where their robots can work."""
+
+import sys
+from collections.abc import Sequence
+
+import numpy as np
+
+from recalib.damaged.damage import Damage, apply
+from recalib.errors import RecalibError
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import pose_errors
+from recalib.numerics.randomness import generator
+from replication.campaign.factors import Row, rows
+from replication.campaign.homes import random_home
+from replication.campaign.setups import Setup, robot_in
+from replication.config.study import Study
+from replication.scenarios.assignments import Ways, assign, compare
+from replication.scenarios.nominal import Nominal, nominal
+from replication.scenarios.plants import nominal_robot
+
+
+def design(study: Study) -> list[dict]:
+    """The rows of the table. Raises RecalibError: robots refuse too many.
+
+    Rows of the sequence that a robot refuses are left out, and said so.
+    """
+    drawn: list[dict] = []
+    for row in rows(study.campaign):
+        try:
+            drawn.append(draw(study, len(drawn), row).as_row())
+        except RecalibError as error:
+            print(f"row {row.number} is refused: {error}", file=sys.stderr)
+        if len(drawn) == study.campaign.setups:
+            return drawn
+    raise RecalibError(f"only {len(drawn)} of {study.campaign.setups} setups are possible")
+
+
+def draw(study: Study, number: int, row: Row) -> Setup:
+    """The setup of a row. Raises RecalibError: its robot cannot do it."""
+    plan, levels, damage = study.campaign, row.levels, study.paper_damage
+    random = generator(plan.seed, "setup", row.number)
+    seed = int(random.integers(2**32))
+    its = robot_in(nominal(study, levels["robot"]), levels, study)
+    scale = its.robot.workspace.scale_to(study.robots[study.robot].workspace)
+    controller, refused = _controller(its, levels["home"], plan.home_spread, random)
+    robot, joints = controller.robot, list(its.robot.home)
+    tests = robot.workspace.sample(random, damage.poses)
+    if row.number == 0:  # as the study itself has it, by its own poses
+        entries = assign(its, damage, study.seed)[1].damages
+    else:
+        lengths = [scale * length for length in damage.shorten]
+        ways = Ways(its.robot.links, lengths, joints, damage.shift, levels["shortening"])
+        if levels["assignment"] == "any":
+            entries = ways[int(row.share * len(ways))]
+        else:
+            nearest = compare(controller, ways, tests, damage.published, scale, levels["error"])[1]
+            entries = ways[nearest]
+    position, orientation = _initial_errors(controller, entries, tests, levels["error"])
+    return Setup(
+        setup=number,
+        row=row.number,
+        seed=seed,
+        levels={name: str(level) for name, level in levels.items()},
+        home_deg=tuple(
+            float(f"{np.degrees(robot.home[robot.joints.index(joint)]):.6g}") for joint in joints
+        ),
+        homes_refused=refused,
+        damage=entries,
+        position_error_cm=float(f"{100 * position:.4g}"),
+        orientation_error_deg=float(f"{np.degrees(orientation):.4g}"),
+    )
+
+
+def _controller(
+    its: Nominal, home: str, spread: float, random: np.random.Generator
+) -> tuple[Controller, int]:
+    """The controller at its home, and how many homes it refused before."""
+    robot, greatest = nominal_robot(its), its.controller.greatest_condition
+    if home == "configured":
+        return Controller(robot, greatest), 0
+    return random_home(robot, spread, greatest, random)
+
+
+def _initial_errors(
+    controller: Controller, damage: Sequence[Damage], tests: np.ndarray, error: str
+) -> tuple[float, float]:
+    """Mean errors [m, rad] of the arm without correction."""
+    workspace = controller.robot.workspace
+    desired = workspace.to_poses(tests)
+    achieved = apply(controller.robot, damage).forward(controller.inverse(desired))
+    position, orientation = pose_errors(workspace, achieved, desired, error)
+    return position.mean(), orientation.mean()

@@ -1,0 +1,43 @@
+"""Which setups there are: for each, a level of every factor that the paper leaves open."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.stats.qmc import LatinHypercube
+
+from replication.config.campaign import Campaign, Factors
+
+BATCHES = 3  # of rows; the second and third replace what a robot refuses
+
+
+class Row(NamedTuple):
+    """A row of the design.
+
+    Attributes:
+        number: 0 is the reference study, with the first level of each factor.
+        levels: of each factor.
+        share: in [0, 1), where among all assignments of the damage one would be taken.
+    """
+
+    number: int
+    levels: dict[str, Any]
+    share: float
+
+
+def rows(plan: Campaign) -> Iterator[Row]:
+    """The rows of the design, and more to replace those that a robot refuses.
+
+    After the reference study a Latin hypercube: each factor has its levels equally often, and pairs
+    of factors hardly correlate.
+    """
+    factors = {name: getattr(plan.factors, name) for name in Factors.model_fields}
+    yield Row(0, {name: levels[0] for name, levels in factors.items()}, 0.0)
+    number = 0
+    for batch in range(BATCHES):
+        random = np.random.default_rng([plan.seed, batch])
+        sampler = LatinHypercube(len(factors) + 1, optimization="random-cd", rng=random)
+        for *numbers, share in sampler.random(plan.setups - 1).tolist():
+            number += 1
+            pairs = zip(factors.items(), numbers, strict=True)
+            yield Row(number, {name: its[int(u * len(its))] for (name, its), u in pairs}, share)

@@ -1,0 +1,135 @@
+"""A setup: one way to decide all that the paper leaves open. Setup 0 is the reference study.
+
+The design says which setups there are, and where their robots can work. It is made before anything
+is measured, and kept in a table that people can read.
+"""
+
+import csv
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Self
+
+import yaml
+
+from recalib.learners.rules import Rules
+from replication.config.damages import Entry, describe
+from replication.config.part import Frozen
+from replication.config.study import Study, WorkspaceSettings
+from replication.scenarios.nominal import Nominal, nominal
+
+DIGITS = 4  # of a length in m
+LINE = 1000  # characters: no list of damages is longer
+
+
+class Setup(Frozen):
+    """A row of the design.
+
+    Attributes:
+        setup: its number.
+        row: that of the design's sequence; those between two setups were refused by a robot.
+        seed: of searches, poses and trainings.
+        levels: of each factor.
+        home_deg: at the centre of the workspace, the joints in the order of the configuration.
+        homes_refused: by the controller, before this one.
+        damage: the paper's, as assigned to the robot.
+        position_error_cm, orientation_error_deg: mean errors of the arm without correction.
+    """
+
+    setup: int
+    row: int
+    seed: int
+    levels: dict[str, str]
+    home_deg: tuple[float, ...]
+    homes_refused: int
+    damage: tuple[Entry, ...]
+    position_error_cm: float
+    orientation_error_deg: float
+
+    def nominal(self, study: Study) -> Nominal:
+        """The robot with its home, tool, workspace and pose coordinates."""
+        its = robot_in(nominal(study, self.levels["robot"]), self.levels, study)
+        home = dict(zip(its.robot.home, map(math.radians, self.home_deg), strict=True))
+        return its.model_copy(update={"robot": its.robot.model_copy(update={"home": home})})
+
+    def rules(self, rules: Rules, study: Study, improved: bool) -> Rules:
+        """Rules of a learner with the conventions of the setup.
+
+        Args:
+            improved: whether it is of the improved system's family, whose rate falls linearly
+                (section 7), or of Ritter's.
+        """
+        levels, workspace = self.levels, self.nominal(study).robot.workspace
+        return replace(
+            rules,
+            centres=levels["centres"],
+            metric=metric(levels["norm"], workspace),
+            dimensions=int(levels["dimensions"]),
+            spread=levels["spread"],
+            width_units=width_units(levels["widths"], study.robots[study.robot].workspace),
+            rate="linear" if improved else levels["rate"],
+        )
+
+    def as_row(self) -> dict[str, Any]:
+        """Its columns in the table."""
+        row = {name: getattr(self, name) for name in type(self).model_fields}
+        row["home_deg"] = " ".join(f"{angle:g}" for angle in self.home_deg)
+        entries = [describe(entry) for entry in self.damage]
+        text = yaml.safe_dump(entries, default_flow_style=True, sort_keys=False, width=LINE)
+        row["damage"] = text.strip()
+        levels = row.pop("levels")
+        return {"setup": row.pop("setup"), "row": row.pop("row")} | levels | row
+
+    @classmethod
+    def from_row(cls, row: Mapping[str, str]) -> Self:
+        """The setup of a row of the table."""
+        levels = {name: text for name, text in row.items() if name not in cls.model_fields}
+        rest: dict[str, Any] = {name: text for name, text in row.items() if name not in levels}
+        rest["home_deg"] = rest["home_deg"].split()
+        rest["damage"] = yaml.safe_load(rest["damage"])
+        return cls.model_validate(rest | {"levels": levels})
+
+
+def read_design(path: str | Path) -> list[Setup]:
+    """The setups of a table."""
+    with Path(path).open(encoding="utf-8", newline="") as file:
+        return [Setup.from_row(row) for row in csv.DictReader(file)]
+
+
+def robot_in(nominal: Nominal, levels: Mapping[str, Any], study: Study) -> Nominal:
+    """A robot with the pose coordinates and the tool of a setup's levels.
+
+    A longer tool shrinks with the workspace.
+    """
+    entry, own = nominal.robot, study.robots[study.robot].workspace
+    workspace = entry.workspace.model_copy(update={"coordinates": levels["coordinates"]})
+    longer = levels["tool"] == "longer"
+    more = round(workspace.scale_to(own) * study.campaign.longer, DIGITS) if longer else 0.0
+    update = {"workspace": workspace, "beyond": entry.beyond + more}
+    return nominal.model_copy(update={"robot": entry.model_copy(update=update)})
+
+
+def width_units(widths: str, own: WorkspaceSettings) -> tuple[float, ...]:
+    """Six factors that turn workspace coordinates into the units of widths.
+
+    One width is as many cm as degrees on the study's own robot, whose workspace is given: on
+    smaller ones, as all lengths, the centimetres shrink. The unit is the mean half-range of
+    position, so that ranges of widths mean what they do in half-ranges of the workspace.
+    """
+    if widths == "half_ranges":
+        return (1.0,) * 6
+    factors = metric("centimetres_degrees", own)
+    return tuple(factor / (sum(factors[:3]) / 3) for factor in factors)
+
+
+def metric(norm: str, workspace: WorkspaceSettings) -> tuple[float, ...]:
+    """Six factors that turn workspace coordinates into the units of the norm in (3) and (8)."""
+    lengths = [side / 2 for side in workspace.position]
+    angles = [side / 2 for side in workspace.orientation]
+    match norm:
+        case "metres_radians":
+            return (*lengths, *angles)
+        case "centimetres_degrees":
+            return (*(100 * length for length in lengths), *map(math.degrees, angles))
+    return (1.0,) * 6

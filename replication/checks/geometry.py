@@ -1,0 +1,196 @@
+"""Whether the robots of a study can have its damages and serve its workspaces.
+
+Separate from the other checks, since it loads the robots. Only scenarios that run are checked.
+"""
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+import numpy as np
+
+from recalib.damaged.damage import Damage, apply
+from recalib.damaged.words import words
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
+from recalib.files.quantities import LENGTH
+from recalib.nominal.chain import TOLERANCE
+from recalib.nominal.controller import Controller
+from recalib.nominal.robots import Robot, link_end
+from recalib.spelling import instead, listed
+from replication.config.damages import Assigned, describe
+from replication.config.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
+from replication.config.study import Study
+from replication.scenarios.assignments import Ways
+from replication.scenarios.nominal import nominal
+from replication.scenarios.plants import nominal_robot
+from replication.training.trainings import scenario_of
+
+
+def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
+    """The mistakes that only the robots know of: in what describes them, and in scenarios.
+
+    Args:
+        study: one that has passed `check`.
+        scenarios: those that are to be run, each on the study's robot or NAME-ROBOT.
+    """
+    used = list(dict.fromkeys(scenario_of(study, scenario) for scenario in scenarios))
+    robots: dict[str, Robot] = {}
+    found: list[Mistake] = []
+    for name, entry in study.robots.items():
+        try:
+            robots[name] = nominal_robot(nominal(study, name))
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+        else:
+            found += list(_of_slides(robots[name])) or _of_links(robots[name], entry.links)
+    if found:
+        return found
+    assigned = []
+    for name in dict.fromkeys(robot for _, robot in used):
+        try:
+            Controller(robots[name], study.controller.greatest_condition)
+        except RecalibError as error:
+            found.append(_of_robot(name, error))
+            continue
+        its = [scenario for scenario, robot in used if robot == name]
+        for scenario in its:
+            found += _of_scenario(study, scenario, robots[name])
+        if any(isinstance(entry, Assigned) for own in its for entry in study.scenarios[own]):
+            assigned.append(robots[name])
+    if assigned and not found:
+        each = (list(_of_assignment(robot, study)) for robot in assigned)
+        found += next(filter(None, each), [])  # the others' would say the same again
+    if study.experiments.evidence and not found:
+        found += _of_mapping(robots[study.robot])
+        found += _of_series(study, robots[study.robot])
+    return found
+
+
+def _of_robot(name: str, error: RecalibError) -> Mistake:
+    match error:
+        case UnknownName():
+            keys = ("tool", "home", "limits")
+            key = next((key for key in keys if key in error.kind), None)
+            if key:
+                path = (key, error.name) if key in ("home", "limits") else (key,)
+                return unknown(("robots", name, *path), error.name, error.valid)
+            stood = f" is {shown(error.name)}, neither a file nor a URDF of example-robot-data"
+            return Mistake(("robots", name, "urdf"), f"{stood}; {instead(error.name, error.valid)}")
+        case InvalidFile():
+            return unlike(("robots", name, "urdf"), error.path, "a file that is there")
+        case InvalidSetting(key="home"):
+            return Mistake(("robots", name, "home"), f" lacks joints; expected: {error.valid}")
+        case InvalidSetting():
+            return unlike(("robots", name, *error.key.split(".")), error.value, error.valid)
+        case UnfitWorkspace():
+            return Mistake(("robots", name, "workspace"), f" does not fit: {error}")
+    return Mistake(("robots", name, "urdf"), f" does not fit: {error}")
+
+
+def _refused(robot: Robot, damage: Damage) -> UnknownName | InvalidSetting | None:
+    try:
+        apply(robot, [damage])
+    except (UnknownName, InvalidSetting) as error:
+        return error
+    return None
+
+
+def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]:
+    """Links and joints that the robot lacks, amounts that are too much for it, and damages that
+    together do not even leave the middle of its workspace within reach.
+    """
+    lacking: dict[KeyPath, UnknownName] = {}
+    done: list[Damage] = []
+    for index, entry in enumerate(study.scenarios[scenario]):
+        if not isinstance(entry, Damage):
+            continue
+        path, error, said = ("scenarios", scenario, index), _refused(robot, entry), describe(entry)
+        if isinstance(error, UnknownName):
+            lacking[(*path, next(iter(said)))] = error
+            continue
+        done.append(entry)
+        amounts = {word.key for word in words(type(entry)).values() if word.grows}
+        amount = next(key for key in said if key in amounts)
+        if error:
+            yield unlike((*path, amount), said[amount], error.valid)
+            break
+        if not _reaches_middle(robot, done):
+            where = f"the middle of the workspace within reach of the {robot.name}"
+            yield unlike((*path, amount), said[amount], f"less, so that it leaves {where}")
+            break
+    if len(lacking) > 1:  # it is meant for another robot
+        names = listed(dict.fromkeys(its.name for its in lacking.values()), "and")
+        has = f"has {listed(next(iter(lacking.values())).valid, 'and')}"
+        asked = ("scenario",), ("experiments", "scenarios")
+        fault = f" is about {names}; the {robot.name} {has}"
+        yield Mistake(("scenarios", scenario), fault, asked)
+    else:
+        yield from (unknown(where, its.name, its.valid) for where, its in lacking.items())
+
+
+def _reaches_middle(robot: Robot, damages: Iterable[Damage]) -> bool:
+    """Whether a command takes the damaged robot to the middle of its workspace."""
+    damaged, home = apply(robot, damages), robot.home[None]
+    angles, errors = damaged.chain.solve(robot.arm.forward(home), home)
+    within = (robot.lower <= angles) & (angles <= robot.upper)
+    return bool(errors[0] <= TOLERANCE and within.all())
+
+
+def _of_links(robot: Robot, links: Iterable[str]) -> Iterator[Mistake]:
+    """Links that a robot lacks."""
+    for index, link in enumerate(links):
+        if link not in robot.links:
+            yield unknown(("robots", robot.name, "links", index), link, robot.links)
+
+
+def _of_slides(robot: Robot) -> Iterator[Mistake]:
+    """Joints that slide: a study would take their lengths for angles."""
+    for joint, slides in zip(robot.joints, robot.arm.slides, strict=True):
+        if slides:
+            yield Mistake(
+                ("robots", robot.name, "home", joint), " slides; expected: joints that turn"
+            )
+
+
+def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
+    """Too few links or joints of a robot, or links that are too short, for the paper's damage."""
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    own, home = ("robots", robot.name, "links"), ("robots", robot.name, "home")
+    for key, amounts, other, there in (
+        ("shorten", damage.shorten, own, links),
+        ("shift", damage.shift, home, robot.joints),
+    ):
+        if len(amounts) > len(there):
+            valid = f"at most {len(there)}, one for each of {dotted(other)}"
+            fault = f" is a list of {len(amounts)}; expected: {valid}"
+            yield Mistake(("paper_damage", key), fault, (other,))
+    arm, most = robot.arm, max(damage.shorten)
+    ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
+    lengths = {link: np.linalg.norm(end) for link, end in ends.items()}
+    if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
+        path = "paper_damage", "shorten", damage.shorten.index(most)
+        valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"
+        yield unlike(path, LENGTH.write(most), valid, own)
+
+
+def _of_mapping(robot: Robot) -> Iterator[Mistake]:
+    """An arm whose posture is the controller's choice: its true mapping is not known."""
+    if len(robot.joints) > 6:
+        valid = f"false with the {robot.name}, an arm of {len(robot.joints)} joints"
+        yield unlike(("experiments", "evidence"), True, valid)
+
+
+def _of_series(study: Study, robot: Robot) -> Iterator[Mistake]:
+    """Series of more robots than there are assignments that leave something of every link."""
+    damage, links = study.paper_damage, study.robots[robot.name].links
+    ways = Ways(links, damage.shorten, robot.joints, damage.shift)
+    refused = cache(lambda damage: _refused(robot, damage))
+    for learner, series in study.experiments.ensemble.items():
+        for name, its in series.items():
+            scaled = ([damage.scaled(max(its.scales)) for damage in short] for short in ways.short)
+            fit = sum(not any(map(refused, short)) for short in scaled)
+            most = fit * len(ways.shifted)
+            if its.draws > most:
+                path = "experiments", "ensemble", learner, name, "draws"
+                yield unlike(
+                    path, its.draws, f"at most {most}, for which the links are long enough"
+                )

@@ -1,0 +1,67 @@
+"""From configuration files to a study."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import reduce
+from os import PathLike
+
+from pydantic import ValidationError
+
+from replication.config.messages import InvalidConfiguration, Mistake
+from replication.config.refusals import refusals
+from replication.config.study import Study
+from replication.config.values import Placed, from_file, from_mapping, shown
+
+Source = str | PathLike | Mapping | Placed
+Check = Callable[[Study], Iterable[Mistake]]
+
+
+def read_study(path: Source, *overlays: Source, checks: Iterable[Check] = ()) -> Study:
+    """The study of a configuration file.
+
+    Args:
+        overlays: files, or mappings from the command line, that are laid over it in this order:
+            mappings key by key, anything else as a whole.
+        checks: what to ask of the study beyond its types, each where those before found nothing.
+
+    Raises InvalidConfiguration, with file, line and column of every mistake. The file is taken to
+    be right by itself: what stands in it and does not go together with an overlay is told of the
+    last overlay, without a line.
+    """
+    sources = [*map(placed, (path, *overlays))]
+    whole = reduce(Placed.under, sources)
+    own = [str(source.place[0]) for source in (sources[1:] or sources)]
+    try:
+        study = Study.model_validate(whole.plain())
+    except ValidationError as error:
+        raise _at_its_place(refusals(error, whole.plain()), whole, own) from None
+    for find in checks:
+        if mistakes := list(find(study)):
+            raise _at_its_place(mistakes, whole, own)
+    return study
+
+
+def placed(source: Source) -> Placed:
+    """The values of a file or of a mapping. Raises InvalidConfiguration."""
+    match source:
+        case Placed():
+            return source
+        case Mapping():
+            return from_mapping(source)
+    return from_file(source)
+
+
+def _at_its_place(
+    mistakes: Iterable[Mistake], whole: Placed, own: Sequence[str]
+) -> InvalidConfiguration:
+    """The mistakes where they stand, in that order; what many uses of an anchor share, once.
+
+    Args:
+        own: the sources that somebody wrote who is told of it.
+    """
+    lines: dict[tuple, Mistake] = {}
+    for mistake in mistakes:
+        places = [whole.at(path).place for path in (mistake.path, *mistake.also)]
+        place = next((place for place in places if place[0] in own), own[-1:])
+        lines.setdefault((tuple(place), mistake.fault), mistake)
+    ordered = sorted(lines.items(), key=lambda line: line[0][0])
+    return InvalidConfiguration([f"{shown(place)}: {mistake}" for (place, _), mistake in ordered])

@@ -1,0 +1,83 @@
+"""What the types refuse, as mistakes: the key, what stood there, and pydantic's own words."""
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from functools import reduce
+from operator import getitem
+from typing import Any
+
+from pydantic import ValidationError
+
+from recalib.spelling import instead, listed, nearest
+from replication.config.messages import EXPECTED, Mistake, unlike
+from replication.config.schema import find, keys, meaning
+
+KEY = "[key]"  # how pydantic ends the place of a key that is no valid name
+# What it says of Python, said of YAML.
+SAID = {
+    r"^\w+ should (be|have) ": "",
+    r"a valid dictionary.*": "a mapping",
+    "a valid tuple": "a list",
+    "a valid boolean": "true or false",
+    r"at most (\d+) items? after validation, not .*": r"\1 values",
+    " after validation, not .*": "",
+}
+
+
+MISSING = " is missing: "
+
+
+def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
+    """What is wrong with the `whole` configuration: a mistake for each key.
+
+    A misspelt key is no missing one, too.
+    """
+    found, meant = {}, set()
+    errors = error.errors(include_url=False)
+    for refusal in sorted(errors, key=lambda its: its["type"] == "missing"):
+        *parents, last = refusal["loc"]
+        name = str(last)
+        path, schema = find(parents if last == KEY else refusal["loc"])
+        match refusal["type"]:
+            case "extra_forbidden" if name[:1].isdigit():
+                found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
+            case "extra_forbidden":
+                valid = keys(find(parents)[1])
+                meant.add((*path[:-1], nearest(name, valid)))
+                found[path] = Mistake(path, f": unknown key; {instead(name, valid)}")
+            case "missing" if path in meant:
+                pass
+            case "missing" if isinstance(last, int):  # the last of so many in a list
+                stood = reduce(getitem, path[:-1], whole)
+                found[path[:-1]] = unlike(path[:-1], stood, f"{last + 1} values")
+            case "missing":
+                found[path] = Mistake(path, f"{MISSING}{meaning(schema)}")
+            case "too_short" if refusal["input"]:
+                pass  # since none of its values is valid, which each of them says
+            case _:
+                found.setdefault(path, unlike(path, refusal["input"], _expected(refusal["msg"])))
+    return [*_together(found.values(), whole)]
+
+
+def _together(mistakes: Iterable[Mistake], whole: Any) -> Iterator[Mistake]:
+    """Several keys that one part lacks, and several wrong values of one list, told at once."""
+    groups = defaultdict(list)
+    for mistake in mistakes:
+        missing = mistake.fault.startswith(MISSING)
+        shared = missing or isinstance(mistake.path[-1], int)
+        groups[mistake.path[:-1] if shared else mistake.path, missing].append(mistake)
+    for (path, missing), its in groups.items():
+        if len(its) == 1:
+            yield its[0]
+        elif missing:
+            yield Mistake(path, f" lacks {listed((str(one.path[-1]) for one in its), 'and')}")
+        else:
+            _, _, expected = its[0].fault.partition(EXPECTED)
+            yield unlike(path, reduce(getitem, path, whole), f"each {expected}")
+
+
+def _expected(message: str) -> str:
+    for pattern, text in SAID.items():
+        message = re.sub(pattern, text, message)
+    return message

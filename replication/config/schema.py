@@ -1,0 +1,83 @@
+"""What the types say of every key: a JSON schema, for editors and for messages.
+
+`python -m replication.config.schema` writes workflow/schemas/config.schema.json.
+"""
+
+import json
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+from pydantic.json_schema import GenerateJsonSchema
+
+from recalib.files.storage import whole
+from replication.config.messages import KeyPath
+from replication.config.study import Study
+
+FILE = Path("workflow/schemas/config.schema.json")
+
+
+class _WithoutTitles(GenerateJsonSchema):
+    """Titles would repeat the keys."""
+
+    def field_title_should_be_set(self, schema) -> bool:
+        return False
+
+
+@cache  # making it takes longer than reading a study
+def json_schema() -> dict:
+    """The schema of a configuration."""
+    return Study.model_json_schema(schema_generator=_WithoutTitles)
+
+
+def text() -> str:
+    """The schema as its file holds it."""
+    return json.dumps(json_schema(), indent=1) + "\n"
+
+
+def find(location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
+    """The path and the schema of a place in pydantic's errors, which name choices, too."""
+    schema: Mapping = json_schema()
+    path: KeyPath = ()
+    for part in location:
+        schema = resolved(schema)
+        if "oneOf" in schema:
+            schema = json_schema()["$defs"][part]
+        else:
+            schema, path = _at(schema, part), (*path, part)
+    return path, schema
+
+
+def _at(schema: Mapping, part: str | int) -> Mapping:
+    """The schema of a key or an index; {} where there is none."""
+    if isinstance(part, int):
+        fixed = schema.get("prefixItems")
+        return fixed[part] if fixed else schema.get("items", {})
+    named = schema.get("patternProperties", {}).values()
+    whatever = next(iter(named), schema.get("additionalProperties") or {})
+    return schema.get("properties", {}).get(part, whatever)
+
+
+def resolved(schema: Mapping) -> Mapping:
+    """The schema itself in the place of a reference to it, or of it or null."""
+    for choice in schema.get("anyOf", ()):
+        if choice.get("type") != "null":
+            return resolved(choice)
+    reference = schema.get("$ref")
+    return json_schema()["$defs"][reference.rsplit("/")[-1]] if reference else schema
+
+
+def keys(schema: Mapping) -> list[str]:
+    """The keys of a mapping."""
+    return list(resolved(schema).get("properties", {}))
+
+
+def meaning(schema: Mapping) -> str:
+    """What a key is, within a sentence; of a value in a list, that it is one."""
+    text = schema.get("description") or resolved(schema).get("description", "A value.")
+    return f"{text[0].lower()}{text[1:-1]}"
+
+
+if __name__ == "__main__":
+    with whole(FILE) as path:
+        path.write_text(text(), encoding="utf-8")

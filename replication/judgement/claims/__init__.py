@@ -1,0 +1,42 @@
+"""The paper's claims, in its order: a file for each section.
+
+What changed in them after a result had been seen stands in `workflow/deviations.yaml`.
+"""
+
+from replication.campaign.variants import DOUBLE
+from replication.config.study import Study
+from replication.judgement.claims import (
+    section_3,
+    section_4,
+    section_5,
+    section_6,
+    section_7,
+    section_8,
+)
+from replication.judgement.claims.claim import Claim
+from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.findings import Finding
+
+
+def claims(study: Study) -> list[Claim]:
+    """All claims of the paper."""
+    own, late = study.experiments.iterations, study.campaign.late
+    return [
+        *section_3.claims(own, DOUBLE),
+        *section_4.claims(own, late),
+        *section_5.claims(own),
+        *section_6.claims(own),
+        *section_7.claims(own),
+        *section_8.claims(own),
+    ]
+
+
+def judge(evidence: Evidence) -> tuple[Finding, ...]:
+    """What was found about each claim for which the study has what it takes."""
+    found = []
+    for claim in claims(evidence.study):
+        try:
+            found.append(claim.judge(evidence))
+        except NotMeasured:
+            continue
+    return tuple(found)

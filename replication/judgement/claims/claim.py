@@ -1,0 +1,130 @@
+"""What a claim is, and how it is judged."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from replication.judgement.contrasts import Estimand
+from replication.judgement.effects import strongest
+from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.findings import Finding, Number, number, spread
+from replication.judgement.hierarchy import Model
+from replication.judgement.verdicts import RATIO, Comparison, Verdict
+
+
+@dataclass(frozen=True)
+class Statement:
+    """What the paper says, and what would support it.
+
+    Attributes:
+        id: its name.
+        section: of the paper.
+        words: the paper's own.
+        claim: what they say, in a sentence.
+        criterion: what supports the claim.
+        reason: why just that.
+        published: the paper's number, if any.
+    """
+
+    id: str
+    section: str
+    words: str
+    claim: str
+    criterion: str
+    reason: str
+    published: str | None = None
+
+    def finding(
+        self, verdict: Verdict, *estimates: Number, note: str = "", **more: object
+    ) -> Finding:
+        """What was found about it."""
+        return Finding.model_validate(
+            {
+                "id": self.id,
+                "section": self.section,
+                "statement": self.words,
+                "claim": self.claim,
+                "published": self.published,
+                "criterion": self.criterion,
+                "estimates": estimates,
+                "spread": None,
+                "verdict": verdict,
+                "note": note,
+            }
+            | more
+        )
+
+
+@dataclass(frozen=True)
+class OfSetups:
+    """A claim that one number in all setups decides.
+
+    Attributes:
+        statement: what it says.
+        name: of the number.
+        system: the algorithm of which the paper speaks.
+        estimand: the number.
+        comparison: with what it is compared.
+        beside: more numbers, by name and system, which decide nothing.
+    """
+
+    statement: Statement
+    name: str
+    system: str
+    estimand: Estimand
+    comparison: Comparison = RATIO
+    beside: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
+
+    def judge(self, evidence: Evidence) -> Finding:
+        """Raises NotMeasured: fewer than three setups have the number."""
+        its, unsettled = self.model(evidence)
+        numbers = [number(self.name, self.system, its.mean, its.another)]
+        for (name, system), estimand in self.beside.items():
+            other = estimand.values(evidence.outcomes()).model()
+            numbers.append(number(name, system, other.mean, other.another))
+        return self.statement.finding(
+            self.comparison.verdict(its),
+            *numbers,
+            spread=spread(
+                its,
+                unsettled,
+                self.comparison.shares(its),
+                strongest(its.numbers, evidence.levels(), evidence.rng(self.statement.id)),
+            ),
+        )
+
+    def model(self, evidence: Evidence) -> tuple[Model, int]:
+        """The number over all setups, and how many searches have not converged."""
+        values = self.estimand.values(evidence.outcomes())
+        if len(values.table) < FEWEST:
+            raise NotMeasured(f"campaign: {self.statement.id} in {FEWEST} setups")
+        return values.model(), values.unsettled
+
+
+FEWEST = 3  # setups: fewer have no mean and heterogeneity
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A claim about the mapping, or about the reference study alone."""
+
+    statement: Statement
+    judge_: Callable[[Statement, Evidence], Finding]
+
+    def judge(self, evidence: Evidence) -> Finding:
+        """Raises NotMeasured."""
+        return self.judge_(self.statement, evidence)
+
+
+Claim = OfSetups | Measured
+
+
+def of_all(*verdicts: Verdict) -> Verdict:
+    """The verdict on a claim of several parts: that on the first which is not supported."""
+    return next((its for its in verdicts if its is not Verdict.SUPPORTED), Verdict.SUPPORTED)
+
+
+def log(limit: float) -> float:
+    """The logarithm of a limit."""
+    return float(np.log(limit))

@@ -1,0 +1,118 @@
+"""Section 6: how widths should fall."""
+
+import numpy as np
+
+from replication.config.switches import IMPROVED, RITTER
+from replication.judgement.claims.claim import Measured, OfSetups, Statement, log, of_all
+from replication.judgement.contrasts import Contrast, Remaining
+from replication.judgement.evidence import Evidence
+from replication.judgement.findings import Finding, Number, number
+from replication.judgement.hierarchy import student
+from replication.judgement.verdicts import Comparison, Verdict
+
+FEW, MANY = 20, 10  # iterations: a tenth of Figure 1's; an order of magnitude
+NEAR_A_FACE = 0.3  # widths up to this one see one face of the workspace only
+DEVIATION = 0.05  # of the formula: no schedule would show less
+ERRORS = 3.0  # standard errors of Monte Carlo
+AWAY = 3.0  # sigma from the border: they hold 99.7 % of a Gaussian
+
+
+def coarse_widths(statement: Statement, evidence: Evidence) -> Finding:
+    """Iterations that halve both errors, with wide and with narrow neighbourhoods."""
+    table = evidence.mapping("widths")
+    taken = np.log(table.pivot(index="seed", columns="width", values="iterations"))
+    wide, more = (
+        student(its.to_numpy()) for its in (taken["wide"], taken["narrow"] - taken["wide"])
+    )
+    rates = table.groupby("width")["rate"].first()
+    note = (
+        f"The rates are {rates['wide']:g} and {rates['narrow']:g}, the best on other poses. The"
+        f" intervals are over {len(taken)} seeds, and leave out the luck of this choice."
+    )
+    verdict = of_all(
+        Comparison(log(MANY), below=False).of_interval(more),
+        Comparison(log(FEW)).of_interval(wide),
+    )
+    return statement.finding(
+        verdict,
+        number("iterations with narrow neighbourhoods / with wide ones", "improved system", more),
+        number("iterations with wide neighbourhoods", "improved system", wide),
+        note=note,
+    )
+
+
+def expected_learning(statement: Statement, evidence: Evidence) -> Finding:
+    """Equation (10) against Monte Carlo."""
+    table = evidence.mapping("visits")
+    away = table[table["distance"] >= AWAY * table["width"]]
+    deviation = (away["ratio"] - 1).abs()
+    agrees = (deviation <= DEVIATION) & (deviation <= ERRORS * away["error"])
+    border = table[(table["distance"] == 0) & (table["width"] <= NEAR_A_FACE)]["ratio"].mean()
+    note = (
+        f"{len(away)} combinations of width and distance. On a face of the workspace a cell learns"
+        f" {border:.2f} of the formula."
+    )
+    return statement.finding(
+        Verdict.SUPPORTED if agrees.all() else Verdict.CONTRADICTED,
+        Number(name="largest deviation", system="equation (10)", value=float(deviation.max())),
+        note=note,
+    )
+
+
+def claims(iterations: int) -> list[OfSetups | Measured]:
+    """The claims of the section, in its order; `iterations` are those of Figure 1."""
+
+    def left(variant: str) -> Remaining:
+        return Remaining(variant, iterations)
+
+    name = "error with equal visits / with exponential widths"
+    return [
+        Measured(
+            Statement(
+                "coarse-widths",
+                "6",
+                "When the neighborhood width is large [...] Few iterations are then required to"
+                " learn the mapping in all the input space at a coarse level of resolution. Instead,"
+                " when the neighborhoods are small [...] many more iterations are required",
+                "Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in many.",
+                f"With constant widths, both errors are halved after at most {FEW} iterations if"
+                " neighbourhoods are as wide as half of the workspace, and after at least"
+                f" {MANY} times as many if they are as wide as half of the distance between cells.",
+                "Few is a tenth of Figure 1's iterations, many more an order of magnitude. Each"
+                " width has the best of four constant rates.",
+            ),
+            coarse_widths,
+        ),
+        Measured(
+            Statement(
+                "expected-learning",
+                "6",
+                "The second equality results from assuming Gaussian neighborhoods and a uniform"
+                " p(w), and it is valid for w_r's not too close to the border",
+                "A formula predicts how much a cell learns in an iteration.",
+                "Monte Carlo agrees within 5 % and three of its standard errors for all cells at"
+                " least 3 sigma from the border.",
+                "No schedule would show a deviation below 5 %. The formula is equation (10).",
+                "equation (10)",
+            ),
+            expected_learning,
+        ),
+        OfSetups(
+            Statement(
+                "schedule",
+                "6",
+                "The neighborhood scheduling proposed by Ritter et al. does not take into account"
+                " this fact. We will derive now a neighborhood scheduling",
+                "Widths should fall so that a cell is visited equally often at each of them.",
+                f"After {iterations} iterations the error with widths that fall by equal visits is"
+                " below that with widths that fall exponentially. The rate falls by the same law.",
+                "Section 6 changes the widths alone, in the system with two maps.",
+            ),
+            name,
+            "improved system",
+            Contrast(left(IMPROVED), left("improved_exponential")),
+            beside={
+                (name, "Ritter's one map"): Contrast(left("ritter_equal_visits"), left(RITTER))
+            },
+        ),
+    ]

@@ -1,0 +1,126 @@
+"""What claims are judged by, figures are drawn from and pages say: the results of a study."""
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from recalib.errors import RecalibError
+from recalib.numerics.randomness import generator
+from replication.config.campaign import Factors
+from replication.config.shipped import CAMPAIGN, SHIPPED, root_of
+from replication.config.study import Study
+from replication.judgement.measured import ERRORS
+from replication.training.plan import Place, places
+
+MAPPING = "nearness", "propagation", "quantisation", "replay", "solutions", "visits", "widths"
+
+
+class NotMeasured(RecalibError):
+    """A study lacks what was asked for. Its text is the key that would bring it."""
+
+
+def files(study: Study, part: str) -> list[str]:
+    """The paths of a part of a study's results.
+
+    Args:
+        part: trainings, mapping, ensemble, campaign, or the name of a single table.
+    """
+    root = root_of(study.name)
+    match part:
+        case "trainings":
+            found = [f"{root}/summary.csv"]
+            for place, learners in places(study).items():
+                found.append(place.scenario_file(root))
+                found += [place.history_file(root, learner) for learner in learners]
+            return found
+        case "mapping":
+            names = [*MAPPING, "coupling"]
+            return [
+                f"{root}/mapping/{name}.parquet" for name in names if study.experiments.evidence
+            ]
+        case "ensemble":
+            series = study.experiments.ensemble if study.experiments.evidence else {}
+            return [f"{root}/ensemble/{learner}.parquet" for learner in series]
+        case "campaign":
+            return [f"{CAMPAIGN}/{name}.csv" for name in ("design", "outcomes", "coupling")]
+    return [f"{root}/{part}"]
+
+
+class Evidence:
+    """Results of a study; what it lacks raises NotMeasured.
+
+    Args:
+        project: the folder of the project.
+    """
+
+    def __init__(self, study: Study, project: Path = Path()):
+        self.study, self._project = study, project
+        self._root = root_of(study.name)
+
+    @property
+    def shipped(self) -> bool:
+        """Whether the study is the one of the README."""
+        return self.study.name == SHIPPED
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table by its path below the folder of results, or below the project's."""
+        path = self._project / (name if name.startswith("workflow/") else f"{self._root}/{name}")
+        if not path.is_file():
+            raise NotMeasured(name)
+        return _read(path)
+
+    def history(
+        self,
+        learner: str,
+        iterations: int,
+        scenario: str | None = None,
+        robot: str | None = None,
+    ) -> pd.DataFrame:
+        """A row for each seed and measurement of a training; on the paper's damage, if not told."""
+        place = Place(robot or self.study.robot, scenario or self.study.scenario)
+        if iterations not in places(self.study).get(place, {}).get(learner, ()):
+            raise NotMeasured(f"experiments.learners.{learner}: [{iterations}]")
+        table = _read(self._project / place.history_file(self._root, learner))
+        return table[table["iterations"] == iterations]
+
+    def errors(
+        self, learner: str, iterations: int, scenario: str | None = None, first: bool = False
+    ) -> np.ndarray:
+        """Position [cm] and orientation errors [degrees] (seed, 2), last or before learning."""
+        history = self.history(learner, iterations, scenario)
+        when = 0 if first else iterations
+        then = history[history["iteration"] == when].sort_values("seed")
+        return then[list(ERRORS)].to_numpy()
+
+    def outcomes(self) -> pd.DataFrame:
+        """The campaign's table. Raises NotMeasured: it is of another study."""
+        if not self.shipped:
+            raise NotMeasured("name: replication")
+        return self.table(f"{CAMPAIGN}/outcomes.csv")
+
+    def levels(self) -> pd.DataFrame:
+        """The levels of each setup's factors, by its number."""
+        design = self.table(f"{CAMPAIGN}/design.csv").set_index("setup")
+        return design[list(Factors.model_fields)]
+
+    def mapping(self, name: str) -> pd.DataFrame:
+        """One of the tables of the mapping."""
+        return self.table(f"mapping/{name}.parquet")
+
+    def scenario(self, name: str | None = None) -> dict[str, Any]:
+        """A scenario as resolved."""
+        place = Place(self.study.robot, name or self.study.scenario)
+        return json.loads((self._project / place.scenario_file(self._root)).read_text("utf-8"))
+
+    def rng(self, *keys: str) -> np.random.Generator:
+        """Randomness of an interval."""
+        return generator(self.study.seed, "evidence", *keys)
+
+
+@cache
+def _read(path: Path) -> pd.DataFrame:
+    return (pd.read_parquet if path.suffix == ".parquet" else pd.read_csv)(path)

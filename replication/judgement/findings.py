@@ -1,0 +1,131 @@
+"""What was found about each claim: typed, written and read by one model."""
+
+from pathlib import Path
+
+import numpy as np
+from pydantic import TypeAdapter
+
+from replication.config.part import Frozen
+from replication.judgement.hierarchy import Estimate, Model
+from replication.judgement.verdicts import Verdict
+
+DIGITS = 6  # more than pages show: rounding twice is rounding once
+
+
+class Number(Frozen):
+    """A number with its intervals.
+
+    Attributes:
+        name: what it is.
+        system: of which algorithm.
+        value: of the number; None if only a bound is known.
+        interval: 95 % of the mean over setups, or of runs.
+        predictive_interval: in which one more study in another setup would find its number.
+        bound: "at least" or "at most", if the value is one.
+    """
+
+    name: str
+    system: str
+    value: float
+    interval: tuple[float, float] | None = None
+    predictive_interval: tuple[float, float] | None = None
+    bound: str | None = None
+
+
+class Spread(Frozen):
+    """By how much a number differs from setup to setup: standard deviations of its logarithm.
+
+    Attributes:
+        between: setups, with luck taken out, and its interval.
+        luck: between measurements of the same setup, and its interval.
+        setups: in which it was measured.
+        unsettled: how many of its searches have not converged.
+        shares: of setups with each effect.
+        factor: what it depends on most, beyond chance.
+    """
+
+    between: float
+    between_interval: tuple[float, float]
+    luck: float
+    luck_interval: tuple[float, float]
+    setups: int
+    unsettled: int
+    shares: dict[str, float]
+    factor: str | None = None
+
+
+class Finding(Frozen):
+    """A claim of the paper, what was measured, and the verdict.
+
+    Attributes:
+        id: of the claim.
+        section: of the paper.
+        statement: the paper's own words.
+        claim: what they say, in a sentence.
+        published: the paper's number, if any.
+        criterion: what supports the claim.
+        estimates: numbers; the first one decides.
+        spread: over the setups, if they decide.
+        verdict: on the claim.
+        note: what else there is to say.
+        exploratory: whether the criterion changed after a result had been seen.
+    """
+
+    id: str
+    section: str
+    statement: str
+    claim: str
+    published: str | None
+    criterion: str
+    estimates: tuple[Number, ...]
+    spread: Spread | None
+    verdict: Verdict
+    note: str
+    exploratory: bool = False
+
+
+_FINDINGS = TypeAdapter(tuple[Finding, ...])
+
+
+def read_findings(path: Path) -> dict[str, Finding]:
+    """The findings in a file, by the ids of their claims."""
+    return {its.id: its for its in _FINDINGS.validate_json(path.read_bytes())}
+
+
+def written(findings: tuple[Finding, ...]) -> bytes:
+    """The text of a file of findings."""
+    return _FINDINGS.dump_json(findings, indent=2) + b"\n"
+
+
+def number(name: str, system: str, estimate: Estimate, another: Estimate | None = None) -> Number:
+    """A number above zero from the estimate of its logarithm."""
+    return Number(
+        name=name,
+        system=system,
+        value=rounded(np.exp(estimate.mean)),
+        interval=_ends(estimate),
+        predictive_interval=_ends(another) if another else None,
+    )
+
+
+def spread(its: Model, unsettled: int, shares: dict[Verdict, float], factor: str | None) -> Spread:
+    """How a number differs from setup to setup."""
+    return Spread(
+        between=rounded(its.heterogeneity.mean),
+        between_interval=(rounded(its.heterogeneity.low), rounded(its.heterogeneity.high)),
+        luck=rounded(its.luck.mean),
+        luck_interval=(rounded(its.luck.low), rounded(its.luck.high)),
+        setups=len(its.numbers),
+        unsettled=unsettled,
+        shares={str(verdict): rounded(share) for verdict, share in shares.items()},
+        factor=factor,
+    )
+
+
+def _ends(estimate: Estimate) -> tuple[float, float]:
+    return rounded(np.exp(estimate.low)), rounded(np.exp(estimate.high))
+
+
+def rounded(value: float) -> float:
+    """With so many more digits than pages show."""
+    return float(f"{value:.{DIGITS}g}")

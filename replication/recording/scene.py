@@ -1,0 +1,108 @@
+"""The entities of a recording: what stands still is static, the rest is sent as columns over time.
+
+    /about, /beside                the texts of the two tabs
+    /workspace, /desired           the box of positions, and the shown test poses in it
+    /<learner>/<robot>             the meshes of the real arm that this learner moves
+    /<learner>/links               where its links are
+    /<learner>/believed            the arm that its controller assumes, as a skeleton
+    /<learner>/wrong               where the arm is not what its controller assumes
+    /<learner>/target              the pose that the arm is sent to, and a caption
+    /<learner>/achieved            where the real arm lands
+    /<learner>/miss                lines to there from the desired positions
+    /<learner>/measured            what is measured there, where that is disturbed
+    /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
+    /<learner>/map/corrections     how far each cell has learned to move its position command
+    /errors/<quantity>/<learner>   mean errors over all test poses
+    /errors/<quantity>/paper       the published initial error, where it is meant
+
+Timeline `iterations` runs through the three phases of `phases.Motion`.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import rerun as rr
+
+from recalib.nominal.poses import POSITION, Workspace
+from replication.recording.colours import GREY, WHITE
+from replication.recording.phases import CLOCK, Clock, Motion
+from replication.recording.sight import Sight
+from replication.recording.watched import Watched
+
+TOP = 0.98  # of a picture whose half is 1 high: where the caption stands
+AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A learner's training on its way into a recording, below an entity of the learner's name."""
+
+    rec: rr.RecordingStream
+    learner: str
+    workspace: Workspace
+    watched: Watched
+    motion: Motion
+    sight: Sight
+
+    def log(self, part: str, *what: rr.AsComponents) -> None:
+        """Log what stands still."""
+        self.rec.log(f"{self.learner}/{part}", *what, static=True)
+
+    def send(self, part: str, clock: Clock, columns: rr.ComponentColumnList, each: int = 1) -> None:
+        """Send columns over time, with so many rows at each moment."""
+        moments = len(clock[0].as_arrow_array())
+        self.rec.send_columns(f"{self.learner}/{part}", clock, columns.partition([each] * moments))
+
+    def show(
+        self, part: str, columns: rr.ComponentColumnList, each: int, style: rr.AsComponents
+    ) -> None:
+        """Send columns at all measurements, with so many rows at each, and what stands still."""
+        self.send(part, self.motion.measurements()[0], columns, each)
+        self.log(part, style)
+
+
+def unit_of(workspace: Workspace) -> float:
+    """m: half a side of the workspace, on average, by which everything drawn is sized."""
+    return float(workspace.half_ranges[POSITION].mean())
+
+
+def log_surroundings(
+    rec: rr.RecordingStream, workspace: Workspace, desired: np.ndarray, texts: Mapping[str, str]
+) -> None:
+    """The texts by entity, the workspace's box and the desired poses (pose, 4, 4)."""
+    unit = unit_of(workspace)
+    rec.log("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+    for entity, text in texts.items():
+        rec.log(entity, rr.TextDocument(text, media_type="text/markdown"), static=True)
+    box = rr.Boxes3D(
+        centers=[workspace.centre[:3, 3]],
+        half_sizes=[workspace.half_ranges[POSITION]],
+        colors=GREY,
+        radii=0.004 * unit,
+        fill_mode=rr.components.FillMode.MajorWireframe,
+    )
+    rec.log("workspace", box, static=True)
+    axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.013 * unit)
+    rec.log("desired", axes, static=True)
+
+
+def send_target(scene: Scene, captions: Sequence[str]) -> None:
+    """The pose that the arm is sent to, and above all a caption for each measurement."""
+    motion = scene.motion
+    clock, rows = motion.measurements()
+    top = scene.sight.place(0, TOP)
+    scene.log("target/caption", rr.Points3D([top], radii=0, colors=WHITE))
+    scene.send("target/caption", clock, rr.Points3D.columns(labels=[captions[row] for row in rows]))
+    dot = rr.Points3D.from_fields(radii=0.052 * unit_of(scene.workspace), colors=WHITE)
+    scene.log("target/pose", dot)
+    visited = np.tile(scene.watched.desired[:, :3, 3], (2, 1))
+    departures = [rr.TimeColumn(CLOCK, sequence=motion.departures.ravel())]
+    scene.send("target/pose", departures, rr.Points3D.columns(positions=visited))
+
+
+def axes_of(poses: np.ndarray, length: float) -> np.ndarray:
+    """The axes of poses (pose, 4, 4) as lines (pose x axis, 2, 3) of this length [m]."""
+    origins = np.repeat(poses[:, None, :3, 3], 3, axis=1)
+    tips = origins + length * np.swapaxes(poses[:, :3, :3], 1, 2)
+    return np.stack([origins, tips], axis=2).reshape(-1, 2, 3)

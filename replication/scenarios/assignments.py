@@ -1,0 +1,121 @@
+"""Which links, which encoders, which signs? Every way to assign the paper's damage (section 7).
+
+The paper says by how much three links were shortened and three encoders were shifted, and what
+the initial errors were. It says neither which links and encoders nor which signs.
+"""
+
+from collections.abc import Sequence
+from itertools import permutations, product
+
+import numpy as np
+
+from recalib.damaged.damage import Along, EncoderShift, LinkShortening, apply
+from recalib.nominal.controller import Controller
+from recalib.nominal.poses import pose_errors
+from recalib.numerics.randomness import generator
+from replication.config.study import PaperDamage, Published
+from replication.scenarios.nominal import Nominal
+from replication.scenarios.plants import Assignment, nominal_controller
+
+TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
+
+
+def _distinct(
+    names: Sequence[str], choices: Sequence[Sequence[float]]
+) -> list[list[tuple[str, float]]]:
+    """Every way to give all amounts of one of the choices to as many names, in the names' order."""
+    ways = dict.fromkeys(
+        tuple(sorted(zip(chosen, amounts, strict=True)))
+        for chosen in permutations(range(len(names)), len(choices[0]))
+        for amounts in choices
+    )
+    return [[(names[place], amount) for place, amount in way] for way in ways]
+
+
+class Ways:
+    """Every way to assign the paper's damage to a robot, in one order.
+
+    Args:
+        links: to which the lengths [m] may be assigned.
+        joints: to whose encoders the angles [rad] may be, with either sign.
+        along: which direction links are shortened; see `LinkShortening`.
+    """
+
+    def __init__(
+        self,
+        links: Sequence[str],
+        lengths: Sequence[float],
+        joints: Sequence[str],
+        angles: Sequence[float],
+        along: Along = "line",
+    ):
+        signed = list(product(*((angle, -angle) for angle in angles)))
+        self.short = [
+            tuple(LinkShortening(link, length, along) for link, length in way)
+            for way in _distinct(links, [lengths])
+        ]
+        self.shifted = [
+            tuple(EncoderShift(joint, angle) for joint, angle in way)
+            for way in _distinct(joints, signed)
+        ]
+
+    def __len__(self) -> int:
+        return len(self.short) * len(self.shifted)
+
+    def __getitem__(self, index: int) -> tuple[LinkShortening | EncoderShift, ...]:
+        """The damages of one assignment, links first, each from the base to the tool."""
+        short, shifted = divmod(int(index), len(self.shifted))
+        return (*self.short[short], *self.shifted[shifted])
+
+
+def assign(
+    nominal: Nominal, damage: PaperDamage, seed: int
+) -> tuple[dict[str, np.ndarray], Assignment]:
+    """Every assignment of the paper's damage to a robot, and the one nearest to what is published.
+
+    Returns the columns of a table with a row for each of `Ways`: the mean initial errors
+    position_error_cm and orientation_error_deg, and `distance`, the larger of their relative
+    deviations from the published ones. Of several equally near, up to rounding, the first is used.
+    """
+    controller = nominal_controller(nominal)
+    robot = controller.robot
+    ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
+    poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
+    table, nearest = compare(controller, ways, poses, damage.published)
+    return table, Assignment(damages=ways[nearest])
+
+
+def compare(
+    controller: Controller,
+    ways: Ways,
+    coordinates: np.ndarray,
+    published: Published,
+    scale: float = 1.0,
+    error: str = "norm",
+) -> tuple[dict[str, np.ndarray], int]:
+    """The table of `assign` for these ways, and the row of the one nearest to what is published.
+
+    Args:
+        coordinates: (n, 6) desired poses over which the errors are averaged.
+        scale: of all lengths, in those that are published.
+        error: of a pose; see `recalib.nominal.poses.pose_errors`.
+    """
+    robot = controller.robot
+    desired = robot.workspace.to_poses(coordinates)
+    angles = controller.inverse(desired)
+    offsets = np.array([apply(robot, shift).offsets for shift in ways.shifted])
+    believed = (angles + offsets[:, None]).reshape(-1, angles.shape[1])
+    errors = []
+    for shortening in ways.short:
+        achieved = apply(robot, shortening).chain.forward(believed[None])
+        achieved = achieved.reshape(len(ways.shifted), len(desired), 4, 4)
+        both = pose_errors(robot.workspace, achieved, desired, error)
+        errors.append([its.mean(axis=1) for its in both])
+    position, orientation = np.concatenate(errors, axis=1)
+    table = {
+        "position_error_cm": 100 * position / scale,
+        "orientation_error_deg": np.degrees(orientation),
+    }
+    distances = [np.abs(table[name] / value - 1) for name, value in published]
+    table["distance"] = np.maximum(*distances)
+    return table, int(table["distance"].round(TIE).argmin())

@@ -1,0 +1,33 @@
+"""The robot as its controller models it, as an argument of jobs."""
+
+import hashlib
+from collections.abc import Iterable
+from pathlib import Path
+
+from replication.config.part import Frozen
+from replication.config.study import ControllerSettings, RobotSettings, Study
+
+
+class Nominal(Frozen):
+    """A robot and its controller."""
+
+    name: str
+    robot: RobotSettings
+    controller: ControllerSettings
+    urdf_sha256: str
+    """Digest of the file that `robot.urdf` means: results follow from what stands in it."""
+
+
+def nominal(study: Study, robot: str) -> Nominal:
+    """A robot of a study. See `find_urdf` for what it raises."""
+    from recalib.nominal.descriptions import find_urdf
+
+    entry = study.robots[robot]
+    digest = digest_of([find_urdf(entry.urdf)])
+    return Nominal(name=robot, robot=entry, controller=study.controller, urdf_sha256=digest)
+
+
+def digest_of(files: Iterable[Path]) -> str:
+    """Of what stands in files."""
+    each = (hashlib.sha256(file.read_bytes()).hexdigest() for file in files)
+    return hashlib.sha256("".join(each).encode()).hexdigest()

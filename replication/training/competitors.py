@@ -1,0 +1,80 @@
+"""The learners that are compared: what each is called, what it needs to know, and how it is made.
+
+The paper's are made from their settings in the configuration
+(`replication.training.settings`). They make two moves an iteration; today's, the peers, make
+one.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from recalib.learners.kinds import KINDS, POSES, class_of
+from replication.config.switches import RITTER
+
+# Whoever only asks for names need not wait for what builds and moves arms.
+if TYPE_CHECKING:
+    from recalib.loop.interfaces import Learner
+    from recalib.nominal.robots import Robot
+
+MOVES = 2  # of an iteration of the paper's learners
+TWO_MOVES = f"{POSES}, two moves for each"
+UNCORRECTED = "uncorrected"  # the peer that learns nothing
+TWIN = "hybrid"  # the one that identifies a twin: it explains more than geometry
+
+
+class Peer(NamedTuple):
+    """One of today's learners that is compared.
+
+    Attributes:
+        label: what it is called.
+        needs: what it needs to know.
+        kind: of `recalib.learners.kinds`; empty for that which learns nothing.
+        settings: what it is made with.
+    """
+
+    label: str
+    needs: str
+    kind: str
+    settings: Mapping[str, Any]
+
+
+def peers() -> dict[str, Peer]:
+    """All of them by name."""
+    learning = [
+        Peer(label, its.needs, kind, settings)
+        for kind, its in KINDS.items()
+        for label, settings in its.peers.items()
+    ]
+    named = {its.label.lower().replace(" ", "_"): its for its in learning}
+    return {UNCORRECTED: Peer(UNCORRECTED, "nothing", "", {})} | named
+
+
+def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
+    """The peer of this name, which has learned nothing yet, for a nominal robot."""
+    its = peers()[name]
+    if name == UNCORRECTED:
+        from recalib.learners.uncorrected import UncorrectedLearner
+
+        return UncorrectedLearner()
+    return class_of(its.kind).from_settings(its.settings, runs, robot)
+
+
+def homes_of(names: Iterable[str]) -> list[str]:
+    """The modules of those of these learners that are peers: they are imported by what they say."""
+    known = peers()
+    kinds = [known[name].kind for name in names if name in known]
+    return [KINDS[kind].home.rpartition(".")[0] for kind in kinds if kind]
+
+
+def needs_of(name: str) -> str:
+    """What a learner needs to know."""
+    known = peers()
+    return known[name].needs if name in known else TWO_MOVES
+
+
+def label_of(name: str) -> str:
+    """What a learner is called."""
+    known = peers()
+    if name in known:
+        return known[name].label
+    return name.capitalize() if name == RITTER else name.replace("_", " ")

@@ -1,0 +1,73 @@
+"""Do wide neighbourhoods learn a coarse mapping in few iterations (section 6)?
+
+The improved system learns with widths and rates that do not fall. Each width has its best rate,
+chosen on other poses from the same few.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.schedules import Schedule
+from replication.config.study import LearnerSettings, Measuring
+from replication.scenarios.plants import Resolved
+from replication.training.poses import ResultPoses, SearchPoses, Stream, train_on
+from replication.training.settings import rules_of
+
+# Half of the workspace, and half of the distance between cells, whose neighbours hardly learn.
+WIDTHS = {"wide": 1.0, "narrow": 1 / 3}
+RATES = np.array([0.1, 0.2, 0.4, 0.8])
+LEFT = 0.5  # of both errors: a coarse mapping
+ITERATIONS, SEEDS = 1000, 10
+MEASURING = Measuring(tests=50, measure_every=1, measure_evenly=1, measurements=60)
+
+
+def halved_after(
+    resolved: Resolved,
+    rules: LearnerSettings,
+    width: float,
+    rates: np.ndarray,
+    poses: SearchPoses | ResultPoses,
+    seed: int,
+) -> np.ndarray:
+    """Iterations (run,) after which both errors are halved; all of them where they never are.
+
+    Args:
+        rates: (run,) learning rates.
+        seed: of the robots.
+    """
+    its = rules_of(rules)
+    schedule = Schedule(width, dict.fromkeys(its.maps, (width, width)), rates, rates)
+    learner = HierarchicalLearner(its, schedule, runs=len(rates))
+    plant = resolved.plant(resolved.controller(), seed, range(len(rates)))
+    history = train_on(plant, learner, poses, MEASURING.during(poses.desired.shape[1]))
+    errors = np.stack([history.position_error, history.orientation_error])
+    halved = np.all(errors <= LEFT * errors[..., :1], axis=0)
+    return np.where(
+        halved.any(axis=1), history.iterations[halved.argmax(axis=1)], history.iterations[-1]
+    )
+
+
+def constant_widths(scenario: Path, rules: LearnerSettings, seed: int) -> pd.DataFrame:
+    """A row for each width and seed, with columns width, rate, seed and iterations."""
+    resolved, tables = Resolved.read(scenario), []
+    trials = np.repeat(RATES, SEEDS)
+    for name, width in WIDTHS.items():
+        searched = Stream.SEARCH.draw(
+            seed,
+            range(len(trials)),
+            ITERATIONS,
+            MEASURING.tests,
+            number=1,
+            training=f"{name} widths",
+            scenario=resolved.scenario,
+        )
+        found = halved_after(resolved, rules, width, trials, searched, seed)
+        rate = RATES[np.log(found).reshape(len(RATES), SEEDS).mean(axis=1).argmin()]
+        poses = Stream.WIDTHS.draw(seed, range(SEEDS), ITERATIONS, MEASURING.tests)
+        iterations = halved_after(resolved, rules, width, np.full(SEEDS, rate), poses, seed)
+        its = {"width": name, "rate": rate, "seed": range(SEEDS), "iterations": iterations}
+        tables.append(pd.DataFrame(its))
+    return pd.concat(tables)

@@ -1,0 +1,51 @@
+"""Which trainings a study consists of, and where their results lie."""
+
+from typing import NamedTuple
+
+from replication.config.study import Study
+from replication.config.switches import SWITCHES
+
+
+class Place(NamedTuple):
+    """A robot in a scenario."""
+
+    robot: str
+    scenario: str
+
+    def scenario_file(self, root: str) -> str:
+        """The scenario as resolved, below a folder of results."""
+        return f"{root}/robots/{self.robot}/{self.scenario}.json"
+
+    def history_file(self, root: str, learner: str) -> str:
+        """The history of all trainings of a learner here."""
+        return f"{root}/runs/{self.robot}/{self.scenario}/{learner}.parquet"
+
+    def learned_file(self, root: str, learner: str) -> str:
+        """What they learned."""
+        return f"{root}/runs/{self.robot}/{self.scenario}/{learner}.npz"
+
+
+Lengths = dict[str, tuple[int, ...]]  # by learner, ascending
+
+
+def places(study: Study) -> dict[Place, Lengths]:
+    """For how many iterations which learners are trained, by robot and scenario."""
+    plan, own = study.experiments, Place(study.robot, study.scenario)
+    found = {Place(study.robot, scenario): dict(plan.learners) for scenario in plan.scenarios}
+    found |= {Place(robot, study.scenario): dict(plan.learners) for robot in plan.robots}
+    here = found.setdefault(own, {})
+    more = [*plan.own.items()]
+    if plan.switches:
+        names = (name for switch in SWITCHES for name in (switch.without, switch.added))
+        more += [(name, (plan.iterations,)) for name in names]
+    for name, lengths in more:
+        here[name] = tuple(sorted({*here.get(name, ()), *lengths}))
+    return {
+        place: {name: tuple(sorted(its)) for name, its in lengths.items()}
+        for place, lengths in found.items()
+    }
+
+
+def throughout(study: Study, place: Place, learner: str, iterations: int) -> bool:
+    """Whether figures show how a training went on its way."""
+    return iterations in study.experiments.learners.get(learner, ()) and place.robot == study.robot

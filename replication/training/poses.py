@@ -1,0 +1,127 @@
+"""Poses for training and testing: no result is measured on poses that settings were chosen by.
+
+The type of a stream of random poses says whether it belongs to a search or to results: code for one
+refuses the other. Streams get their names here alone.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum, unique
+from typing import Self
+
+import numpy as np
+
+from recalib.loop.interfaces import Commandable, Learner
+from recalib.loop.training import History, train
+from recalib.numerics.randomness import generator
+
+SEARCHED = "search "  # what the streams of searches begin with, and no others
+
+
+@unique
+class Stream(Enum):
+    """What poses are drawn for."""
+
+    SEARCH = "search {number} in setup {setup}, replicate {replicate}"  # number 0: fresh poses
+    SETUP = "setup {setup}, replicate {replicate}"
+    SCENARIO = "{scenario}"
+    ENSEMBLE = "ensemble"
+    TWIN = "twin"
+    REPLAY = "replay"
+    WIDTHS = "constant widths"
+
+    def draw(
+        self,
+        seed: int,
+        runs: Sequence[int],
+        iterations: int,
+        tests: int,
+        order: str = "random",
+        **words: str | int,
+    ) -> "SearchPoses | ResultPoses":
+        """The poses of some runs: the same for every learner, and the first of them for fewer.
+
+        Args:
+            iterations, tests: how many poses a run learns from, and is measured on.
+            order: of those to learn from. "random": each by itself; "even": a scrambled Sobol
+                sequence.
+            words: that complete the name. Raises ValueError: to that of a search.
+        """
+        name, searched = self.value.format(**words), self.value.startswith(SEARCHED)
+        if name.startswith(SEARCHED) and not searched:
+            raise ValueError(f"stream {self.name}: {name!r} is the name of a search")
+        kind = SearchPoses if searched else ResultPoses
+
+        def drawn(use: str, count: int, how: str) -> np.ndarray:
+            return np.stack([ORDERS[how](generator(seed, name, run, use), count) for run in runs])
+
+        return kind(name, drawn("desired", iterations, order), drawn("tests", tests, "random"))
+
+
+def _independent(random: np.random.Generator, count: int) -> np.ndarray:
+    return random.uniform(-1, 1, (count, 6))
+
+
+def _spread_evenly(random: np.random.Generator, count: int) -> np.ndarray:
+    from scipy.stats import qmc  # a third of a second, which only this order needs
+
+    return 2 * qmc.Sobol(6, rng=random).random_base2((count - 1).bit_length())[:count] - 1
+
+
+ORDERS = {"random": _independent, "even": _spread_evenly}
+
+
+@dataclass(frozen=True)
+class _Poses:
+    """Poses of several runs, in workspace coordinates.
+
+    Attributes:
+        name: of their stream.
+        desired: (run, iteration, 6) to learn from.
+        tests: (run, pose, 6) to be measured on. Raises ValueError: some are also learned from.
+    """
+
+    name: str
+    desired: np.ndarray
+    tests: np.ndarray
+
+    def __post_init__(self):
+        if np.isin(self.tests[..., 0], self.desired[..., 0]).any():
+            raise ValueError(f"{self.name}: test poses are among those to learn from")
+
+    @classmethod
+    def only(cls, poses: "SearchPoses | ResultPoses") -> Self:
+        """These poses. Raises TypeError: they have another purpose."""
+        if not isinstance(poses, cls):
+            raise TypeError(f"{cls.__name__} expected, {type(poses).__name__} found: {poses.name}")
+        return poses
+
+
+class SearchPoses(_Poses):
+    """By which a search chooses settings."""
+
+
+class ResultPoses(_Poses):
+    """On which winners, and today's learners, are trained and measured."""
+
+
+def train_on(
+    plant: Commandable,
+    learner: Learner,
+    poses: SearchPoses | ResultPoses,
+    measure_at: Sequence[int],
+    **how,
+) -> History:
+    """As `recalib.loop.training.train`."""
+    return train(plant, learner, poses.desired, poses.tests, measure_at, **how)
+
+
+def train_for_results(
+    plant: Commandable,
+    learner: Learner,
+    poses: SearchPoses | ResultPoses,
+    measure_at: Sequence[int],
+    **how,
+) -> History:
+    """As `train_on`. Raises TypeError: the poses are those of a search."""
+    return train_on(plant, learner, ResultPoses.only(poses), measure_at, **how)

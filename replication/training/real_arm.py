@@ -1,0 +1,183 @@
+"""Learning from laser tracker data of a real arm, and on a twin identified from these data."""
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+import pandas as pd
+import pinocchio as pin
+
+from recalib.damaged.plant import Plant
+from recalib.identification.calibration import Calibration
+from recalib.identification.model.observations import Observations
+from recalib.laboratory.tables.description import Description
+from recalib.learners.kinds import KINEMATICS, class_of
+from recalib.nominal.controller import Controller
+from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.poses import POSITION, Workspace
+from recalib.nominal.robots import Robot
+from recalib.numerics.randomness import generator
+from replication.config.study import LearnerSettings
+from replication.scenarios.nominal import Nominal
+from replication.scenarios.plants import nominal_robot
+from replication.training.competitors import MOVES, TWIN, UNCORRECTED, Peer, peers
+from replication.training.poses import Stream, train_for_results
+from replication.training.settings import build_tuned
+from replication.training.tracker import TrackerMeasurements, read_of, read_whole_description
+
+if TYPE_CHECKING:
+    from recalib.learners.geometric import GeometricLearner
+    from recalib.learners.observer import Observer
+
+ROUNDING = 1e-9  # m, rad: equal poses are no farther apart, and have no extent to divide by
+
+
+def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
+    """The robot with its tool at a point of the flange, (3,) m in the tool's frame.
+
+    Its workspace moves along.
+    """
+    arm = robot.arm.copy()
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)]
+    tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
+    workspace = replace(robot.workspace, centre=arm.forward(robot.home[None])[0])
+    return replace(robot, arm=arm, workspace=workspace)
+
+
+def _described(description: Path, nominal: Nominal) -> tuple[Description, Robot]:
+    """What tables do not say themselves, and the robot with its tool where they measured it."""
+    said = read_whole_description(description)
+    assert said.target is not None  # as of a whole description
+    return said, with_tool_point(nominal_robot(nominal), said.target[:3, 3])
+
+
+def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibration:
+    """The arm as a learner of a kind that knows the nominal one identifies it."""
+    identifying = cast("type[GeometricLearner]", class_of(kind))
+    return identifying.identify(arm, Observations(measurements.angles, measurements.measured))
+
+
+def _black_box(
+    its: Peer, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
+) -> np.ndarray:
+    """Asked for the pose that was measured, the learner should command the one that was."""
+    arm, commanded = robot.arm, robot.arm.forward(known.angles)
+    centre = commanded[
+        np.linalg.norm(known.angles - np.median(known.angles, axis=0), axis=1).argmin()
+    ]
+    reach = np.abs(Workspace(centre, np.ones(6)).to_coordinates(commanded)).max(axis=0)
+    workspace = Workspace(centre, np.where(reach > ROUNDING, reach, 1.0))
+    learner = cast("Observer", class_of(its.kind).from_settings(its.settings, 1, robot))
+    sent, achieved = _coordinates(arm, workspace, known)
+    learner.observe(sent, achieved, np.ones(sent.shape[:2], dtype=bool))
+    sent, achieved = _coordinates(arm, workspace, unknown)
+    return (sent - learner.command(achieved))[0, :, POSITION] * workspace.half_ranges[POSITION]
+
+
+def _coordinates(
+    arm: Arm, workspace: Workspace, measurements: TrackerMeasurements
+) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates (1, n, 6) commanded and achieved.
+
+    The orientation, which was not measured, counts as commanded.
+    """
+    commanded = arm.forward(measurements.angles)
+    achieved = commanded.copy()
+    achieved[:, :3, 3] = measurements.measured
+    return workspace.to_coordinates(commanded)[None], workspace.to_coordinates(achieved)[None]
+
+
+def remaining_errors(
+    learner: str, robot: Robot, known: TrackerMeasurements, unknown: TrackerMeasurements
+) -> np.ndarray:
+    """Distances (m,) [m] that a peer leaves at poses it has not learned from.
+
+    Args:
+        robot: the nominal one, its tool at the point that was measured; see `with_tool_point`.
+        known, unknown: what it learns from, and what it is tested on.
+    """
+    its = peers()[learner]
+    if learner == UNCORRECTED:
+        errors = unknown.measured - unknown.nominal
+    elif its.needs == KINEMATICS:
+        reached = identified(its.kind, robot.arm, known).forward(unknown.angles)
+        errors = unknown.measured - reached[:, :3, 3]
+    else:
+        errors = _black_box(its, robot, known, unknown)
+    return np.linalg.norm(errors, axis=-1)
+
+
+def learn_from_tables(
+    fit: Path,
+    test: Path,
+    description: Path,
+    nominal: Nominal,
+    learner: str,
+    poses: tuple[int, ...],
+    subsets: int,
+    seed: int,
+) -> pd.DataFrame:
+    """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
+
+    Args:
+        description: what these tables do not say themselves.
+        poses: how many to learn from.
+        subsets: for each number of poses.
+
+    Returns a row for each number of poses and subset, with the mean error in mm.
+    """
+    said, robot = _described(description, nominal)
+    known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
+    rows = []
+    for count in poses:
+        # With all of them there is one subset only; what learns nothing needs one, too.
+        once = count >= len(known) or learner == UNCORRECTED
+        for subset in range(1 if once else subsets):
+            order = generator(seed, "real", count, subset).permutation(len(known))
+            errors = remaining_errors(learner, robot, known[order[:count]], tests)
+            cells = {"learner": learner, "poses": count, "subset": subset}
+            rows.append(cells | {"position_error_mm": 1e3 * errors.mean()})
+    return pd.DataFrame(rows)
+
+
+def learn_on_twin(
+    fit: Path,
+    description: Path,
+    sample: Path,
+    nominal: Nominal,
+    name: str,
+    rules: LearnerSettings,
+    poses: tuple[int, ...],
+    subsets: int,
+    tests: int,
+    seed: int,
+) -> pd.DataFrame:
+    """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
+
+    Args:
+        description: what that table does not say itself.
+        sample: file of the searches for this training, whose winners the subsets get in turn.
+        poses: numbers of moves after which it is measured.
+        subsets: trainings.
+
+    Returns a row for each number of moves and subset, with the mean error in mm.
+    """
+    said, robot = _described(description, nominal)
+    twin = identified(peers()[TWIN].kind, robot.arm, read_of(robot.arm, fit, said))
+    iterations, runs = rules.iterations, range(subsets)
+    met = {count // MOVES for count in poses if count // MOVES <= iterations}
+    history = train_for_results(
+        Plant(Controller(robot, nominal.controller.greatest_condition), twin),
+        build_tuned(rules, sample, [run + 1 for run in runs]),
+        Stream.TWIN.draw(seed, runs, iterations, tests),
+        sorted(met | {iterations}),
+    )
+    return pd.DataFrame(
+        {
+            "learner": f"{name} on a twin",
+            "poses": np.tile(history.moves, len(runs)),
+            "subset": np.repeat(runs, len(history.moves)),
+            "position_error_mm": 1e3 * history.position[..., 0].ravel(),
+        }
+    )

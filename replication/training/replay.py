@@ -1,0 +1,43 @@
+"""Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.files.archives import flat
+from replication.config.study import LearnerSettings
+from replication.scenarios.plants import Resolved
+from replication.training.poses import Stream
+from replication.training.settings import build_tuned
+
+
+def replay(scenario: Path, sample: Path, rules: LearnerSettings, seed: int) -> pd.DataFrame:
+    """For each array that the learner holds, the largest difference between both teachers."""
+    resolved, iterations = Resolved.read(scenario), rules.iterations
+    plant = resolved.plant(resolved.controller(), seed, [0])
+    desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
+    table = {}
+
+    def by_robot(commands):
+        """Ask the robot, and write down what it did."""
+        table[commands.tobytes()] = plant.execute(commands)
+        return table[commands.tobytes()]
+
+    def by_table(commands):
+        """Look it up; a command that was never sent is an error."""
+        return table[commands.tobytes()]
+
+    learned = []
+    for execute in (by_robot, by_table):
+        learner = build_tuned(rules, sample, [1])
+        for iteration in range(iterations):
+            learner.learn(desired[:, iteration], execute, iteration / iterations)
+        learned.append(flat(learner.state()[0]))
+    first, second = learned
+    return pd.DataFrame(
+        [
+            {"array": name, "difference": np.abs(second[name] - values).max()}
+            for name, values in first.items()
+        ]
+    )

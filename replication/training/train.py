@@ -1,0 +1,60 @@
+"""Trainings: all of a robot in a scenario, in one job."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from recalib.files.storage import whole
+from recalib.learners.learned import save
+from replication.config.study import Study
+from replication.scenarios.plants import Resolved
+from replication.training.plan import Place, places, throughout
+from replication.training.poses import Stream, train_for_results
+from replication.training.tuned import Tuned
+
+
+def train(
+    study: Study,
+    robot: str,
+    scenario: str,
+    resolved: Path,
+    settings: Sequence[Path],
+    histories: Sequence[Path],
+    learned: Sequence[Path],
+) -> None:
+    """Train every learner of a robot in a scenario, for each of its numbers of iterations.
+
+    The poses of a seed are the same for all of them.
+
+    Args:
+        resolved: file of the scenario.
+        settings: files with widths and rates.
+        histories, learned: files that are written, one for each learner in the order of the plan.
+    """
+    place, tuned = Place(robot, scenario), Tuned(study, settings)
+    its, seeds = Resolved.read(resolved), range(study.training.seeds)
+    controller = its.controller()
+    plan = places(study)[place].items()
+    for (name, lengths), history, archive in zip(plan, histories, learned, strict=True):
+        tables, learners = [], {}
+        for iterations in lengths:
+            learner = tuned.learner(name, iterations, len(seeds))
+            poses = Stream.SCENARIO.draw(
+                study.seed, seeds, iterations, study.training.tests, scenario=scenario
+            )
+            shown = throughout(study, place, name, iterations)
+            measure_at = study.training.during(iterations) if shown else [0, iterations]
+            plant = its.plant(controller, study.seed, seeds)
+            measured = train_for_results(plant, learner, poses, measure_at)
+            if refused := measured.refused[:, -1].sum():
+                where = f"{name}, {iterations} iterations, on {scenario}"
+                print(f"{where}: the controller refused {refused} moves", file=sys.stderr)
+            table = pd.DataFrame(measured.columns()).rename(columns={"run": "seed"})
+            table.insert(0, "iterations", iterations)
+            tables.append(table)
+            learners[iterations] = learner
+        with whole(history) as path:
+            pd.concat(tables, ignore_index=True).to_parquet(path, index=False)
+        save(archive, learners[min(lengths)], controller.robot)

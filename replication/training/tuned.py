@@ -1,0 +1,64 @@
+"""The settings with which a study trains its learners: shipped ones, or its own."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from recalib.errors import RecalibError
+from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
+from replication.config.study import LearnerSettings, Study
+from replication.training.plan import places
+from replication.training.settings import Space
+
+
+def rules_of(learner: LearnerSettings) -> Rules:
+    """The rules that a learner's entry in the configuration describes."""
+    return Rules(
+        separate_maps=learner.maps == "separate",
+        theta_increments=learner.theta == "increments",
+        jacobian_increments=learner.jacobian == "increments",
+        equal_visits=learner.schedule == "equal_visits",
+        supernet=learner.supernet,
+        subnet=learner.subnet,
+    )
+
+
+def trained(study: Study) -> set[tuple[str, int]]:
+    """Each learner of the paper with each number of iterations for which settings are needed."""
+    found = {
+        (learner, iterations)
+        for learners in places(study).values()
+        for learner, lengths in learners.items()
+        for iterations in lengths
+    }
+    more = [*study.benchmark.papers.items(), *study.real.twin.items()]
+    series = ((name, study.experiments.iterations) for name in study.experiments.ensemble)
+    return found | {*more} | {*series}
+
+
+class Tuned:
+    """Settings of a study.
+
+    Args:
+        files: tables of the campaign; of its first one, the reference study's settings count.
+    """
+
+    def __init__(self, study: Study, files: Iterable[Path]):
+        self._study = study
+        tables = [pd.read_csv(path) for path in files]
+        table = pd.concat(tables).query("setup == 0 and replicate == 0")
+        self._rows = table.drop_duplicates(["variant", "iterations"], keep="last").set_index(
+            ["variant", "iterations"]
+        )
+
+    def learner(self, name: str, iterations: int, runs: int) -> HierarchicalLearner:
+        """An untrained learner of so many runs. Raises RecalibError: no settings for it."""
+        rules = rules_of(self._study.every_learner[name])
+        if (name, iterations) not in self._rows.index:
+            raise RecalibError(f"no settings of {name} for {iterations} iterations; try: make tune")
+        space = Space(rules, self._study.search.ranges)
+        row = self._rows.loc[(name, iterations), space.columns].to_numpy(dtype=float)
+        return HierarchicalLearner(rules, space.schedule(np.tile(row, (runs, 1))), runs=runs)

@@ -1,0 +1,151 @@
+"""Arms of one's own: each that can serve its workspace is run, and what is in its files counts."""
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from recalib.nominal.arms import find_urdf, load_arm
+from recalib.nominal.meshes import mesh_files
+from replication.config.messages import InvalidConfiguration
+from replication.studies import read_studies
+from tests.conftest import ROOT
+
+ARMS = yaml.safe_load((ROOT / "tests" / "arms_of_example_robot_data.yaml").read_text())
+
+
+def entry_of(row) -> dict:
+    """A row of the table as an entry of `robots`."""
+    arm = load_arm(row["urdf"], row["tool"])
+    limits = np.clip([arm.model.lowerPositionLimit, arm.model.upperPositionLimit], -3, 3)
+    middle = np.degrees(limits.mean(axis=0))
+    *position, orientation = row.get("workspace", (10, 12, 10, 20))
+    return {
+        "urdf": row["urdf"],
+        "tool": row["tool"],
+        "home": {
+            joint: f"{angle} deg"
+            for joint, angle in zip(arm.joints, row.get("home", middle), strict=True)
+        },
+        "workspace": {
+            "position": [f"{side} cm" for side in position],
+            "orientation": [f"{orientation} deg"] * 3,
+        },
+        "links": row.get("links", [row["tool"]]),
+    }
+
+
+def study_of(folder, entry, **more):
+    """As read before anything runs, like quick and with the paper's damage."""
+    path = folder / "mine.yaml"
+    path.write_text(
+        yaml.safe_dump({"like": "quick", "robot": "mine", "robots": {"mine": entry}} | more)
+    )
+    main, studies = read_studies(ROOT, [path], {})
+    return studies[main]
+
+
+@pytest.mark.parametrize("row", ARMS, ids=[row["urdf"] for row in ARMS])
+def test_an_arm_is_run_or_refused_in_a_sentence_that_is_true(row, tmp_path):
+    if "says" not in row:
+        assert study_of(tmp_path, entry_of(row)).robot == "mine"
+        return
+    with pytest.raises(InvalidConfiguration) as caught:
+        study_of(tmp_path, entry_of(row))
+    (said,) = caught.value.mistakes
+    assert said.endswith(f": robots.mine.{row['says']}")
+
+
+def test_the_table_has_all_arms_of_six_joints_and_more():
+    """All files but those of legs, hands, wheels and pendulums, and of arms that have fewer."""
+    assert len(ARMS) > 40 and sum("says" in row for row in ARMS) == 5
+
+
+@pytest.mark.parametrize("robot", ["z1", "jaco", "ur3", "ur5"])
+def test_a_robot_of_config_yaml_has_the_damages_that_it_declares_and_no_others(robot, tmp_path):
+    """`gears` and `sag` of config.yaml are about the joints of a UR10, and are not run."""
+    links = yaml.safe_load((ROOT / "config.yaml").read_text())["robots"][robot]["links"]
+    fall = {"fall": [{"link": links[0], "shorten": "1 cm"}]}
+    its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump({"like": "quick", "robot": robot} | its))
+    main, studies = read_studies(ROOT, [path], {})
+    assert studies[main].robot == robot
+
+
+def test_links_of_ones_own_are_asked_of_the_papers_damage_alone_where_it_is_used(tmp_path):
+    panda = next(row for row in ARMS if row["urdf"] == "panda.urdf")
+    entry = entry_of(panda | {"links": ["panda_link5"]})  # which has no length
+    fall = {"fall": [{"encoder": "panda_joint4", "shift": "3 deg"}]}
+    its = {"scenario": "fall", "scenarios": fall, "experiments": {"scenarios": ["fall"]}}
+    assert study_of(tmp_path, entry, **its).scenario == "fall"
+    with pytest.raises(
+        InvalidConfiguration,
+        match="list of 3; expected: at most 1, one for each of robots.mine.links",
+    ):
+        study_of(tmp_path, entry)
+
+
+@pytest.fixture
+def copied(tmp_path):
+    """A URDF with its meshes, as a user has them."""
+    row = next(row for row in ARMS if row["urdf"] == "ur3_robot.urdf")
+    urdf = find_urdf(row["urdf"])
+    package = tmp_path / urdf.parents[1].name
+    shutil.copytree(urdf.parents[1] / "meshes" / "ur3", package / "meshes" / "ur3")
+    text = urdf.read_text().replace("example-robot-data/robots/", "")
+    (package / "arm.urdf").write_text(text)
+    return entry_of(row) | {"urdf": str(package / "arm.urdf")}, package
+
+
+def edit(path: Path, old: bytes, new: bytes) -> None:
+    """Other content with the date that it had."""
+    date, content = path.stat(), path.read_bytes()
+    assert old in content
+    path.write_bytes(content.replace(old, new, 1))
+    os.utime(path, ns=(date.st_atime_ns, date.st_mtime_ns))
+
+
+def asked(rules, study) -> tuple[str, str, str]:
+    """The arguments of its jobs."""
+    return (
+        rules.text(study, "scenario", scenario="intact"),
+        rules.text(study, "assignments", robot="mine"),
+        rules.text(study, "recording", recording="intact"),
+    )
+
+
+def test_an_edited_urdf_is_asked_for_again_whatever_its_date(copied, rules, tmp_path):
+    entry, package = copied
+    study = study_of(tmp_path, entry)
+    before = asked(rules, study)
+    edit(package / "arm.urdf", b'xyz="0', b'xyz=" 0')
+    after = asked(rules, study)
+    assert before[0] != after[0] and before[1] != after[1] and before[2] == after[2]
+
+
+def test_a_packaged_urdf_counts_by_its_content_too(plan):
+    digests = {plan.nominal(name).urdf_sha256 for name in ("ur10", "ur5", "ur3", "z1", "jaco")}
+    assert len(digests) == 5
+
+
+def test_an_edited_mesh_is_recorded_again_and_nothing_else(copied, rules, tmp_path):
+    entry, package = copied
+    study, meshes = study_of(tmp_path, entry), mesh_files(package / "arm.urdf")
+    assert len(meshes) == 7 and all(path.is_relative_to(package) for path in meshes)
+    before = asked(rules, study)
+    edit(meshes[0], b"0", b"1")
+    after = asked(rules, study)
+    assert before[:2] == after[:2] and before[2] != after[2]
+
+
+def test_an_edited_urdf_that_no_longer_serves_its_workspace_is_refused_at_once(copied, tmp_path):
+    """Of what was once right, nothing is remembered."""
+    entry, package = copied
+    study_of(tmp_path, entry)
+    edit(package / "arm.urdf", b"0.24365", b"0.00365")
+    with pytest.raises(InvalidConfiguration, match="robots.mine.workspace does not fit"):
+        study_of(tmp_path, entry)

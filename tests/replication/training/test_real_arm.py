@@ -1,0 +1,229 @@
+"""What a tracker sees is made here, of an arm that the tests bend: real data are not shipped."""
+
+import hashlib
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from recalib.damaged.damage import EncoderShift, LinkShortening, apply
+from recalib.damaged.nongeometric import EccentricGear
+from recalib.errors import InvalidFile, RecalibError
+from recalib.laboratory.tables.description import Description, read_description
+from recalib.laboratory.tables.nominal_checks import WrongNominal
+from recalib.learners.uncorrected import UncorrectedLearner
+from recalib.nominal.denavit_hartenberg import Row, arm_of_table
+from replication.config.study import Source
+from replication.scenarios.plants import nominal_robot
+from replication.training.competitors import peers
+from replication.training.real_arm import (
+    learn_from_tables,
+    learn_on_twin,
+    remaining_errors,
+    with_tool_point,
+)
+from replication.training.tracker import fetch, read_of, read_whole_description
+from tests.conftest import ROOT
+
+# As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
+DH_A = 0, -0.425, -0.39225, 0, 0, 0
+DH_D = 0.089159, 0, 0, 0.10915, 0.09465, 0.0823
+DH_TWIST = np.pi / 2, 0, 0, np.pi / 2, -np.pi / 2, 0
+MANUFACTURERS = arm_of_table(
+    [
+        Row(f"joint {number}", a=a, d=d, alpha=alpha)
+        for number, (a, d, alpha) in enumerate(zip(DH_A, DH_D, DH_TWIST, strict=True))
+    ]
+)
+# With it the manufacturer's arm gets to the nominal positions of the public tables, to 0.01 mm.
+TOOL_POINT = 0.0, 0.07e-3, 31e-3  # m
+
+
+@pytest.fixture(scope="module")
+def description(plan):
+    return read_description(ROOT / plan.study.real.description)
+
+
+@pytest.fixture(scope="module")
+def ur5(plan, description):
+    return with_tool_point(nominal_robot(plan.nominal("ur5")), description.target[:3, 3])
+
+
+@pytest.fixture(scope="module")
+def table(ur5) -> pd.DataFrame:
+    """150 poses of an arm with small defects, with 0.02 mm of noise, as tables have them."""
+    generator = np.random.default_rng(1)
+    middle = np.radians([20, -65, 100, -40, 95, 0])
+    angles = middle + np.radians([22, 18, 20, 28, 23, 8]) * generator.uniform(-1.5, 1.5, (150, 6))
+    defects = [
+        LinkShortening("forearm_link", 0.001),
+        EncoderShift("shoulder_lift_joint", 0.002),
+        EccentricGear("elbow_joint", 0.003, 0.4),
+    ]
+    measured = apply(ur5, defects).forward(angles)[:, :3, 3] * [-1, -1, 1]
+    nominal = (MANUFACTURERS.forward(angles) @ [*TOOL_POINT, 1])[:, :3]
+    missed = measured - nominal + 2e-5 * generator.standard_normal((150, 3))
+    columns = {"step_order": range(150)}
+    columns |= {f"joint_{number + 1}": np.degrees(angles[:, number]) for number in range(6)}
+    columns |= {f"{axis}_t": 1e3 * nominal[:, index] for index, axis in enumerate("xyz")}
+    columns |= {f"{axis}_dif": 1e3 * missed[:, index] for index, axis in enumerate("xyz")}
+    return pd.DataFrame(columns)
+
+
+@pytest.fixture(scope="module")
+def recording(table, ur5, description, tmp_path_factory):
+    path = tmp_path_factory.mktemp("recorded") / "recording.csv"
+    table.to_csv(path, index=False)
+    return read_of(ur5.arm, path, description)
+
+
+def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
+    distance = np.linalg.norm(
+        ur5.arm.forward(recording.angles)[:, :3, 3] - recording.nominal, axis=1
+    )
+    assert distance.max() < 5e-5
+
+
+def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
+    flange = nominal_robot(plan.nominal("ur5"))
+    assert np.allclose(
+        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1], [*TOOL_POINT, 1]
+    )
+    by_vectors = replace(flange.workspace, coordinates="rotation_vector")
+    moved = with_tool_point(replace(flange, workspace=by_vectors), TOOL_POINT)
+    assert moved.workspace.coordinates == "rotation_vector"
+
+
+def test_learners_leave_ever_smaller_errors(recording, ur5):
+    known, unknown = recording[:100], recording[100:]
+    left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}
+    assert left["uncorrected"] == pytest.approx(
+        1e3 * np.linalg.norm(unknown.measured - unknown.nominal, axis=1).mean()
+    )
+    assert left["affine"] < left["uncorrected"] / 2
+    assert left["quadratic"] < left["affine"]
+    assert left["gaussian_process"] < left["affine"]
+    assert left["geometric"] < left["quadratic"]
+    assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
+
+
+def test_a_learner_without_a_model_sees_a_workspace_that_just_holds_what_it_learns_from(
+    recording, ur5, monkeypatch
+):
+    seen = []
+
+    class Seeing(UncorrectedLearner):
+        from_settings = classmethod(lambda cls, *_: cls())
+        observe = staticmethod(lambda sent, *_: seen.append(sent))
+
+    monkeypatch.setattr("replication.training.real_arm.class_of", lambda kind: Seeing)
+    remaining_errors("affine", ur5, recording[:30], recording[100:])
+    assert np.abs(seen[0]).max(axis=(0, 1)) == pytest.approx(np.ones(6))
+
+
+@pytest.mark.parametrize("learner", peers())
+def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
+    """Where the tests were measured 1 m farther up, all of that metre remains.
+
+    And what remains of one test is the same whichever others there are.
+    """
+    up = [0, 0, 1.0]
+    tests = recording[100:110]
+    far = replace(tests, measured=tests.measured + up)
+    left = remaining_errors(learner, ur5, recording[:30], far)
+    assert np.abs(left - 1).max() < 0.01
+    alone = remaining_errors(learner, ur5, recording[:30], far[:1])
+    assert alone == pytest.approx(left[:1], abs=1e-9)
+
+
+def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(
+    table, plan, tmp_path, monkeypatch
+):
+    fit, test = tmp_path / "fit.csv", tmp_path / "test.csv"
+    table[:40].to_csv(fit, index=False)
+    table[100:].to_csv(test, index=False)
+    description = ROOT / plan.study.real.description
+    learned = partial(learn_from_tables, fit, test, description, plan.nominal("ur5"))
+    found = learned("affine", (10, 40), 3, 1)
+    assert found[["poses", "subset"]].to_numpy().tolist() == [[10, 0], [10, 1], [10, 2], [40, 0]]
+    assert found["position_error_mm"].nunique() == 4
+    # another number of poses draws other subsets, not more of the same
+    taught = []
+    monkeypatch.setattr(
+        "replication.training.real_arm.remaining_errors",
+        lambda _, robot, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
+    )
+    learned("affine", (10, 20), 2, 1)
+    assert not any(few <= more for few in taught[:2] for more in taught[2:])
+    monkeypatch.undo()
+    nothing = learned("uncorrected", (10, 40), 3, 1)
+    assert nothing["position_error_mm"].nunique() == 1 and len(nothing) == 2
+
+
+def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, monkeypatch):
+    fit, rules = tmp_path / "fit.csv", plan.study.every_learner["improved"]
+    table[:40].to_csv(fit, index=False)
+    searched = []
+
+    def uncorrected(_, sample, searches):
+        searched.append((sample, [*searches]))
+        return UncorrectedLearner()
+
+    monkeypatch.setattr("replication.training.real_arm.build_tuned", uncorrected)
+    found = learn_on_twin(
+        fit,
+        ROOT / plan.study.real.description,
+        tmp_path / "improved.csv",
+        plan.nominal("ur5"),
+        "improved",
+        rules.model_copy(update={"iterations": 4}),
+        (2, 4, 100),
+        subsets=3,
+        tests=5,
+        seed=1,
+    )
+    assert searched == [(tmp_path / "improved.csv", [1, 2, 3])]
+    assert found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
+
+
+def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
+    path = tmp_path / "half.toml"
+    path.write_text('[target]\nposition = ["0 mm", "0 mm", "1 mm"]\n')
+    with pytest.raises(InvalidFile, match=r"half\.toml: its instrument or its target is missing"):
+        read_whole_description(path)
+    columns = {f"{joint} [rad]": recording.angles[:, i] for i, joint in enumerate(ur5.joints)}
+    columns |= {f"{axis} [m]": recording.measured[:, i] for i, axis in enumerate("xyz")}
+    pd.DataFrame(columns).to_csv(tmp_path / "half.csv", index=False)
+    with pytest.raises(InvalidFile, match="lacks x_nominal, y_nominal, z_nominal or what was"):
+        read_of(ur5.arm, tmp_path / "half.csv", Description(instrument=np.eye(4)))
+
+
+def test_a_table_in_another_frame_is_refused(table, ur5, description, tmp_path):
+    path = tmp_path / "table.csv"
+    table.assign(x_t=-table["x_t"], y_t=-table["y_t"]).to_csv(path, index=False)
+    with pytest.raises(WrongNominal, match=r"likely: the base turned by 180\.0 deg"):
+        read_of(ur5.arm, path, description)
+
+
+@pytest.mark.parametrize("learner", peers())
+def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
+    unknown = recording[100:]
+    before = remaining_errors("uncorrected", ur5, recording, unknown).mean()
+    for rows in ([0], [0] * 20):
+        left = remaining_errors(learner, ur5, recording[rows], unknown)
+        assert left.mean() < 1.5 * before
+
+
+@pytest.mark.parametrize("digest", ["0" * 64, "f" * 64])
+def test_another_table_than_the_one_that_is_meant_is_refused(digest, tmp_path):
+    given = tmp_path / "given.csv"
+    given.write_text("a table")
+    its = hashlib.sha256(given.read_bytes()).hexdigest()
+    fetch(Source(url="https://there", file=str(given), sha256=its), tmp_path / "own.csv")
+    assert (tmp_path / "own.csv").read_text() == "a table"
+    with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
+        fetch(Source(url="https://there", file=str(given), sha256=digest), tmp_path / "no.csv")
+    assert not (tmp_path / "no.csv").exists()
