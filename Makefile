@@ -180,7 +180,7 @@ horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 
 	cp results/universes/horizon_$(or $(PIECE),*).csv workflow/universes/second/
 
 ship: setup ## make the present config.yaml the shipped study
-	.venv/bin/python -m replication.studies
+	.venv/bin/python -m replication.running.studies
 
 lock: tools ## pin the dependencies of pyproject.toml anew
 	$(LOCK) --extra study --output-file requirements.lock

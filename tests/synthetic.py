@@ -34,7 +34,7 @@ from replication.config.switches import SWITCHES
 from replication.judgement import effects, hierarchy, intervals
 from replication.judgement.benchmark import errors, reached
 from replication.judgement.claims import CLAIMS, judge, judging
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.judgement.needs import Request
 from replication.judgement.results import Evidence
 from replication.judgement.summary import summarise

@@ -1,7 +1,8 @@
 """Drawing the setups of a design: their levels, and where their robots can work."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -41,21 +42,20 @@ def draw(study: Study, number: int, row: Row) -> Setup:
     random = generator(plan.seed, "setup", row.number)
     seed = int(random.integers(2**32))
     its = robot_in(nominal(study, levels["robot"]), levels, study)
-    scale = its.robot.workspace.scale_to(study.robots[study.robot].workspace)
     controller, refused = _controller(its, levels["home"], plan.home_spread, random)
     robot, joints = controller.robot, list(its.robot.home)
     tests = robot.workspace.sample(random, damage.poses)
     if row.number == 0:  # as the study itself has it, by its own poses
         entries = assign(its, damage, study.seed)[1].damages
     else:
-        lengths = [scale * length for length in damage.shorten]
-        ways = Ways(its.robot.links, lengths, joints, damage.shift, levels["shortening"])
+        ways = ways_in(its, levels, study)
         if levels["assignment"] == "any":
             entries = ways[int(row.share * len(ways))]
         else:
+            scale = its.robot.workspace.scale_to(study.robots[study.robot].workspace)
             nearest = compare(controller, ways, tests, damage.published, scale, levels["error"])[1]
             entries = ways[nearest]
-    position, orientation = _initial_errors(controller, entries, tests, levels["error"])
+    position, orientation = initial_errors(controller, entries, tests, levels["error"])
     return Setup(
         setup=number,
         row=row.number,
@@ -66,8 +66,8 @@ def draw(study: Study, number: int, row: Row) -> Setup:
         ),
         homes_refused=refused,
         damage=entries,
-        position_error_cm=float(f"{100 * position:.4g}"),
-        orientation_error_deg=float(f"{np.degrees(orientation):.4g}"),
+        position_error_cm=float(f"{position:.4g}"),
+        orientation_error_deg=float(f"{orientation:.4g}"),
     )
 
 
@@ -81,12 +81,20 @@ def _controller(
     return random_home(robot, spread, greatest, random)
 
 
-def _initial_errors(
+def ways_in(its: Nominal, levels: Mapping[str, Any], study: Study) -> Ways:
+    """All assignments of the paper's damage, whose lengths shrink with the workspace."""
+    damage, entry = study.paper_damage, its.robot
+    scale = entry.workspace.scale_to(study.robots[study.robot].workspace)
+    lengths = [scale * length for length in damage.shorten]
+    return Ways(entry.links, lengths, list(entry.home), damage.shift, levels["shortening"])
+
+
+def initial_errors(
     controller: Controller, damage: Sequence[Damage], tests: np.ndarray, error: str
-) -> tuple[float, float]:
-    """Mean errors [m, rad] of the arm without correction."""
+) -> np.ndarray:
+    """Mean errors [cm, degrees] of the arm without correction."""
     workspace = controller.robot.workspace
     desired = workspace.to_poses(tests)
     achieved = apply(controller.robot, damage).forward(controller.inverse(desired))
-    position, orientation = pose_errors(workspace, achieved, desired, error)
-    return position.mean(), orientation.mean()
+    errors = pose_errors(workspace, achieved, desired, error)
+    return np.array([its.mean() for its in errors]) * (100, np.degrees(1))

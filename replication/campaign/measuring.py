@@ -22,8 +22,8 @@ from replication.campaign.variants import Order, Target, Variant, lengths, varia
 from replication.config.damages import damages_among
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
-from replication.judgement.measured import ERRORS, KINDS
 from replication.scenarios.plants import nominal_controller
+from replication.training.measured import ERRORS, KINDS
 from replication.training.poses import ResultPoses, Stream
 from replication.training.search import Score, Tuning, Winners, worse
 from replication.training.settings import Space
@@ -53,6 +53,11 @@ def measure_variant(
     known = {path.stem: rows_of(pd.read_csv(path)) for path in others}
     measured = Replicate(study, its, replicate)
     return measured.measure(variant, variants(study)[variant], known)
+
+
+def put_together(tables: list[Path]) -> pd.DataFrame:
+    """The rows of all variants of a replicate."""
+    return pd.concat(map(pd.read_csv, tables), ignore_index=True)
 
 
 def rows_of(table: pd.DataFrame) -> Rows:

@@ -16,9 +16,12 @@ import yaml
 from recalib.learners.rules import Rules
 from replication.config.damages import Entry, describe
 from replication.config.part import Frozen
+from replication.config.shipped import CAMPAIGN
 from replication.config.study import Study, WorkspaceSettings
 from replication.scenarios.nominal import Nominal, nominal
 
+DESIGN = f"{CAMPAIGN}/design.csv"
+OUTCOMES = f"{CAMPAIGN}/outcomes"  # a folder for each setup, with a file for each replicate
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer
 
@@ -89,6 +92,17 @@ class Setup(Frozen):
         rest["home_deg"] = rest["home_deg"].split()
         rest["damage"] = yaml.safe_load(rest["damage"])
         return cls.model_validate(rest | {"levels": levels})
+
+
+def planned(study: Study) -> list[tuple[int, int]]:
+    """Each setup and replicate whose outcomes are not shipped yet, in the order of measuring.
+
+    First the setups that are measured again and again, so that the table can be read early.
+    """
+    plan = study.campaign
+    found = [(its, number) for its in range(plan.replicated) for number in range(plan.replicates)]
+    found += [(its, 0) for its in range(plan.replicated, plan.setups)]
+    return [its for its in found if not Path(OUTCOMES, str(its[0]), f"{its[1]}.csv").exists()]
 
 
 def read_design(path: str | Path) -> list[Setup]:

@@ -77,7 +77,7 @@ def variants(study: Study) -> dict[str, Variant]:
         "improved_rough": Variant(improved, own, True, rough=True),
         "improved_drastic": Variant(improved, own, True, damage=DRASTIC),
         "improved_values_drastic": Variant(values, own, True, damage=DRASTIC),
-        RITTER: Variant(ritter, own, until_reached=plan.rungs, at_home=many),
+        RITTER: Variant(ritter, own + late, at_home=many),
         DOUBLE: Variant(double, own + late, until_reached=plan.rungs, at_home=many),
         "ritter_random_start": Variant(ritter, own, random=True),
         TWO_MAPS: Variant(two_maps, own + late, at_home=many),
@@ -87,6 +87,11 @@ def variants(study: Study) -> dict[str, Variant]:
         "radial_increments": Variant(improved, own, True, radial=True),
         "radial_values": Variant(values, own, True, radial=True),
     }
+    small = {
+        "small_supernet": replace(two_maps, supernet=SMALL),
+        "small_subnet": replace(two_maps, subnet=SMALL),
+    }
+    found |= {name: Variant(rules, late) for name, rules in small.items()}
     targets: tuple[Target, ...] = "position", "orientation"
     for target in targets:
         its = Variant(two_maps, late, target=target, held=TWO_MAPS)
@@ -95,12 +100,10 @@ def variants(study: Study) -> dict[str, Variant]:
             f"two_maps_for_{target}": its,
             f"two_maps_for_{target}_paper": replace(its, order="paper"),
             f"two_maps_for_{target}_reverse": replace(its, order="reverse"),
-            f"small_supernet_for_{target}": replace(
-                its, rules=replace(two_maps, supernet=SMALL), held=None
-            ),
-            f"small_subnet_for_{target}": replace(
-                its, rules=replace(two_maps, subnet=SMALL), held=None
-            ),
+        }
+        found |= {
+            f"{name}_for_{target}": replace(its, rules=rules, held=name)
+            for name, rules in small.items()
         }
     found["two_maps_for_position_wide"] = replace(
         found["two_maps_for_position"], constant={"position_g_k": WORKSPACE}

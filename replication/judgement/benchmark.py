@@ -8,8 +8,8 @@ import pandas as pd
 
 from recalib.numerics.randomness import generator
 from replication.judgement.intervals import bootstrap
-from replication.judgement.measured import BOTH, ERRORS
 from replication.training.competitors import needs_of
+from replication.training.measured import BOTH, ERRORS
 
 Names = tuple[str, ...]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from recalib.errors import RecalibError
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 
 KEYS = ["scenario", "learner"]
 

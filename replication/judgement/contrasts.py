@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from replication.judgement.hierarchy import Model, model
-from replication.judgement.measured import KINDS
+from replication.training.measured import KINDS
 
 SHARES = [f"{kind}_share" for kind in KINDS]
 KEYS = ["setup", "replicate"]
@@ -49,12 +49,8 @@ class Remaining:
     def values(self, outcomes: pd.DataFrame) -> Values:
         """The logarithm of the share in each setup."""
         its = outcomes.query("variant == @self.variant and iterations == @self.iterations")
-        if self.error == "both":
-            share = its[SHARES].max(axis=1)
-        else:
-            share = its[f"{self.error}_share"]
-        its = its.assign(value=np.log(share), bound=0)
-        return _values(its)
+        which = SHARES if self.error == "both" else [f"{self.error}_share"]
+        return _values(its.assign(value=np.log(its[which].max(axis=1)), bound=0))
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,10 @@ import numpy as np
 import pandas as pd
 
 from recalib.errors import RecalibError
-from recalib.numerics.randomness import generator
 from replication.config.campaign import Factors
 from replication.config.shipped import CAMPAIGN, SHIPPED, root_of
 from replication.config.study import Study
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.training.plan import Place, places
 
 MAPPING = "nearness", "propagation", "quantisation", "replay", "solutions", "visits", "widths"
@@ -46,7 +45,7 @@ def files(study: Study, part: str) -> list[str]:
             series = study.experiments.ensemble if study.experiments.evidence else {}
             return [f"{root}/ensemble/{learner}.parquet" for learner in series]
         case "campaign":
-            return [f"{CAMPAIGN}/{name}.csv" for name in ("design", "outcomes", "coupling")]
+            return [f"{CAMPAIGN}/{name}.csv" for name in ("design", "outcomes", "untrained")]
     return [f"{root}/{part}"]
 
 
@@ -115,10 +114,6 @@ class Evidence:
         """A scenario as resolved."""
         place = Place(self.study.robot, name or self.study.scenario)
         return json.loads((self._project / place.scenario_file(self._root)).read_text("utf-8"))
-
-    def rng(self, *keys: str) -> np.random.Generator:
-        """Randomness of an interval."""
-        return generator(self.study.seed, "evidence", *keys)
 
 
 @cache

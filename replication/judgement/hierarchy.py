@@ -8,13 +8,14 @@ A number of which only a bound is known, as at the end of a ladder of lengths, e
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import chdtri, ndtr, stdtrit
+from scipy.special import chdtri, log_ndtr, ndtr, stdtrit
 
 LEVEL = 0.95
 TAILS = (1 - LEVEL) / 2, (1 + LEVEL) / 2  # of a distribution: what lies between them is the level
 DRAWS = 1024  # of the pivot
 HALVINGS = 40  # of an interval of 12 decades: to 1e-11
-GRID = 400  # points along each parameter of a likelihood
+GRID = 200  # points along each parameter of a likelihood
+NEGLIGIBLE = 1e-4  # times the largest likelihood
 
 
 class Estimate(NamedTuple):
@@ -60,18 +61,23 @@ def model(values: np.ndarray, bounds: np.ndarray | None = None) -> Model:
         bounds: (setup, replicate) 1 where the value is the least that the number can be, -1 where
             it is the most; 0 otherwise.
     """
-    counts = np.isfinite(values).sum(axis=1)
-    numbers = np.nanmean(values, axis=1)
-    several = values[counts > 1]
-    degrees = int((counts[counts > 1] - 1).sum())
+    known = np.isfinite(values)
+    counts, numbers = known.sum(axis=1), np.nanmean(values, axis=1)
+    sides = np.zeros(len(values))
+    if bounds is not None:
+        sides = np.sign(np.where(known, bounds, 0).sum(axis=1))
+    again = counts > 1
+    several = values[again & (sides == 0) if np.any(again & (sides == 0)) else again]
+    degrees = int((np.isfinite(several).sum(axis=1) - 1).sum())
     within = np.nansum(np.square(several - np.nanmean(several, axis=1, keepdims=True))) / degrees
-    heterogeneity = _heterogeneity(numbers, within, degrees, counts)
     luck = Estimate(*np.sqrt([within, *(degrees * within / chdtri(degrees, TAILS))]).tolist())
-    if bounds is None or not np.any(bounds):
-        mean, another = _student(numbers)
+    if sides.any():
+        mean, another, total = _censored(numbers, sides)
+        own = np.square(total) - within * np.mean(1 / counts)
+        heterogeneity = Estimate(*np.sqrt(np.maximum(own, 0)).tolist())
     else:
-        sides = np.sign(np.nansum(np.where(np.isfinite(values), bounds, 0), axis=1))
-        mean, another = _censored(numbers, sides)
+        mean, another = _student(numbers)
+        heterogeneity = _heterogeneity(numbers, within, degrees, counts)
     return Model(mean, another, heterogeneity, luck, numbers)
 
 
@@ -80,9 +86,9 @@ def student(values: np.ndarray) -> Estimate:
     return _student(values)[0]
 
 
-def geometric_student(values: np.ndarray) -> Estimate:
-    """The geometric mean of values (n,) above zero, with Student's interval of its logarithm."""
-    return Estimate(*np.exp(student(np.log(values))).tolist())
+def another(values: np.ndarray) -> Estimate:
+    """The mean of values (n,) with Student's interval for one more of them."""
+    return _student(values)[1]
 
 
 def _student(values: np.ndarray) -> tuple[Estimate, Estimate]:
@@ -95,31 +101,32 @@ def _student(values: np.ndarray) -> tuple[Estimate, Estimate]:
     )
 
 
-def _censored(values: np.ndarray, sides: np.ndarray) -> tuple[Estimate, Estimate]:
-    """The same where some values are bounds: of a normal distribution, by its likelihood.
+def _censored(values: np.ndarray, sides: np.ndarray) -> tuple[Estimate, Estimate, Estimate]:
+    """The same where some values are bounds, and the deviation: of a normal, by its likelihood.
 
     With the prior 1 / deviation, under which values without bounds have Student's intervals.
     """
     known = values[sides == 0] if np.sum(sides == 0) > 1 else values
     middle, width = known.mean(), max(known.std(ddof=1), 1e-3)
-    means = middle + width * np.linspace(-12, 12, GRID)[:, None]
-    deviations = width * np.geomspace(0.05, 50, GRID)[None]
-    log = np.zeros((GRID, GRID))
-    for value, side in zip(values, sides, strict=True):
-        z = (value - means) / deviations
-        if side == 0:
-            log += -0.5 * z**2 - np.log(deviations)
-        else:
-            log += np.log(np.maximum(ndtr(-side * z), 1e-300))
+    means = middle + width * np.linspace(-5, 5, GRID)[:, None]
+    deviations = width * np.geomspace(0.2, 10, GRID)[None]
+    exact = values[sides == 0]
+    squares = sum(np.square(means - value) for value in exact)
+    log = -len(exact) * np.log(deviations) - 0.5 * squares / np.square(deviations)
+    bounds, counts = np.unique(np.stack([values, sides])[:, sides != 0], axis=1, return_counts=True)
+    for (value, side), count in zip(bounds.T, counts, strict=True):
+        log = log + count * log_ndtr(side * (means - value) / deviations)
     weights = np.exp(log - log.max())  # on a logarithmic grid the prior 1 / deviation is flat
     weights /= weights.sum()
     expected = float((weights * means).sum())
-    by_mean = weights.sum(axis=1)
-    found = [_quantile(means[:, 0], np.cumsum(by_mean), tail) for tail in TAILS]
-    ends = middle + width * np.linspace(-40, 40, 4 * GRID)
-    spread = np.array([(weights * ndtr((end - means) / deviations)).sum() for end in ends])
+    found = [_quantile(means[:, 0], np.cumsum(weights.sum(axis=1)), tail) for tail in TAILS]
+    total = [_quantile(deviations[0], np.cumsum(weights.sum(axis=0)), p) for p in (0.5, *TAILS)]
+    ends = middle + width * np.linspace(-20, 20, GRID)
+    likely = weights > NEGLIGIBLE * weights.max()
+    centres, widths = (np.broadcast_to(its, likely.shape)[likely] for its in (means, deviations))
+    spread = ndtr((ends[:, None] - centres) / widths) @ weights[likely]
     beyond = [_quantile(ends, spread, tail) for tail in TAILS]
-    return Estimate(expected, *found), Estimate(expected, *beyond)
+    return Estimate(expected, *found), Estimate(expected, *beyond), Estimate(*total)
 
 
 def _quantile(points: np.ndarray, cumulated: np.ndarray, share: float) -> float:

@@ -8,7 +8,7 @@ import pandas as pd
 
 from recalib.numerics.randomness import generator
 from replication.judgement.intervals import Draws
-from replication.judgement.measured import ERRORS, errors_of
+from replication.training.measured import ERRORS, errors_of
 
 
 def summarise(

@@ -11,7 +11,7 @@ from scipy.stats import beta
 
 from replication.judgement.hierarchy import TAILS, Estimate, Model
 
-SPREAD = np.log(1.2)  # between setups: a smaller one is no matter of which setup it is
+SPREAD = float(np.log(1.2))  # between setups: a smaller one is no matter of which setup it is
 MOST = 0.8  # of setups: if no verdict holds in so many, it depends on the setup
 WIDEST = 4.0  # times the lowest of an interval, if a published number in it is to say something
 
@@ -46,11 +46,11 @@ class Comparison(NamedTuple):
         return self.of_interval(its.mean)
 
     def of_interval(self, interval: Estimate) -> Verdict:
-        """Of an interval: undecided if it holds the limit, and more than what counts as same."""
-        low, high = interval.low - self.limit, interval.high - self.limit
+        """Of an interval: an effect lies all on one side of the limit, and is no small one."""
+        mean, low, high = (value - self.limit for value in interval)
         if -self.same < low and high < self.same:
             return Verdict.NO_EFFECT
-        if high < 0 or low > 0:
+        if (high < 0 or low > 0) and abs(mean) >= self.same:
             return Verdict.SUPPORTED if (high < 0) == self.below else Verdict.CONTRADICTED
         return Verdict.UNDECIDED
 
@@ -66,7 +66,7 @@ class Comparison(NamedTuple):
 
 
 # Of the ratio of two errors: a claim says that the first one is smaller; 10 % is the same.
-RATIO = Comparison(0.0, same=np.log(1.1))
+RATIO = Comparison(0.0, same=float(np.log(1.1)))
 
 
 def of_published(published: float, another: Estimate) -> Verdict:

@@ -5,10 +5,10 @@ import numpy as np
 from replication.config.switches import RITTER
 from replication.judgement.factor import CELLS
 from replication.judgement.intervals import first_within
-from replication.judgement.measured import ERRORS, UNITS
 from replication.judgement.results import Evidence
 from replication.pages.readme import in_a_sentence
 from replication.pages.words import one, typical_errors
+from replication.training.measured import ERRORS, UNITS
 
 NEEDS = """
     runs/{scenario}/{improved}.parquet runs/{scenario}/{ritter}.parquet

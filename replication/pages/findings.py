@@ -12,7 +12,6 @@ from replication.judgement.claims.claim import Claim
 from replication.judgement.factor import PUBLISHED, factor_table
 from replication.judgement.factor_in_setups import in_setups
 from replication.judgement.hierarchy import ASSUMED_LUCK
-from replication.judgement.measured import ERRORS
 from replication.judgement.reference import (
     schedules,
     speed_of_two_maps,
@@ -23,6 +22,7 @@ from replication.judgement.results import Evidence, Words
 from replication.judgement.verdicts import RATIO, Verdict
 from replication.pages.parts import otherwise, parts
 from replication.pages.words import depends, level_in_words
+from replication.training.measured import ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from replication.judgement.measured import BOTH, ERRORS
 from replication.judgement.results import Evidence
 from replication.pages.words import ranged
 from replication.training.competitors import label_of, peers
+from replication.training.measured import BOTH, ERRORS
 
 if TYPE_CHECKING:
     import pandas as pd

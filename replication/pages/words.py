@@ -7,9 +7,9 @@ import numpy as np
 
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.judgement.intervals import Estimate
-from replication.judgement.measured import ERRORS, UNITS
 from replication.judgement.needs import DOUBLE
 from replication.judgement.results import Words
+from replication.training.measured import ERRORS, UNITS
 
 LEARNERS = {
     IMPROVED: "Improved system",

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 from replication.judgement.factor import CELLS
 from replication.judgement.intervals import first_within, typical
-from replication.judgement.measured import ERRORS, errors_of
 from replication.judgement.results import Evidence
 from replication.pages.words import amounts
 from replication.plots.palette import BOTH, ErrorStyle, Style, styles_of
@@ -27,6 +26,7 @@ from replication.plots.style import (
     with_intervals,
     words,
 )
+from replication.training.measured import ERRORS, errors_of
 
 NAMED = 3  # damages in a title; more of them go by the name of their scenario
 NEAR = 1.4  # times: two numbers beside an axis that would stand on each other

@@ -6,7 +6,6 @@ from matplotlib.figure import Figure
 
 from replication.judgement.claims import coupling, expected_learning
 from replication.judgement.claims.reasons import integral_ratios
-from replication.judgement.measured import ERRORS, KINDS, UNITS
 from replication.judgement.results import Evidence
 from replication.pages.words import percent
 from replication.plots.palette import BORDER, BOTH, DASHED, NEUTRAL
@@ -18,6 +17,7 @@ from replication.plots.style import (
     with_intervals,
     words,
 )
+from replication.training.measured import ERRORS, KINDS, UNITS
 
 
 def figure5(evidence: Evidence) -> Figure:

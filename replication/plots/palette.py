@@ -7,8 +7,8 @@ from itertools import cycle
 from typing import Any
 
 from replication.config.switches import IMPROVED, RITTER
-from replication.judgement.measured import ERRORS, KINDS, UNITS
 from replication.training.competitors import label_of, peers
+from replication.training.measured import ERRORS, KINDS, UNITS
 
 SOLID, DASHED, DOTTED = "-", (0, (5, 2)), (0, (1, 1))
 

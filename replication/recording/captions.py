@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from replication.config.damages import damages_among
-from replication.judgement.measured import ERRORS
 from replication.recording.measurements import enlarged
 from replication.recording.naming import in_words
 from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
 from replication.training.competitors import label_of
+from replication.training.measured import ERRORS
 from replication.training.recordings import Recording
 
 TEXTS = Path("workflow/recording")

@@ -12,8 +12,8 @@ from recalib.nominal.robots import Robot
 from replication.config.damages import damages_among
 from replication.config.study import LearnerSettings, Measuring
 from replication.judgement.intervals import typical
-from replication.judgement.measured import errors_of
 from replication.scenarios.plants import Resolved, nominal_robot
+from replication.training.measured import errors_of
 from replication.training.poses import Stream
 from replication.training.settings import build_tuned
 

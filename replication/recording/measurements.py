@@ -5,10 +5,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import rerun as rr
 
-from replication.judgement.measured import ERRORS, UNITS
 from replication.recording.colours import BELIEVED, GREY, MEASURED, REACHED
 from replication.recording.scene import AXIS, Scene, axes_of, unit_of
 from replication.recording.watched import MapCells, Watched
+from replication.training.measured import ERRORS, UNITS
 
 PUBLISHED = "paper"  # the entity's name beside those of the learners
 VISIBLE = 0.01  # m: measurements that scatter less are drawn enlarged

@@ -16,7 +16,6 @@ from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
 from replication.config.damages import damages_among, disturbances_among
 from replication.judgement.intervals import typical
-from replication.judgement.measured import ERRORS, errors_of
 from replication.recording import captions, colours
 from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange
@@ -33,6 +32,7 @@ from replication.recording.sight import Sight, sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.competitors import make_peer
+from replication.training.measured import ERRORS, errors_of
 from replication.training.poses import ResultPoses, Stream
 from replication.training.recordings import FEW, Recording
 from replication.training.settings import build_tuned

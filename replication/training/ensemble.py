@@ -12,10 +12,10 @@ from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
 from replication.config.study import LearnerSettings
-from replication.judgement.measured import ERRORS
 from replication.scenarios.assignments import Ways
 from replication.scenarios.nominal import Nominal
 from replication.scenarios.plants import nominal_controller
+from replication.training.measured import ERRORS
 from replication.training.poses import Stream, train_for_results
 from replication.training.settings import build_tuned
 

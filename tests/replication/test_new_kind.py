@@ -7,7 +7,7 @@ from recalib.learners.geometric import GeometricLearner
 from recalib.learners.kinds import KINDS, KINEMATICS, POSES, Kind
 from recalib.learners.learned import load, save
 from recalib.learners.polynomial import PolynomialLearner
-from replication.checks.consistency import check
+from replication.running.checks.consistency import check
 from replication.plots.palette import STYLES, styles_of
 from replication.training.benchmark import compete
 from replication.training.competitors import homes_of, label_of, make_peer, needs_of, peers

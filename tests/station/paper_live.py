@@ -40,7 +40,7 @@ from replication.plots.style import STYLE, logarithmic, save, title
 from replication.scenarios.assignments import assign
 from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_controller
-from replication.studies import read_studies
+from replication.running.studies import read_studies
 from replication.training.competitors import label_of, make_peer
 from replication.training.poses import Stream
 from replication.training.settings import build_tuned

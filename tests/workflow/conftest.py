@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import pytest
 
-from replication.studies import LOCK
+from replication.running.studies import LOCK
 from tests.conftest import ROOT
 from tests.project import Project, kill, wait_until
 

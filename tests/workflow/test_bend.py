@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.studies import read_studies
+from replication.running.studies import read_studies
 from replication.training.trainings import Trainings
 from tests.conftest import ROOT
 from tests.project import Project

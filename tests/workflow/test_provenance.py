@@ -19,7 +19,7 @@ from snakemake.settings.types import DAGSettings
 from replication.config.messages import InvalidConfiguration
 from replication.config.reading import read_study
 from replication.config.shipped import EFFORTS, REFERENCE, SEARCHED
-from replication.studies import layers_of
+from replication.running.studies import layers_of
 from replication.training.samples import sample_of, sought
 from replication.training.trainings import Trainings
 from tests.conftest import ROOT, copy_project

@@ -8,7 +8,7 @@ import pytest
 from recalib.errors import RecalibError
 from replication import studies
 from replication.config.messages import InvalidConfiguration
-from replication.studies import LOCK, read_studies, ship
+from replication.running.studies import LOCK, read_studies, ship
 
 
 @pytest.fixture

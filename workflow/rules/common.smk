@@ -17,7 +17,7 @@ from snakemake.logging import logger
 from recalib.errors import RecalibError
 from replication.scenarios.nominal import nominal
 from replication.config.shipped import RESULTS, SEARCHED
-from replication.studies import ask_robots, read_studies
+from replication.running.studies import ask_robots, read_studies
 from replication.training.trainings import Trainings, measuring, searches, seeds
 from replication.training.trainings import rules as rules_of
 from workflow.dependencies import calls

@@ -1,5 +1,6 @@
 """What a claim is, and how it is judged."""
 
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
@@ -76,6 +77,11 @@ class OfSetups:
     comparison: Comparison = RATIO
     beside: Mapping[tuple[str, str], Estimand] = field(default_factory=dict)
 
+    @property
+    def registered(self) -> tuple[object, ...]:
+        """What its verdict follows from."""
+        return self.statement.words, self.statement.criterion, self.estimand, self.comparison
+
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured: fewer than three setups have the number."""
         its, unsettled = self.model(evidence)
@@ -90,7 +96,7 @@ class OfSetups:
                 its,
                 unsettled,
                 self.comparison.shares(its),
-                strongest(its.numbers, evidence.levels(), evidence.rng(self.statement.id)),
+                strongest(its.numbers, evidence.levels()),
             ),
         )
 
@@ -111,6 +117,11 @@ class Measured:
 
     statement: Statement
     judge_: Callable[[Statement, Evidence], Finding]
+
+    @property
+    def registered(self) -> tuple[object, ...]:
+        """What its verdict follows from."""
+        return self.statement.words, self.statement.criterion, inspect.getsource(self.judge_)
 
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured."""

@@ -1,4 +1,4 @@
-"""Section 3: commands in place of joint angles, cells on a grid, and Ritter's algorithm as it is."""
+"""Section 3: commands in place of joint angles, cells on a grid, Ritter's algorithm as it is."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from replication.judgement.contrasts import Contrast, Remaining
 from replication.judgement.evidence import Evidence
 from replication.judgement.findings import Finding, Number, number
 from replication.judgement.hierarchy import student
-from replication.judgement.measured import ERRORS
 from replication.judgement.verdicts import RATIO, Comparison, Verdict
+from replication.training.measured import ERRORS
 
 LARGEST = 0.001  # cm and degrees: rounding and the controller's tolerance cause far less
 SLOW = 0.25  # a share: a learner that leaves so much is not quick
@@ -100,9 +100,9 @@ def claims(iterations: int, cells: str) -> list[OfSetups | Measured]:
                 " function, because the controller always chooses the same joint angles for a fixed"
                 " command",
                 "Many joint angles reach a pose, but only one command does.",
-                "Of all joint angles found with which the damaged arm reaches a pose, the controller"
-                " chooses exactly one for the command that asks for it, at every pose of every"
-                " scenario.",
+                "Of all joint angles found with which the damaged arm reaches a pose, the"
+                " controller chooses exactly one for the command that asks for it, at every pose"
+                " of every scenario.",
                 "For each pose, Newton's method from 50 random starts finds the joint angles.",
             ),
             single_valued,

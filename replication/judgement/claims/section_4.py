@@ -9,8 +9,8 @@ from replication.judgement.contrasts import Compromise, Contrast, Error, Remaini
 from replication.judgement.evidence import Evidence
 from replication.judgement.findings import Finding, Number, number
 from replication.judgement.hierarchy import student
-from replication.judgement.measured import KINDS
 from replication.judgement.verdicts import RATIO, of_share, share_interval
+from replication.training.measured import KINDS
 
 WEAK = 0.1  # of the direct effect: *slowly* is an order of magnitude
 POSES = 0.95
@@ -21,7 +21,7 @@ ONE, TWO = "Ritter's one map", "Ritter's two maps"
 
 def weak_coupling(statement: Statement, evidence: Evidence) -> Finding:
     """In how many setups the off-diagonal blocks of the mapping's Jacobian are small."""
-    table = evidence.table("workflow/campaign/coupling.csv")
+    table = evidence.table("workflow/campaign/untrained.csv")
     worst = table.groupby("setup")[list(KINDS)].max().max(axis=1)
     holds, setups = int((worst <= WEAK).sum()), len(worst)
     shares = Number(
@@ -94,13 +94,13 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             "the position network needs less units in the supernet",
             "small_supernet_for_{}",
             "small_subnet_for_{}",
-            "supernet",
+            ("supernet", "subnets"),
         ),
         "orientation": (
             "the orientation network saves neurons at the subnet level",
             "small_subnet_for_{}",
             "small_supernet_for_{}",
-            "subnets",
+            ("subnets", "supernet"),
         ),
     }
     errors: tuple[Error, ...] = "position", "orientation"
@@ -109,12 +109,12 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             Statement(
                 "weak-coupling",
                 "4",
-                "changes in position coordinates influence very slowly the orientation commands, and"
-                " the same can be said about orientation coordinates with respect to position"
+                "changes in position coordinates influence very slowly the orientation commands,"
+                " and the same can be said about orientation coordinates with respect to position"
                 " commands",
                 "Positions hardly influence orientation commands, nor the reverse.",
-                f"In every setup, at {100 * POSES:g} % of poses, the off-diagonal blocks of the true"
-                " mapping's Jacobian have at most a tenth of the norm of the diagonal ones.",
+                f"In every setup, at {100 * POSES:g} % of poses, the off-diagonal blocks of the"
+                " true mapping's Jacobian have at most a tenth of the norm of the diagonal ones.",
                 "*Slowly* is an order of magnitude, in half-ranges of the workspace.",
             ),
             weak_coupling,
@@ -217,7 +217,7 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
             )
         )
     for error in errors:
-        words, fewer, other, net = cells[error]
+        words, fewer, other, (net, other_net) = cells[error]
         found.append(
             OfSetups(
                 Statement(
@@ -226,10 +226,11 @@ def claims(iterations: int, late: int) -> list[OfSetups | Measured]:
                     words,
                     f"The {error} map needs fewer cells in the {net}.",
                     f"After {late:,} iterations, the {error} error of two maps with 2 x 2 x 2 cells"
-                    f" in the {net} is below that with 2 x 2 x 2 cells in the other net.",
-                    "What needs fewer cells loses less by having fewer.",
+                    f" in the {net} is below that with 2 x 2 x 2 cells in the {other_net}.",
+                    "A map that needs fewer cells in a net loses less if it has fewer. Above 1, the"
+                    " sentence holds with supernet and subnets exchanged.",
                 ),
-                f"{error} error with a small {net} / with a small other net",
+                f"{error} error with fewer cells in the {net} / in the {other_net}",
                 TWO,
                 Contrast(for_(error, fewer), for_(error, other)),
             )

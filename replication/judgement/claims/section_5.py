@@ -100,9 +100,10 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             Statement(
                 "theta-reason",
                 "5",
-                "this kind of cooperation works better than Ritter et al.'s when the new function is"
-                " more similar to the original one than to a constant function",
-                "Changes are better if the new mapping is nearer to the old one than to a constant.",
+                "this kind of cooperation works better than Ritter et al.'s when the new function"
+                " is more similar to the original one than to a constant function",
+                "Changes are better if the new mapping is nearer to the old one than to a"
+                " constant.",
                 criterion,
                 reason,
             ),
@@ -112,8 +113,8 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
             Statement(
                 "jacobian-increments",
                 "5",
-                "in all the relevant aspects for us, the problem is the same we encountered with the"
-                " theta_rs update",
+                "in all the relevant aspects for us, the problem is the same we encountered with"
+                " the theta_rs update",
                 "Cells should share changes of their Jacobians, not Jacobians.",
                 f"After {iterations} iterations the error with increments of the Jacobians is below"
                 " that with values.",

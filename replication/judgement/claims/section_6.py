@@ -72,9 +72,11 @@ def claims(iterations: int) -> list[OfSetups | Measured]:
                 "coarse-widths",
                 "6",
                 "When the neighborhood width is large [...] Few iterations are then required to"
-                " learn the mapping in all the input space at a coarse level of resolution. Instead,"
-                " when the neighborhoods are small [...] many more iterations are required",
-                "Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in many.",
+                " learn the mapping in all the input space at a coarse level of resolution."
+                " Instead, when the neighborhoods are small [...] many more iterations are"
+                " required",
+                "Wide neighbourhoods learn a coarse mapping in few iterations, narrow ones in"
+                " many.",
                 f"With constant widths, both errors are halved after at most {FEW} iterations if"
                 " neighbourhoods are as wide as half of the workspace, and after at least"
                 f" {MANY} times as many if they are as wide as half of the distance between cells.",

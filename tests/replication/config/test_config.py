@@ -6,13 +6,13 @@ import time
 import pytest
 import yaml
 
-from replication.checks.consistency import check
-from replication.checks.geometry import check_robots
+from replication.running.checks.consistency import check
+from replication.running.checks.geometry import check_robots
 from replication.config import schema
 from replication.config.messages import MOST_SHOWN, InvalidConfiguration
 from replication.config.reading import read_study
 from replication.config.study import Study
-from replication.studies import read_studies
+from replication.running.studies import read_studies
 from replication.training.trainings import Trainings
 from tests.conftest import ROOT, loaded_with
 

@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from replication.checks.consistency import check
-from replication.checks.geometry import check_robots
+from replication.running.checks.consistency import check
+from replication.running.checks.geometry import check_robots
 from replication.config.messages import InvalidConfiguration
 from replication.config.reading import read_study
 from replication.config.shipped import root_of
@@ -23,7 +23,7 @@ from replication.config.values import from_file
 from replication.judgement.claims import judging
 from replication.judgement.needs import Request
 from replication.plots.registry import drawn
-from replication.studies import named_files
+from replication.running.studies import named_files
 from replication.training.chunks import bounds, chunks, searches_per_job
 from replication.training.competitors import MOVES, peers
 from replication.training.search import draw

@@ -17,7 +17,7 @@ from replication.config.values import from_file, from_mapping, shown
 from replication.scenarios.assignments import assign
 from replication.scenarios.nominal import digest_of
 from replication.scenarios.plants import nominal_controller, nominal_robot, resolve
-from replication.studies import read_studies
+from replication.running.studies import read_studies
 from replication.training import trainings
 from replication.training.trainings import Trainings
 from tests.conftest import ROOT, changed

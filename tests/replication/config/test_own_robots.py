@@ -11,7 +11,7 @@ import yaml
 from recalib.nominal.arms import find_urdf, load_arm
 from recalib.nominal.meshes import mesh_files
 from replication.config.messages import InvalidConfiguration
-from replication.studies import read_studies
+from replication.running.studies import read_studies
 from tests.conftest import ROOT
 
 ARMS = yaml.safe_load((ROOT / "tests" / "arms_of_example_robot_data.yaml").read_text())

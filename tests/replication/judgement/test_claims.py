@@ -24,7 +24,7 @@ from replication.judgement.claims.across import NO_MEAN
 from replication.judgement.claims.claim import Finding
 from replication.judgement.factor import CELLS
 from replication.judgement.intervals import Estimate
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.judgement.results import Evidence
 from replication.judgement.verdicts import Verdict
 from tests.synthetic import AT_FIRST, INITIAL, LUCK, REPLICATES, Synthetic, few_resamples, unread

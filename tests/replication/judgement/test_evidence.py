@@ -7,7 +7,7 @@ from recalib.files.storage import whole
 from recalib.numerics.randomness import generator
 from replication.judgement.checks import check, expect, report
 from replication.judgement.summary import error_at_these_settings
-from replication.studies import BANDS
+from replication.running.studies import BANDS
 
 
 def test_generators_differ_by_key_and_repeat():

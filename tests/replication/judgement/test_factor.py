@@ -17,7 +17,7 @@ from replication.judgement.factor import (
 )
 from replication.judgement.factor_in_setups import in_setups
 from replication.judgement.intervals import Estimate
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.judgement.verdicts import Verdict
 from tests.synthetic import Synthetic
 

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from replication.config.shipped import DESIGN, POWER
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.pages.all_results import _on_its_way
 from replication.pages.findings import _campaign, _refused
 

@@ -6,7 +6,7 @@ from replication.config.reading import read_study
 from replication.judgement.claims import CLAIMS, judging
 from replication.judgement.needs import Request
 from replication.pages.outcome import NEEDS, outcome
-from replication.studies import CONFIGURATION, OTHERS, layers_of
+from replication.running.studies import CONFIGURATION, OTHERS, layers_of
 from replication.training.trainings import Trainings
 from tests.conftest import ROOT
 

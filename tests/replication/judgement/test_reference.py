@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import t
 
 from replication.config.lengths import MAPS
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.judgement.reference import (
     one_search,
     schedules,

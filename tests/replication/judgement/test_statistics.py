@@ -17,7 +17,7 @@ from replication.judgement.intervals import (
     ratio,
     typical,
 )
-from replication.judgement.measured import ERRORS, errors_of
+from replication.training.measured import ERRORS, errors_of
 from tests.synthetic import OF_SEARCHES, OF_SEEDS
 
 SEEDS = 5

@@ -6,7 +6,7 @@ import pytest
 
 from replication.judgement.benchmark import errors, moves_to_reach, reached
 from replication.judgement.effects import effects
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.pages.guidance import moves_text
 from replication.pages.real_arm import ERROR, real_errors
 

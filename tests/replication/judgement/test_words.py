@@ -8,7 +8,7 @@ import pytest
 from replication.config.shipped import FACTORS
 from replication.config.values import from_file
 from replication.judgement.intervals import Estimate
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.pages import words
 from tests.conftest import ROOT
 

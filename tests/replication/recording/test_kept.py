@@ -16,7 +16,7 @@ from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
 from recalib.errors import InvalidFile
 from recalib.learners.polynomial import PolynomialLearner
 from replication.config.study import Measuring
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.recording import captions, naming, pictures
 from replication.recording.blueprint import arrange
 from replication.recording.measurements import enlarged

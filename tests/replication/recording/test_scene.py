@@ -12,7 +12,7 @@ from recalib.damaged.plant import Plant
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.recording import labels, markers, measurements, scene
 from replication.recording.blueprint import TITLES, _plots
 from replication.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move

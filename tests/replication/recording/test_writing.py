@@ -14,7 +14,7 @@ from recalib.errors import InvalidFile
 from recalib.laboratory.viewer.program import PROGRAM, quiet
 from recalib.nominal import meshes
 from replication.judgement.intervals import typical
-from replication.judgement.measured import ERRORS, errors_of
+from replication.training.measured import ERRORS, errors_of
 from replication.recording import writing
 from replication.recording.blueprint import arrange
 from replication.recording.sight import sight_of

@@ -4,7 +4,7 @@ import pytest
 
 from recalib.loop.interfaces import Outcome
 from replication.judgement.benchmark import moves_to_reach
-from replication.judgement.measured import ERRORS
+from replication.training.measured import ERRORS
 from replication.pages.guidance import where_worse
 from replication.training.benchmark import Timed, compete, measured_at
 from workflow.scripts.call import write

@@ -1,6 +1,6 @@
 """Consistency of a study: names that must exist, and keys that go together.
 
-What depends on a robot's geometry is in `replication.checks.geometry`.
+What depends on a robot's geometry is in `replication.running.checks.geometry`.
 """
 
 import math
@@ -19,8 +19,8 @@ from replication.config.messages import KeyPath, Mistake, dotted, shown, unknown
 from replication.config.study import Study
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.judgement.claims import missing
-from replication.judgement.measured import MOVED, RIGID
 from replication.training.competitors import MOVES, peers
+from replication.training.measured import MOVED, RIGID
 from replication.training.trainings import rules_unless_peer, scenario_of, training
 
 Each = TypeVar("Each")

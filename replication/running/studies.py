@@ -1,6 +1,6 @@
 """Which studies there are: the shipped one, those that change it, and that of the present call.
 
-`python -m replication.studies` makes config.yaml, as it now is, the shipped one: `make ship`.
+`python -m replication.running.studies` makes config.yaml the shipped study: `make ship`.
 """
 
 import json
@@ -13,12 +13,12 @@ from typing import Any
 from recalib.errors import RecalibError
 from recalib.files.storage import digest
 from recalib.spelling import listed
-from replication.checks.consistency import check
 from replication.config.messages import InvalidConfiguration, Mistake, unknown, unlike
 from replication.config.reading import Check, Source, placed, read_study
 from replication.config.shipped import SHIPPED, root_of
 from replication.config.study import Study
 from replication.config.values import Placed, from_mapping, shown
+from replication.running.checks.consistency import check
 from replication.training.trainings import Trainings
 
 CONFIGURATION = "config.yaml"
@@ -155,7 +155,7 @@ def named_files(project: Path, study: Study) -> list[Mistake]:
 
 def ask_robots(study: Study, scenarios: Sequence[str]) -> list[Mistake]:
     """What the robots say of these scenarios; see `check_robots`."""
-    from replication.checks.geometry import check_robots  # it takes half a second
+    from replication.running.checks.geometry import check_robots  # it takes half a second
 
     return check_robots(study, scenarios)
 

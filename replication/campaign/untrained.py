@@ -1,0 +1,45 @@
+"""What is measured in every setup without a learner: the mapping, and what the damage may do."""
+
+from pathlib import Path
+
+import pandas as pd
+
+from recalib.damaged.damage import apply
+from recalib.numerics.randomness import generator
+from replication.campaign.drawing import initial_errors, ways_in
+from replication.campaign.measuring import short
+from replication.campaign.setups import read_design
+from replication.config.damages import damages_among
+from replication.config.study import Study
+from replication.mapping.coupling import coupling
+from replication.scenarios.plants import nominal_controller
+from replication.training.measured import ERRORS, KINDS
+
+POSES = 0.95  # at which the coupling is at most so large
+
+
+def untrained(study: Study, design: Path) -> pd.DataFrame:
+    """A row for each setup.
+
+    Its columns are `position` and `orientation`: off-diagonal over diagonal blocks of the mapping's
+    Jacobian for such commands, at 95 % of poses; and the initial errors of the arm with an
+    assignment of the paper's damage that is drawn anew, lengths as on the study's own robot.
+    """
+    rows, own = [], study.robots[study.robot].workspace
+    for setup in read_design(design):
+        its = setup.nominal(study)
+        controller, scale = nominal_controller(its), its.robot.workspace.scale_to(own)
+        random = generator(setup.seed, "untrained")
+        desired = controller.robot.workspace.sample(random, study.mapping.poses)
+        arm = apply(controller.robot, damages_among(setup.damage))
+        worst = coupling(controller, arm, desired).quantile(POSES)
+        ways = ways_in(its, setup.levels, study)
+        drawn, error = damages_among(ways[random.integers(len(ways))]), setup.levels["error"]
+        tests = controller.robot.workspace.sample(random, study.paper_damage.poses)
+        errors = initial_errors(controller, drawn, tests, error) / (scale, 1)
+        rows.append(
+            {"setup": setup.setup}
+            | {kind: short(worst[kind]) for kind in KINDS}
+            | dict(zip(ERRORS, map(short, errors), strict=True))
+        )
+    return pd.DataFrame(rows)

@@ -1,0 +1,36 @@
+"""The layers of the code. A job runs again if the code of its layer or of a lower one changes.
+
+No layer imports a higher one; `tests/test_imports.py` sees to that.
+"""
+
+import hashlib
+from functools import cache
+from pathlib import Path
+
+import recalib
+import replication
+
+LAYERS = (
+    "recalib",
+    "replication.config",
+    "replication.scenarios",
+    "replication.training",
+    "replication.mapping",
+    "replication.campaign",
+    "replication.judgement",
+    "replication.plots",
+    "replication.recording",
+    "replication.pages",
+)
+HOMES = {module.__name__: Path(module.__path__[0]) for module in (recalib, replication)}
+
+
+@cache
+def digest(layer: str) -> str:
+    """Of the code of a layer and of those below it."""
+    its = hashlib.sha256()
+    for name in LAYERS[: LAYERS.index(layer) + 1]:
+        package, *folders = name.split(".")
+        for path in sorted(HOMES[package].joinpath(*folders).rglob("*.py")):
+            its.update(path.read_bytes())
+    return its.hexdigest()

@@ -1,0 +1,131 @@
+"""Campaigns in worlds whose truth is planted: analytic error surfaces in place of trainings.
+
+Everything else is the campaign's own: variants, searches, what is held, the table, contrasts.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+
+from replication.campaign.measuring import Replicate, narrower, rows_of
+from replication.campaign.setups import Setup
+from replication.campaign.variants import Variant, variants
+from replication.config.study import Study
+from replication.training.poses import ResultPoses, SearchPoses, Stream
+from replication.training.settings import Space
+from replication.training.trials import Outcome
+
+ARM = np.array([0.08, 0.08])  # m, rad: errors without correction
+RUN = 0.07  # deviation of a run, of the logarithm
+
+# From a variant's name, its settings by column, iterations and the effect in this setup, to the
+# logarithms (trial, 2) of the shares that it leaves.
+Surface = Callable[[str, Mapping[str, np.ndarray], int, float], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Planted:
+    """Trials on an analytic surface, with the luck of poses."""
+
+    space: Space
+    poses: SearchPoses | ResultPoses
+    surface: Callable[[Mapping[str, np.ndarray]], np.ndarray]
+    luck: np.ndarray  # (run, 2) of these poses
+
+    def first(self, runs: int) -> "Planted":
+        return replace(self, luck=self.luck[:runs])
+
+    def outcome(self, rows: np.ndarray) -> Outcome:
+        logs = self.surface(dict(zip(self.space.columns, rows.T, strict=True)))
+        errors = np.exp(logs[:, None] + self.luck) * ARM
+        return Outcome(errors, np.zeros(errors.shape[:2], dtype=int))
+
+    def shares(self, rows: np.ndarray) -> np.ndarray:
+        return np.exp(np.log(self.outcome(rows).errors / ARM).mean(axis=1))
+
+    @cached_property
+    def uncorrected(self) -> np.ndarray:
+        return np.tile(ARM, (len(self.luck), 1))
+
+
+class PlantedReplicate(Replicate):
+    """A replicate of a setup of a planted world."""
+
+    def __init__(self, study: Study, setup: Setup, replicate: int, surface: Surface, effect: float):
+        self._study, self._setup, self._replicate = study, setup, replicate
+        self._surface, self._effect = surface, effect
+        self._names = {id(its): name for name, its in variants(study).items()}
+        self.name = ""
+
+    def trials(
+        self, variant: Variant, iterations: int, runs: int, stream: Stream, **words: int
+    ) -> Planted:
+        key = [self._setup.seed, self._replicate, list(Stream).index(stream), *words.values()]
+        luck = RUN * np.random.default_rng(key).normal(size=(runs, 2))
+        kind = SearchPoses if stream is Stream.SEARCH else ResultPoses
+        none = np.zeros((runs, 0, 6))
+
+        def surface(settings: Mapping[str, np.ndarray]) -> np.ndarray:
+            return self._surface(self.name, settings, iterations, self._effect)
+
+        return Planted(self._space(variant), kind("planted", none, none), surface, luck)
+
+    def _space(self, variant: Variant) -> Space:
+        return Space(
+            variant.rules,
+            self._study.search.ranges,
+            narrower(variant.target, variant.order),
+            dict(variant.constant),
+        )
+
+
+def setups(count: int, seed: int) -> list[Setup]:
+    """As many setups, without a robot."""
+    return [
+        Setup(
+            setup=number,
+            row=number,
+            seed=1000 * seed + number,
+            levels={},
+            home_deg=(),
+            homes_refused=0,
+            damage=(),
+            position_error_cm=8.0,
+            orientation_error_deg=4.6,
+        )
+        for number in range(count)
+    ]
+
+
+def campaign(
+    study: Study,
+    names: list[str],
+    surface: Surface,
+    effects: np.ndarray,
+    seed: int,
+) -> pd.DataFrame:
+    """The table of a planted world; the first three setups are measured twice.
+
+    Args:
+        names: of the variants that are measured, each after those that it needs.
+        effects: (setup,) planted, on the logarithmic scale.
+    """
+    known, tables = variants(study), []
+    for setup, effect in zip(setups(len(effects), seed), effects, strict=True):
+        for number in range(2 if setup.setup < 3 else 1):
+            its = PlantedReplicate(study, setup, number, surface, float(effect))
+            others: dict = {}
+            for name in names:
+                its.name, variant = name, replace(known[name], at_home=())
+                table = its.measure(name, variant, others)
+                others[name] = rows_of(table)
+                tables.append(table)
+    return pd.concat(tables, ignore_index=True)
+
+
+def valley(value: np.ndarray, optimum: float, steep: float = 0.3) -> np.ndarray:
+    """A smooth valley on a logarithmic scale."""
+    return steep * np.log(value / optimum) ** 2

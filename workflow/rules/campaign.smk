@@ -1,0 +1,97 @@
+"""The campaign: every variant in every setup. No part of a run: its outcomes are shipped."""
+
+from replication.campaign.setups import DESIGN, planned
+from replication.campaign.variants import needed, variants
+
+SHIPPED_STUDY = STUDIES[RESULTS]
+MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
+PIECE = f"{RESULTS}/campaign/pieces/{{setup}}/{{replicate}}/{{variant}}.csv"
+
+
+wildcard_constraints:
+    setup=r"\d+",
+    replicate=r"\d+",
+    variant=r"\w+",
+
+
+def pieces(wildcards, names):
+    """The files of variants in a replicate of a setup."""
+    its = {"setup": wildcards.setup, "replicate": wildcards.replicate}
+    return [PIECE.format(variant=name, **its) for name in names]
+
+
+rule design:
+    output:
+        f"{RESULTS}/campaign/design.csv",
+    log:
+        f"{RESULTS}/logs/design.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("replication.campaign.drawing.design", SHIPPED_STUDY),
+    message:
+        "Draw the setups of the campaign"
+    script:
+        "../scripts/call.py"
+
+
+rule untrained:
+    input:
+        design=DESIGN,
+    output:
+        f"{RESULTS}/campaign/untrained.csv",
+    log:
+        f"{RESULTS}/logs/untrained.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("replication.campaign.untrained.untrained", SHIPPED_STUDY),
+    message:
+        "Measure the mapping in every setup"
+    script:
+        "../scripts/call.py"
+
+
+# A variant that was measured is kept until all of its replicate are: an interrupted run goes on.
+rule variant:
+    input:
+        design=DESIGN,
+        others=lambda w: pieces(w, needed(variants(SHIPPED_STUDY)[w.variant])),
+    output:
+        temp(PIECE),
+    log:
+        f"{RESULTS}/logs/variant/{{setup}}.{{replicate}}.{{variant}}.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("replication.campaign.measuring.measure_variant", SHIPPED_STUDY),
+        setup=lambda w: int(w.setup),
+        replicate=lambda w: int(w.replicate),
+        variant=lambda w: w.variant,
+    message:
+        "Tune {wildcards.variant} in setup {wildcards.setup}, replicate {wildcards.replicate}"
+    script:
+        "../scripts/call.py"
+
+
+rule outcomes:
+    input:
+        tables=lambda w: pieces(w, variants(SHIPPED_STUDY)),
+    output:
+        MEASURED,
+    log:
+        f"{RESULTS}/logs/outcomes/{{setup}}.{{replicate}}.log",
+    localrule: True
+    params:
+        **calls("replication.campaign.measuring.put_together", SHIPPED_STUDY),
+    message:
+        "Put setup {wildcards.setup}, replicate {wildcards.replicate} together"
+    script:
+        "../scripts/call.py"
+
+
+rule campaign:
+    input:
+        [MEASURED.format(setup=its, replicate=number) for its, number in planned(SHIPPED_STUDY)],
+    message:
+        "What was missing of the campaign: {input}; `make campaign` ships it"
