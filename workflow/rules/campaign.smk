@@ -1,7 +1,7 @@
 """The campaign: every variant in every setup. No part of a run: its outcomes are shipped."""
 
 from replication.campaign.setups import DESIGN, planned
-from replication.campaign.variants import needed, variants
+from replication.campaign.variants import lengths, needed, variants
 
 SHIPPED_STUDY = STUDIES[RESULTS]
 MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
@@ -12,6 +12,12 @@ wildcard_constraints:
     setup=r"\d+",
     replicate=r"\d+",
     variant=r"\w+",
+
+
+def measured(wildcards):
+    """The variants of a setup."""
+    every = variants(SHIPPED_STUDY).items()
+    return [name for name, variant in every if lengths(variant, int(wildcards.setup))]
 
 
 def pieces(wildcards, names):
@@ -76,7 +82,7 @@ rule variant:
 
 rule outcomes:
     input:
-        tables=lambda w: pieces(w, variants(SHIPPED_STUDY)),
+        tables=lambda w: pieces(w, measured(w)),
     output:
         MEASURED,
     log:
