@@ -19,7 +19,7 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms initial_estimate estimation parameters calibration consensus design checks
+    model closed_forms initial_estimate unseen estimation parameters calibration consensus design checks
     held_out validation
 """.split()  # noqa: SIM905
 LABORATORY = """
@@ -60,7 +60,6 @@ NEEDED = {
     "numba": "numba",
     "numpy": "numpy",
     "pin": "pinocchio",
-    "scikit-learn": "sklearn",
     "scipy": "scipy",
 }
 # Each takes a tenth of a second or more to import: who waits for it needs it.

@@ -3,17 +3,21 @@
 The residuals of the fit are no measure: a Gaussian process interpolates.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, calibrate, calibrate_again
+from recalib.identification.calibration import (
+    Calibration,
+    calibrations,
+    choose,
+    with_pattern,
+)
 from recalib.identification.checks.diagnostics import check_estimate, check_links, check_postures
 from recalib.identification.checks.postures import Postures, find_postures
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.estimation import LEAST_NOISE, identify
+from recalib.identification.estimation import LEAST_NOISE, Identification
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.model.error_model import (
     JOINT_ERRORS,
@@ -21,22 +25,19 @@ from recalib.identification.model.error_model import (
     NO_ERRORS,
     OFFSETS,
     ErrorModel,
+    JointTerms,
     held,
 )
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.identification.unseen import Unseen
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
 # Of errors away from what was measured, and among it. The first is what a calibration is worth.
 BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
-# The joint terms that each may have, the fewest first.
-CANDIDATES = {
-    NOTHING: (NO_ERRORS,),
-    GEOMETRIC: (OFFSETS,),
-    HYBRID: (OFFSETS, JOINT_ERRORS, JOINT_WAVES),
-}
+CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the joint terms that there may be
 SURE = 2.0  # standard errors by which something richer has to be better, to be used
 
 
@@ -49,6 +50,8 @@ class Validation:
             nominal arm are identified, too, and nothing else is.
         postures: in which all rows are.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
+        lost: by way of folding, (n,) whether the part of a row tells what no other rows do: without
+            it a direction of the geometry is open, and errors there are of that.
         chosen: what is best done: nothing, geometric or hybrid.
         full: the calibrations from all rows.
         unsettled: whether there was more than geometry, but its identification did not converge.
@@ -57,6 +60,7 @@ class Validation:
     held_out: Mapping[str, Mapping[str, HeldOut]]
     postures: Postures
     counted: np.ndarray
+    lost: Mapping[str, np.ndarray]
     chosen: str
     full: Mapping[str, Calibration]
     unsettled: bool
@@ -70,9 +74,18 @@ class Validation:
         """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
         return self.held_out[way][kind].errors
 
+    def judged(self, way: str) -> np.ndarray:
+        """Whether errors of rows (n,) count: those of outliers and lost directions do not."""
+        judged = self.counted & ~self.lost[way]
+        return judged if judged.any() else self.counted
+
+    def held_out_by(self, way: str, kind: str) -> HeldOut:
+        """The rows whose errors count."""
+        return self.held_out[way][kind][self.judged(way)]
+
     def mean_error(self, way: str, kind: str) -> float:
         """Of position [m], over the rows that count."""
-        return float(self.errors(way, kind)[self.counted, 0].mean())
+        return float(self.held_out_by(way, kind).errors[:, 0].mean())
 
     @property
     def radius(self) -> float:
@@ -80,11 +93,11 @@ class Validation:
 
         For the calibration that is chosen, also in postures away from those measured.
         """
-        return self.held_out[BLOCKWISE][self.chosen][self.counted].radius()
+        return self.held_out_by(BLOCKWISE, self.chosen).radius()
 
     def coverage(self, way: str) -> float:
         """The part of held-out positions that lie within such a radius, made without them."""
-        return self.held_out[way][self.chosen][self.counted].coverage()
+        return self.held_out_by(way, self.chosen).coverage()
 
 
 def validate(
@@ -111,51 +124,75 @@ def validate(
     estimate = identify_by_consensus(model, observations)
     counted = estimate.weights >= OUTLYING
     geometry = Calibration(model, estimate)
-    check_estimate(geometry, observations, counted)
+    check_estimate(geometry, observations)
     check_links(geometry)
     postures = check_postures(find_postures(observations.joints, arm.slides, estimate.noise[0]))
-    candidates = {
-        kind: [held(terms, postures.still) for terms in options]
-        for kind, options in CANDIDATES.items()
-    }
-    weights = counted.astype(float)
-    full = {}
-    for kind in (NOTHING, GEOMETRIC):
-        (terms,) = candidates[kind]
-        model = ErrorModel(arm, terms, frames)
-        full[kind] = Calibration(model, identify(model, observations, weights=weights))
+
+    def identified(
+        candidates: Sequence[JointTerms], rows: np.ndarray, start: Identification | None = None
+    ) -> list[Calibration]:
+        terms = [held(terms, postures.still) for terms in candidates]
+        weights = counted[rows].astype(float)
+        return calibrations(arm, terms, observations[rows], frames, start, weights)
+
+    every = np.ones(len(observations), dtype=bool)
+    nothing, *candidates = identified([NO_ERRORS, *CANDIDATES], every)
     on_progress("errors beyond geometry")
-    hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
-    if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, candidates[HYBRID], observations, frames, hybrid, weights)
-    richer = hybrid.pattern is not None or hybrid.model.names != full[GEOMETRIC].model.names
+    best = choose(candidates)
+    if not candidates[best].estimate.converged:  # it has many parameters, and goes on from there
+        candidates = identified(CANDIDATES, every, candidates[best].estimate)
+        best = choose(candidates)
+    full = {NOTHING: nothing, GEOMETRIC: candidates[0]}
+    hybrid = with_pattern(candidates[best], observations)
+    richer = best > 0 or hybrid.pattern is not None
     unsettled = richer and not hybrid.estimate.converged
     if richer and not unsettled:
         full[HYBRID] = hybrid
-    held_out = {}
+
+    def without(rows: np.ndarray) -> dict[str, Calibration]:
+        # a model that all rows do not ask for is not tried on fewer
+        tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
+        none, *others = identified(tried, ~rows)
+        found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}
+        if hybrid.pattern is not None:
+            process = hybrid.pattern.hyperparameters
+            found[HYBRID] = with_pattern(found[HYBRID], observations[~rows], process)
+        return {kind: found[kind] for kind in full}
+
+    held_out, lost = {}, {}
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
-        folds = divide(observations, postures)
         on_progress(f"errors {way}")
-        fits = {kind: partial(calibrate_again, full[kind], candidates[kind]) for kind in full}
-        held_out[way] = {
-            kind: hold_out(fit, observations, weights, folds) for kind, fit in fits.items()
-        }
-    chosen = _choice(held_out, counted, postures)
+        folds = divide(observations, postures)
+        held_out[way] = hold_out(without, observations, folds)
+        lost[way] = _lost(candidates[0].model, observations, folds)
+    judged = counted & ~lost[BLOCKWISE]
+    chosen = _choice(held_out[BLOCKWISE], judged if judged.any() else counted, postures)
     full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
     for errors in held_out.values():
         errors.setdefault(HYBRID, errors[GEOMETRIC])
-    return Validation(held_out, postures, counted, chosen, full, unsettled)
+    return Validation(held_out, postures, counted, lost, chosen, full, unsettled)
 
 
-def _choice(
-    held_out: Mapping[str, Mapping[str, HeldOut]], counted: np.ndarray, postures: Postures
-) -> str:
-    """The simplest that nothing beats for sure, on postures held out in both ways."""
-    _, own = np.unique(postures.numbers[counted], return_inverse=True)
-    losses = {
-        kind: np.mean([held_out[way][kind][counted].losses for way in WAYS], axis=0)
-        for kind in held_out[RANDOM]
-    }
+def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> np.ndarray:
+    """Whether rows (n,) are in a part without which more directions are open than with it."""
+    opened = Unseen(model, observations).directions.shape[1]
+    parts = [
+        fold
+        for fold in np.unique(folds)
+        if Unseen(model, observations[folds != fold]).directions.shape[1] > opened
+    ]
+    return np.isin(folds, parts)
+
+
+def _choice(held_out: Mapping[str, HeldOut], judged: np.ndarray, postures: Postures) -> str:
+    """The simplest that nothing beats for sure, on postures away from those learned from.
+
+    Args:
+        held_out: by what is done.
+        judged: (n,) the rows that count.
+    """
+    _, own = np.unique(postures.numbers[judged], return_inverse=True)
+    losses = {kind: held_out[kind][judged].losses for kind in held_out}
     best, *richer = losses
     for kind in richer:
         # rows of one posture err alike: they are one gain
