@@ -32,14 +32,13 @@ from replication.config.study import Study
 from replication.scenarios.nominal import Nominal, nominal
 from replication.scenarios.plants import Resolved, nominal_controller, resolve
 from replication.training.competitors import make_peer, peers
-from tests.synthetic import NOISE, Synthetic
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
 settings.load_profile("untimed")
 
 ROOT = Path(__file__).parents[1]
 PARTS = [".gitignore", "Snakefile", "config.yaml", "README.md", "workflow", "recalib", "profiles"]
-PARTS += ["tests", "docs", "figures"]
+PARTS += ["replication", "tests", "docs", "figures"]
 SHARED = "synthetic", "rules"  # fixtures that one process makes for all
 
 
@@ -89,14 +88,6 @@ def study() -> Study:
     return read_study(ROOT / "config.yaml")
 
 
-@pytest.fixture(scope="session")
-def rules():
-    """The rules of the workflow; see `tests.rules.Rules`."""
-    from tests.rules import Rules
-
-    return Rules()
-
-
 @pytest.fixture
 def roots(monkeypatch) -> list[tuple]:
     """What random numbers follow from, as `generator` notes it: the seed, and hashed keys."""
@@ -128,37 +119,6 @@ class Plan(NamedTuple):
 @pytest.fixture(scope="session")
 def plan(study) -> Plan:
     return Plan(study)
-
-
-@pytest.fixture(scope="session")
-def few(study) -> Study:
-    """The study with fewer searches, seeds and benchmarks: it shows as much, in less time."""
-    less = {
-        "search": {"searches": 4, "searches_long": 3},
-        "training": {"seeds": 2},
-        "benchmark": {
-            "scenarios": ("links_encoders", "links_encoders_gears_sag", "gears", "noise"),
-            "learners": ("affine", "geometric", "hybrid", "improved"),
-        },
-    }
-    parts = {part: getattr(study, part).model_copy(update=its) for part, its in less.items()}
-    return study.model_copy(update=parts)
-
-
-@pytest.fixture(scope="session")
-def synthetic(few, tmp_path_factory) -> Synthetic:
-    """Results that support every claim."""
-    its = Synthetic(tmp_path_factory.mktemp("synthetic"), few)
-    its.conclude()
-    return its
-
-
-@pytest.fixture(scope="session")
-def disturbed(few, tmp_path_factory) -> Synthetic:
-    """The same, as another machine would round them."""
-    its = Synthetic(tmp_path_factory.mktemp("disturbed"), few, noise=NOISE)
-    its.conclude()
-    return its
 
 
 def changed(nominal: Nominal, **entry) -> Nominal:
