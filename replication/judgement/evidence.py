@@ -103,6 +103,16 @@ class Evidence:
             raise NotMeasured("claims.json")
         return read_findings(path)
 
+    def assignments(self) -> pd.DataFrame:
+        """Every assignment of the paper's damage to the study's robot, and its initial errors.
+
+        Raises NotMeasured: no scenario of the study has a part of this damage.
+        """
+        table = self.table(f"assignments/{self.study.robot}.parquet")
+        if table.empty:
+            raise NotMeasured("scenarios: [{assigned: links}]")
+        return table
+
     def outcomes(self) -> pd.DataFrame:
         """The campaign's table. Raises NotMeasured: it is of another study."""
         if not self.shipped:
