@@ -4,6 +4,7 @@ import importlib.metadata
 from collections.abc import Mapping
 
 from replication.config.damages import damages_among
+from replication.recording import colours
 from replication.recording.measurements import enlarged
 from replication.recording.naming import in_words
 from replication.recording.watched import Watched
@@ -40,6 +41,14 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
         " larger. An arrow shows how far a cell moves a command.",
     ]
     return "\n\n".join(text)
+
+
+def legend(resolved: Resolved) -> dict[str, colours.Colour]:
+    """What stands for what in the picture, with its colour."""
+    lines = {"desired pose": colours.WHITE, "pose reached": colours.REACHED}
+    if damages_among(resolved.damages):
+        lines["damage"] = colours.DAMAGE
+    return lines | {"assumed arm": colours.NOMINAL}
 
 
 def beside(watched: Mapping[str, Watched]) -> str:

@@ -1,14 +1,19 @@
-"""What is wrong with an arm, in the words of labels, texts and the table of recordings."""
+"""What damages an arm or disturbs it, in the words of texts and of the table of recordings."""
 
 from typing import Any
 
-from recalib.damaged.damage import Damage, LinkShortening
+from recalib.damaged.damage import LinkShortening
 from replication.config.damages import Entry, describe
 
 
-def part_of(damage: Damage) -> str:
-    """The link or joint that a damage is at; a base has no name."""
-    return getattr(damage, "link", "") or getattr(damage, "joint", "")
+def link_of(entry: Entry) -> str:
+    """The link that a damage is at; empty if it is at none."""
+    return getattr(entry, "link", "")
+
+
+def joint_of(entry: Entry) -> str:
+    """The joint that a damage is at; empty if it is at none."""
+    return getattr(entry, "joint", "")
 
 
 def name(part: str) -> str:
@@ -16,18 +21,14 @@ def name(part: str) -> str:
     return part.removesuffix("_link").removesuffix("_joint").replace("_", " ")
 
 
-def amount(damage: Damage) -> str:
-    """What is wrong with the link or joint of a damage, and by how much."""
-    (key, _), (_, value), *_ = describe(damage).items()
-    return f"{value} short" if isinstance(damage, LinkShortening) else f"{key} {value}"
-
-
 def in_words(entry: Entry) -> str:
-    """What is wrong with an arm, or disturbs it."""
-    if not isinstance(entry, Damage) or not part_of(entry):
-        return _joined(describe(entry))
-    details = dict([*describe(entry).items()][2:])
-    return f"{name(part_of(entry))}: {', '.join(filter(None, [amount(entry), _joined(details)]))}"
+    """A damage or disturbance: where it is, what it is, and by how much."""
+    words = describe(entry)
+    if not (part := link_of(entry) or joint_of(entry)):
+        return _joined(words)
+    (key, _), (_, value), *details = words.items()
+    amount = f"{value} short" if isinstance(entry, LinkShortening) else f"{key} {value}"
+    return f"{name(part)}: {', '.join(filter(None, [amount, _joined(dict(details))]))}"
 
 
 def _joined(words: Any) -> str:

@@ -35,7 +35,7 @@ from replication.recording.recorded import (
     recorded_learners,
     typical_seed,
 )
-from replication.recording.scene import Scene, log_surroundings, send_target
+from replication.recording.scene import Scene, log_legend, log_surroundings, send_target
 from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
@@ -138,6 +138,7 @@ def write_recording(
         rec.send_property("run", rr.AnyValues(**captions.properties(resolved)))
         texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
         log_surroundings(rec, robot.workspace, main.desired, texts)
+        log_legend(rec, sight, captions.legend(resolved))
         for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
             motion = move(its.angles, its.history.iterations, robot.home, most)
             scene = Scene(rec, name, robot.workspace, its, motion, sight)
