@@ -14,7 +14,7 @@ from PIL import Image
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.wait import WebDriverWait
 
-from replication.running import watch
+from replication.recording import watch
 from tests.browser import chromium, needs_chromium, requests, severe
 
 PATIENCE = 120  # seconds: the viewer draws in software
@@ -44,10 +44,10 @@ def colours(browser, picture) -> int:
 @pytest.mark.slow
 @needs_chromium
 def test_a_browser_draws_the_arm_and_asks_nothing_of_other_machines(recording, tmp_path):
-    picture, (path, _) = str(tmp_path / "page.png"), recording
+    picture = str(tmp_path / "page.png")
     recordings = tmp_path / "results" / "recordings"
     recordings.mkdir(parents=True)
-    (recordings / path.name).symlink_to(path)
+    (recordings / recording.name).symlink_to(recording)
     with (
         served(recordings.parent) as address,
         chromium(tmp_path / "profile", *SOFTWARE) as browser,
