@@ -64,11 +64,11 @@ CAPTIONS = {
         " correction, against the number of iterations for which a system is tuned. The level line"
         " is the improved system's error after {study.experiments.iterations} iterations. Bottom:"
         " iterations after which each system reaches this error, and their ratio to"
-        " {study.experiments.iterations}. Each row adds to the two maps; until the last one, widths"
-        " and rate fall as Ritter's do. Ritter's map has as many cells as both new maps together,"
-        " or half as many. Last row: the same number in all setups (dots; a triangle is a lower"
-        " bound), their mean (diamond) with its 95 % interval (thick line), and the interval for"
-        " one more study (thin line). Dashed: the paper's factor of 70."
+        " {study.experiments.iterations}. The increments are those of two maps. In all systems but"
+        " the improved one, widths and rate fall as Ritter's. Ritter's map has as many cells as"
+        " both new maps together, or half as many. Last row: the same number in all setups (dots; a"
+        " triangle is a lower bound), their mean (diamond) with its 95 % interval (thick line), and"
+        " the interval for one more study (thin line). Dashed: the paper's factor of 70."
     ),
     Figure.CONTRASTS: (
         "Top: the error of the first variant over the error of the second. Bottom: the larger"

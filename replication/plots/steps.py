@@ -22,10 +22,10 @@ STEPS: Mapping[str, Style] = {
     RITTER: Style("#D3977E", "^", "-", "Ritter, half the cells"),
     DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, as many cells"),
     TWO_MAPS: Style("#661100", "X", "-", "two maps"),
-    "two_maps_jacobian": Style("#CD87AD", "v", "-", "+ Jacobian increments"),
-    "two_maps_theta": Style("#05AB6E", "D", "-", "+ theta increments"),
-    "two_maps_increments": Style("#61D6FF", "s", "-", "+ both increments"),
-    IMPROVED: Style(STYLES[IMPROVED].color, "o", "-", "+ equal visits: improved"),
+    "two_maps_jacobian": Style("#CD87AD", "v", "-", "with Jacobian increments"),
+    "two_maps_theta": Style("#05AB6E", "D", "-", "with theta increments"),
+    "two_maps_increments": Style("#61D6FF", "s", "-", "with both increments"),
+    IMPROVED: Style(STYLES[IMPROVED].color, "o", "-", "improved: equal visits, too"),
 }
 ENDS = 45, 45_000  # iterations
 
