@@ -41,15 +41,11 @@ class _Patient:
         return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
 
 
-def picture(recording: Path, before: Path, after: Path, film: Path) -> None:
-    """Take the pictures of a recording: the arm before and after its recalibration, and a film.
-
-    Needs and raises what `take_pictures` does.
-    """
+def before_and_after(recording: Path, before: Path, after: Path) -> None:
+    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
     first, last = ends(recording)
     # the last frame of learning: its number is one of iterations, and the arm rests there, too
     take_pictures(recording, {before: BEFORE, after: first + last})
-    take_film(recording, film)
 
 
 def take_pictures(
