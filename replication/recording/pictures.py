@@ -33,7 +33,7 @@ FRAME, LAST = 100, 2000  # milliseconds
 class _Patient:
     """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
 
-    def __init__(self, process: subprocess.Popen, client: ViewerClient):
+    def __init__(self, process: subprocess.Popen[bytes], client: ViewerClient):
         self._process, self._client = process, client
 
     def __getattr__(self, method: str) -> Callable[..., Any]:
