@@ -8,7 +8,7 @@ from recalib.files.storage import whole
 
 
 def publish(sources: Sequence[Path], copies: Sequence[Path]) -> None:
-    """Copy each file, whole or not at all: whatever becomes of a drawing, the committed one is there."""
+    """Copy each file, whole or not at all: a committed file never disappears."""
     for source, copy in zip(sources, copies, strict=True):
         with whole(copy) as temporary:
             shutil.copyfile(source, temporary)

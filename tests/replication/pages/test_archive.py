@@ -1,4 +1,4 @@
-"""The archive says what it holds, in words that a machine reads, and always in the same bytes."""
+"""The archive has metadata for machines, and always the same bytes."""
 
 import base64
 import json
@@ -6,28 +6,29 @@ import shutil
 import subprocess
 import zipfile
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
-from replication.judgement.claims import CLAIMS
+from replication.judgement.findings import read_findings
 from tests.conftest import ROOT
 
 pytest.importorskip("rocrate")
-from workflow import archive
+from replication.pages import archive
 
 FEW = "Snakefile", "config.yaml", "README.md", "CITATION.cff", "LICENSE"
 TERM = b"https://bioschemas.org/terms/ComputationalWorkflow"
 
 
 @pytest.fixture
-def project(synthetic, tmp_path, monkeypatch):
-    """A few files of the project, made-up results, and what Snakemake notes of them."""
-    monkeypatch.chdir(tmp_path)
+def folder(study, project, monkeypatch) -> Path:
+    """A few files of the project, synthetic results, and what Snakemake notes of them."""
+    its = project(study, 5)
+    monkeypatch.chdir(its)
     for name in FEW:
-        shutil.copy(ROOT / name, tmp_path)
+        shutil.copy(ROOT / name, its)
     subprocess.run(["git", "init", "--quiet"], check=True)
     subprocess.run(["git", "add", *FEW], check=True)
-    shutil.copytree(synthetic.folder / "results", "results")
     archive.NOTES.mkdir(parents=True)
     note = {
         "rule": "claims",
@@ -37,17 +38,17 @@ def project(synthetic, tmp_path, monkeypatch):
     }
     name = base64.b64encode(b"results/claims.json").decode()
     (archive.NOTES / name).write_text(json.dumps(note), encoding="utf-8")
-    return tmp_path
+    return its
 
 
 @pytest.fixture
-def unpacked(project, tmp_path_factory):
+def unpacked(folder, tmp_path_factory):
     """The folder that a stranger unpacks, and what it says of itself."""
-    archive.pack(project / "archive.zip")
-    folder = tmp_path_factory.mktemp("unpacked")
-    with zipfile.ZipFile(project / "archive.zip") as packed:
-        packed.extractall(folder)
-    (its,) = folder.iterdir()
+    archive.pack(folder / "archive.zip")
+    elsewhere = tmp_path_factory.mktemp("unpacked")
+    with zipfile.ZipFile(folder / "archive.zip") as packed:
+        packed.extractall(elsewhere)
+    (its,) = elsewhere.iterdir()
     return its
 
 
@@ -56,10 +57,10 @@ def graph(folder) -> dict[str, dict]:
     return {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
 
 
-def test_the_same_results_give_the_same_bytes(project):
+def test_the_same_results_give_the_same_bytes(folder):
     for name in ("one.zip", "two.zip"):
-        archive.pack(project / name)
-    assert (project / "one.zip").read_bytes() == (project / "two.zip").read_bytes()
+        archive.pack(folder / name)
+    assert (folder / "one.zip").read_bytes() == (folder / "two.zip").read_bytes()
 
 
 def test_all_that_is_named_is_there_and_the_job_of_a_result_is_said(unpacked):
@@ -85,17 +86,16 @@ def test_checksums_tell_which_results_another_run_has_to_give(unpacked):
     assert spoilt.returncode != 0 and "claims.json: FAILED" in spoilt.stdout
 
 
-def test_each_claim_is_a_review_of_a_sentence_of_the_paper(unpacked):
+def test_each_finding_is_a_review_of_a_sentence_of_the_paper(unpacked):
     linked = json.loads((unpacked / "published" / "claims.jsonld").read_text(encoding="utf-8"))
-    judged = json.loads((unpacked / "published" / "claims.json").read_text(encoding="utf-8"))
-    reviews = {review["@id"]: review for review in linked["@graph"]}
-    assert len(reviews) == len(CLAIMS) == len(judged)
-    for claim in judged:
-        review = reviews[f"#{claim['id']}"]
-        assert review["reviewRating"]["alternateName"] == claim["verdict"]
-        assert review["itemReviewed"]["text"] == claim["quotation"]
-        numbers = {row["name"]: row["value"] for row in review["additionalProperty"]}
-        assert claim["measured"].items() <= numbers.items()
+    findings = read_findings(unpacked / "published" / "claims.json")
+    assert len(linked["@graph"]) == len(findings)
+    for review in linked["@graph"]:
+        finding = findings[review["@id"].removeprefix("#")]
+        assert review["reviewRating"]["alternateName"] == finding.verdict
+        assert review["itemReviewed"]["text"] == finding.statement
+        values = [row["value"] for row in review["additionalProperty"]]
+        assert values == [number.value for number in finding.estimates]
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of rdflib, by its own callers
