@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Self
 
+import pandas as pd
 import yaml
 
 from recalib.learners.rules import Rules
@@ -21,7 +22,7 @@ from replication.config.study import Study, WorkspaceSettings
 from replication.scenarios.nominal import Nominal, nominal
 
 DESIGN = f"{CAMPAIGN}/design.csv"
-OUTCOMES = f"{CAMPAIGN}/outcomes"  # a folder for each setup, with a file for each replicate
+OUTCOMES = f"{CAMPAIGN}/outcomes.csv"  # the campaign is this one table
 DIGITS = 4  # of a length in m
 LINE = 1000  # characters: no list of damages is longer
 
@@ -102,7 +103,10 @@ def planned(study: Study) -> list[tuple[int, int]]:
     plan = study.campaign
     found = [(its, number) for its in range(plan.replicated) for number in range(plan.replicates)]
     found += [(its, 0) for its in range(plan.replicated, plan.setups)]
-    return [its for its in found if not Path(OUTCOMES, str(its[0]), f"{its[1]}.csv").exists()]
+    shipped = Path(OUTCOMES)
+    there = pd.read_csv(shipped)[["setup", "replicate"]] if shipped.exists() else pd.DataFrame()
+    measured = set(there.itertuples(index=False, name=None))
+    return [its for its in found if its not in measured]
 
 
 def read_design(path: str | Path) -> list[Setup]:

@@ -1,4 +1,4 @@
-"""Which studies there are: the shipped one, those that change it, and that of the present call.
+"""The study of a call: the shipped one, or one that changes it.
 
 `python -m replication.running.studies` makes config.yaml the shipped study: `make ship`.
 """
@@ -19,7 +19,7 @@ from replication.config.shipped import SHIPPED, root_of
 from replication.config.study import Study
 from replication.config.values import Placed, from_mapping, shown
 from replication.running.checks.consistency import check
-from replication.training.trainings import Trainings
+from replication.running.checks.geometry import check_robots
 
 CONFIGURATION = "config.yaml"
 OTHERS = "workflow/studies"
@@ -27,7 +27,7 @@ LIKE = "like"  # the key by which a study names another one, of which it says wh
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 DESCRIPTION = "real", "description"
 EXPECTED = ("expected",)
-BANDS = "scenario,learner,error,low,high"  # the header of a table of them
+BANDS = "scenario,learner,iterations,error,low,high"  # the header of a table of them
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 
@@ -48,44 +48,32 @@ def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
         )
 
 
-def read_studies(
-    project: Path, files: Sequence[Path], changes: Mapping, asking: bool = True
-) -> tuple[str, dict[str, Study]]:
-    """The folder of results of this call's study, and every study by that of its own.
-
-    Robots are asked of the scenarios that this call's study trains on; of others, `ask_robots` may.
+def study_of(
+    project: Path, files: Sequence[Path] = (), changes: Mapping = {}, asking: bool = True
+) -> Study:
+    """The study of a call of Snakemake.
 
     Args:
         files: configuration files of this call, laid over config.yaml one after the other.
         changes: settings of its command line, laid over them.
         asking: whether to ask the robots: they need not be asked for every job of a cluster.
 
-    Raises InvalidConfiguration; RecalibError: another study than the shipped one is called as it
-    is, or two studies alike.
+    Raises InvalidConfiguration; RecalibError: it is called as the shipped one, and is another one.
     """
     known = sorted((project / OTHERS).glob("*.yaml"))
-
-    def read(*sources: Source, checks: Sequence[Check] = ()) -> Study:
-        layers = [[*layers_of(source, known)] for source in sources]
-        begun = [layer for its in layers for layer in its[:-1]]
-        base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
-        named = partial(named_files, project)
-        return read_study(base, *(its[-1] for its in layers), checks=(check, named, *checks))
-
-    own = [*files, *([_typed(changes)] if changes else [])]
-    base = read()  # a mistake in it is none in what is laid over it
-    trained = [lambda study: ask_robots(study, Trainings(study).scenarios())]
-    main = read(*own, checks=trained if asking else ())
-    others = list(map(read, known))
-    studies = {root_of(main.name): main}
-    if main.name != SHIPPED and own:
-        others.insert(0, base)
-    for study in others:
-        if study != studies.setdefault(root_of(study.name), study):
-            raise RecalibError(f"two studies are called {study.name!r}; try: a name of its own")
-    if shipped := studies.get(root_of(SHIPPED)):
-        check_shipped(shipped, json.loads((project / LOCK).read_text(encoding="utf-8")))
-    return root_of(main.name), studies
+    layers = [[*layers_of(source, known)] for source in files]
+    begun = [layer for its in layers for layer in its[:-1]]
+    base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
+    own = [its[-1] for its in layers] + ([from_mapping(_typed(changes))] if changes else [])
+    checks: list[Check] = [check, partial(named_files, project)]
+    study = read_study(base, checks=checks)  # a mistake in it is none in what is laid over it
+    if asking:
+        checks.append(check_robots)
+    if own or asking:
+        study = read_study(base, *own, checks=checks)
+    if study.name == SHIPPED:
+        check_shipped(study, json.loads((project / LOCK).read_text(encoding="utf-8")))
+    return study
 
 
 def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
@@ -151,13 +139,6 @@ def named_files(project: Path, study: Study) -> list[Mistake]:
             if bands.readline().strip() != BANDS:
                 found.append(unlike(EXPECTED, study.expected, f"a table with the header {BANDS}"))
     return found
-
-
-def ask_robots(study: Study, scenarios: Sequence[str]) -> list[Mistake]:
-    """What the robots say of these scenarios; see `check_robots`."""
-    from replication.running.checks.geometry import check_robots  # it takes half a second
-
-    return check_robots(study, scenarios)
 
 
 def ship(project: Path) -> None:

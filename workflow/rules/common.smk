@@ -1,4 +1,4 @@
-"""The studies of this call, checked before anything runs, and what all rules share."""
+"""The study of this call, checked before anything runs, and what all rules share."""
 
 import sys
 from pathlib import Path
@@ -6,46 +6,41 @@ from pathlib import Path
 ROOT = Path(workflow.basedir)
 sys.path.insert(0, str(ROOT))
 
-from workflow.environment import prepare
+from replication.running.environment import prepare
 
 prepare(ROOT)  # before NumPy is imported
 
-
-from pydantic_core import to_json
-from snakemake.logging import logger
+from snakemake.exceptions import WorkflowError
 
 from recalib.errors import RecalibError
-from replication.scenarios.nominal import nominal
-from replication.config.shipped import RESULTS, SEARCHED
-from replication.running.studies import ask_robots, read_studies
-from replication.training.trainings import Trainings, measuring, searches, seeds
-from replication.training.trainings import rules as rules_of
-from workflow.dependencies import calls
-from workflow.time_left import TimeLeft
+from replication.config.shipped import SHIPPED, root_of
+from replication.running.alone import check_known, check_writable, hold
+from replication.running.layers import digest
+from replication.running.studies import study_of
 
 try:
-    # by the folder of their results: the shipped one, those of workflow/studies, and this call's
-    settings = workflow.config_settings
-    MAIN, STUDIES = read_studies(
-        ROOT, settings.configfiles, settings.config, asking=workflow.is_main_process
+    STUDY = study_of(
+        ROOT,
+        workflow.config_settings.configfiles,
+        workflow.config_settings.config,
+        asking=workflow.is_main_process,
     )
+    RESULTS = root_of(STUDY.name)
+    check_writable(".snakemake")
+    check_known([RESULTS])
 except RecalibError as error:
     sys.exit(str(error))  # an exception would be told with this file and line, where no mistake is
 
-if workflow.is_main_process:
-    logger.addHandler(TimeLeft())
-
-TRAININGS = {root: Trainings(each) for root, each in STUDIES.items()}
+IS_SHIPPED = STUDY.name == SHIPPED
 
 
-def study(wildcards):
-    """The study that a job belongs to."""
-    return STUDIES[wildcards.root]
-
-
-def as_text(**arguments):
-    """Arguments of a function as Snakemake tracks them: of all types, only the built-in ones."""
-    return to_json(arguments).decode()
+def calls(function):
+    """Params of a rule that calls a function of `replication`: it runs again if its code changes."""
+    return {
+        "function": f"replication.{function}",
+        "study": STUDY.model_dump_json(),
+        "code": digest(f"replication.{function.split('.')[0]}"),
+    }
 
 
 def room(mem_mb, runtime):
@@ -56,13 +51,8 @@ def room(mem_mb, runtime):
     }
 
 
-wildcard_constraints:
-    root="|".join(STUDIES),
-    scenario=r"\w+(-\w+)?",
-    recording=r"\w+(-\w+)?",
-    robot=r"\w+",
-    learner=r"\w+",
-    chunk=r"\d+",
-    series=r"[a-z]+",
-    figure=r"\w+",
-    training=r"\w+_\d+",
+onstart:
+    try:
+        hold([RESULTS])
+    except RecalibError as error:
+        raise WorkflowError(str(error)) from None

@@ -5,7 +5,6 @@ What depends on a robot's geometry is in `replication.running.checks.geometry`.
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -13,15 +12,12 @@ import numpy as np
 from recalib.damaged.damage import BaseShift, Damage
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.damaged.words import words
-from recalib.spelling import instead
 from replication.config.damages import Assigned, Entry, describe
-from replication.config.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
+from replication.config.messages import KeyPath, Mistake, unknown, unlike
 from replication.config.study import Study
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
-from replication.judgement.claims import missing
 from replication.training.competitors import MOVES, peers
-from replication.training.measured import MOVED, RIGID
-from replication.training.trainings import rules_unless_peer, scenario_of, training
+from replication.training.measured import RIGID
 
 Each = TypeVar("Each")
 MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 numbers
@@ -44,107 +40,47 @@ def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
 def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
-    known = list(study.every_learner)
+    papers = list(study.every_learner)
     found: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
         ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
-        (_places(("universes", "factors", "robot"), study.universes.factors.robot), study.robots),
+        (_places(("campaign", "factors", "robot"), study.campaign.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
-        (_places(("experiments", "ladder"), plan.ladder), known),
+        (_places(("experiments", "scenarios"), plan.scenarios), study.scenarios),
+        (_places(("benchmark", "scenarios"), benchmark.scenarios), study.scenarios),
+        (_places(("experiments", "learners"), plan.learners), papers),
+        (_places(("experiments", "own"), plan.own), papers),
+        (_places(("experiments", "ensemble"), plan.ensemble), papers),
+        (_places(("benchmark", "papers"), benchmark.papers), papers),
+        (_places(("benchmark", "learners"), benchmark.learners), peers()),
+        (_places(("real", "twin"), real.twin), papers),
         (_places(("real", "learners"), real.learners), peers()),
     )
     for places, valid in found:
         for path, name in places.items():
             if name not in valid:
                 yield unknown(path, name, valid)
-    for part, of in (("experiments", plan), ("benchmark", benchmark)):
-        for path, whole in _places((part, "scenarios"), of.scenarios).items():
-            name, on, robot = whole.partition("-")
-            if name not in study.scenarios:
-                yield unknown(path, whole, study.scenarios)
-            elif on and robot not in study.robots:
-                valid = instead(robot, study.robots)
-                yield Mistake(path, f" is {shown(whole)}, on an unknown robot; {valid}")
-    for places, todays in (
-        (_places(("experiments", "learners"), plan.learners), ()),
-        (_places(("experiments", "beside"), plan.beside), ()),
-        (_places(("experiments", "ensemble"), plan.ensemble), ()),
-        (_places(("benchmark", "learners"), benchmark.learners), peers()),
-        (_places(("real", "twin"), real.twin), ()),
-    ):
-        for path, name in places.items():
-            if name not in todays and rules_unless_peer(study, name) is None:
-                iterations = (f"{stem}_ITERATIONS" for stem in study.learners)
-                yield unknown(path, name, [*todays, *known, *iterations])
     if plan.switches:
         for name in (IMPROVED, RITTER):
             if name not in study.learners:
                 yield unlike(("experiments", "switches"), True, f"false without learners.{name}")
     taken = {*peers(), *(name for switch in SWITCHES for name in (switch.without, switch.added))}
-    for name in study.learners:
-        stem, _, end = name.rpartition("_")
-        if name in taken or (stem in study.learners and end.isdecimal()):
-            yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
+    for name in taken.intersection(study.learners):
+        yield Mistake(("learners", name), ": a name with another meaning; try: a new one")
 
 
 def _meanings(study: Study) -> Iterator[Mistake]:
-    """What would not be what it is called, or be there twice under two names."""
-    plan, benchmark = study.experiments, study.benchmark
-
-    def learner(name: str) -> tuple:
-        return (name,) if name in peers() else training(study, name)
-
-    for path, names, meaning in (
-        (("experiments", "learners"), plan.learners, learner),
-        (("experiments", "beside"), plan.beside, learner),
-        (("benchmark", "learners"), benchmark.learners, learner),
-        (("real", "twin"), study.real.twin, learner),
-        (("experiments", "scenarios"), plan.scenarios, partial(scenario_of, study)),
-        (("benchmark", "scenarios"), benchmark.scenarios, partial(scenario_of, study)),
-    ):
-        first: dict[tuple, str] = {}
-        for place, name in _places(path, names).items():
-            if (other := first.setdefault(meaning(name), name)) != name:
-                yield unlike(place, name, f"another than {other}, which it is")
+    """What would not be what it is called."""
     if not any(map(_damages, study.scenarios[study.scenario])):
         valid = "a scenario with a damage: of an intact robot nothing is learned"
         yield unlike(("scenario",), study.scenario, valid)
-    if plan.switches:
+    if study.experiments.switches:
         for switch in SWITCHES:
             for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
                 stood = getattr(study.learners[name], switch.key)
                 if stood != valid:
                     when = "while experiments.switches is true"
                     yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
-    path = "scenarios", MOVED
-    if [type(entry) for entry in study.scenarios.get(MOVED, ())] != [BaseShift, BaseShift]:
-        yield Mistake(
-            path, " is something else; expected: translate, then rotate, for the universes"
-        )
-    yield from _rungs(study)
-
-
-def _rungs(study: Study) -> Iterator[Mistake]:
-    """Rungs of the universes between which no factor can lie, or none that the claim is about."""
-    from replication.judgement.claims.speed_up import LONG  # it knows what a study is
-
-    path, rungs = ("universes", "rungs"), study.universes.rungs
-    if study.experiments.evidence and study.universes.count & (study.universes.count - 1):
-        yield unlike(("universes", "count"), study.universes.count, "a power of two, for balance")
-    if len(rungs) < 2:
-        yield unlike(path, rungs, "two or more, between which the factor is sought")
-    elif list(rungs) != sorted(rungs):
-        yield unlike(path, rungs, "the lowest first")
-    elif IMPROVED in study.learners:
-        iterations, own = ("learners", IMPROVED, "iterations"), study.learners[IMPROVED].iterations
-        judged = study.experiments.evidence
-        times = int(LONG) if judged else 1
-        if rungs[-1] <= times * own:
-            valid = f"one above {times * own}, for factors above {times} over {dotted(iterations)}"
-            yield unlike(path, rungs, valid, iterations)
-        elif judged and rungs[0] >= times * own:
-            valid = f"one below {times * own}, for factors below {times} over {dotted(iterations)}"
-            yield unlike(path, rungs, valid, iterations)
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:
@@ -172,9 +108,9 @@ def _budgets(study: Study) -> Iterator[Mistake]:
     for place, moves in _places(("benchmark", "longer"), plan.longer).items():
         if moves in plan.moves:
             yield unlike(place, moves, "a budget that is not among benchmark.moves")
-    for name in plan.learners:
-        most = 0 if name in peers() else MOVES * training(study, name).iterations
-        if most and not any(
+    for name, iterations in plan.papers.items():
+        most = MOVES * iterations
+        if not any(
             budget <= most and budget % MOVES == 0 for budget in (*plan.moves, *plan.longer)
         ):
             valid = f"a list with an even number up to {most}, after which {name} can be measured"
@@ -212,15 +148,15 @@ def _damages(entry: Entry) -> bool:
 
 
 def _evidence(study: Study) -> Iterator[Mistake]:
-    """What the claims need."""
+    """Scenarios that the claims take for what they are called."""
     if not study.experiments.evidence:
         return
     when = "while experiments.evidence is true"
     if study.scenarios.get("intact"):
         yield Mistake(("scenarios", "intact"), f" is damaged; expected: an empty list {when}")
     for name in RIGID:
-        entries = study.scenarios.get(name)  # what is missing is told below
-        if entries is not None and not any(map(_damages, entries)):
+        entries = study.scenarios.get(name, ())
+        if name in study.scenarios and not any(map(_damages, entries)):
             what = "moves nothing" if entries else "is an empty list"
             yield Mistake(("scenarios", name), f" {what}; expected: damages {when}")
     own = study.scenarios[study.scenario]
@@ -228,6 +164,3 @@ def _evidence(study: Study) -> Iterator[Mistake]:
         if Assigned(assigned=part) not in own:
             fault = f" has no assigned: {part}; expected: the paper's damage {when}"
             yield Mistake(("scenarios", study.scenario), fault)
-    if lacking := missing(study):
-        with_ = "; ".join(lacking)
-        yield unlike(("experiments", "evidence"), True, f"false, or true with {with_}")

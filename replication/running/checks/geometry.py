@@ -22,17 +22,16 @@ from replication.config.study import Study
 from replication.scenarios.assignments import Ways
 from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_robot
-from replication.training.trainings import scenario_of
+from replication.training.plan import places
 
 
-def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
+def check_robots(study: Study) -> list[Mistake]:
     """The mistakes that only the robots know of: in what describes them, and in scenarios.
 
     Args:
-        study: one that has passed `check`.
-        scenarios: those that are to be run, each on the study's robot or NAME-ROBOT.
+        study: one that has passed `check`. Only scenarios that it trains on are asked for.
     """
-    used = list(dict.fromkeys(scenario_of(study, scenario) for scenario in scenarios))
+    used = list(places(study))
     robots: dict[str, Robot] = {}
     found: list[Mistake] = []
     for name, entry in study.robots.items():
@@ -45,13 +44,13 @@ def check_robots(study: Study, scenarios: Iterable[str]) -> list[Mistake]:
     if found:
         return found
     assigned = []
-    for name in dict.fromkeys(robot for _, robot in used):
+    for name in dict.fromkeys(robot for robot, _ in used):
         try:
             Controller(robots[name], study.controller.greatest_condition)
         except RecalibError as error:
             found.append(_of_robot(name, error))
             continue
-        its = [scenario for scenario, robot in used if robot == name]
+        its = [scenario for robot, scenario in used if robot == name]
         for scenario in its:
             found += _of_scenario(study, scenario, robots[name])
         if any(isinstance(entry, Assigned) for own in its for entry in study.scenarios[own]):

@@ -1,0 +1,56 @@
+"""Settings that a study of one's own searches for, by the search of the campaign."""
+
+import math
+from pathlib import Path
+
+import pandas as pd
+
+from replication.campaign.measuring import Replicate
+from replication.campaign.setups import OUTCOMES, Setup
+from replication.campaign.variants import Variant
+from replication.config.campaign import Factors
+from replication.config.study import Study
+from replication.scenarios.plants import Resolved
+from replication.training.tuned import rules_of, trained
+
+
+def untuned(study: Study, project: Path = Path()) -> list[str]:
+    """The learners for which a study needs settings that are not shipped."""
+    needed, shipped = trained(study), set()
+    if study.settings == "shipped" and (project / OUTCOMES).exists():
+        table = pd.read_csv(project / OUTCOMES).query("setup == 0 and replicate == 0")
+        shipped = set(zip(table["variant"], table["iterations"], strict=True))
+    return sorted({learner for learner, _ in needed - shipped})
+
+
+def tune(study: Study, learner: str, scenario: Path) -> pd.DataFrame:
+    """Rows of settings of a learner, one for each number of iterations that the study trains it.
+
+    Args:
+        scenario: file of the study's own scenario, on which it is tuned.
+    """
+    rules = rules_of(study.every_learner[learner])
+    lengths = tuple(sorted(its for name, its in trained(study) if name == learner))
+    # the linear rate of section 7 belongs to the schedule of equal visits
+    variant = Variant(rules, lengths, improved=rules.equal_visits)
+    return Replicate(study, reference(study, Resolved.read(scenario)), 0).measure(
+        learner, variant, {}
+    )
+
+
+def reference(study: Study, scenario: Resolved) -> Setup:
+    """What the paper leaves open as the study itself decides it: the first level of each factor."""
+    factors = study.campaign.factors
+    levels = {name: str(getattr(factors, name)[0]) for name in Factors.model_fields}
+    own = {"robot": study.robot, "coordinates": scenario.nominal.robot.workspace.coordinates}
+    return Setup(
+        setup=0,
+        row=0,
+        seed=study.seed,
+        levels=levels | own,
+        home_deg=tuple(map(math.degrees, scenario.nominal.robot.home.values())),
+        homes_refused=0,
+        damage=scenario.damages,
+        position_error_cm=scenario.initial_position_error_cm,
+        orientation_error_deg=scenario.initial_orientation_error_deg,
+    )
