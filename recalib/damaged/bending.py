@@ -6,8 +6,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from recalib.damaged.damage import Damage, DamagedArm, end_of
+from recalib.damaged.imperfections import Link
 from recalib.errors import InvalidSetting
-from recalib.files.bounded import SignedTurn
+from recalib.files.bounded import Direction, SignedTurn
 from recalib.nominal.robots import Robot
 
 
@@ -15,18 +16,17 @@ from recalib.nominal.robots import Robot
 class LinkBend(Damage, words=("bend",)):
     """A link bent in the middle of the straight line between its joints."""
 
-    link: str
-    """A link of the robot."""
+    link: Link
     bend: SignedTurn
     """Angle between the line's halves."""
-    towards: SignedTurn = 0.0
-    """Direction about the line in which the outer half goes; 0 is nearest to an axis of the frame."""
+    towards: Direction = 0.0
+    """Where its outer half goes: the angle about the line from the axis that is most across it."""
 
     def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         end = end_of(robot, self.link, damaged)
         line = _line(end.translation, self.link)
-        # the axis of the frame that is most across the line, made perpendicular to it
-        across = np.eye(3)[np.abs(line).argmin()]
+        # rounded: of two axes that are equally far across, the first
+        across = np.eye(3)[np.abs(line).round(6).argmin()]
         side = np.cross(line, across) / np.linalg.norm(np.cross(line, across))
         axis = Rotation.from_rotvec(self.towards * line).apply(side)
         turn = Rotation.from_rotvec(self.bend * axis).as_matrix()
@@ -39,8 +39,7 @@ class LinkBend(Damage, words=("bend",)):
 class LinkTwist(Damage, words=("twist",)):
     """A link twisted about the straight line between its joints."""
 
-    link: str
-    """A link of the robot."""
+    link: Link
     twist: SignedTurn
     """Angle by which its end is turned."""
 

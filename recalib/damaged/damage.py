@@ -12,7 +12,7 @@ import numpy as np
 import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.imperfections import Imperfection, amounts
+from recalib.damaged.imperfections import Imperfection, Joint, Link
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.bounded import Amount, Length, SignedTurn
 from recalib.nominal.chain import Chain
@@ -76,7 +76,7 @@ class DamagedArm:
 
 @dataclass(frozen=True)
 class Damage(Imperfection):
-    """Anything that can happen to an arm. A new kind is one more class like those below."""
+    """Anything that can happen to an arm. A new kind is a class in a module of this package."""
 
     def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         """Do it to the damaged arm; `robot` is the nominal one, which stays as it is.
@@ -88,7 +88,7 @@ class Damage(Imperfection):
     def scaled(self, factor: float) -> Self:
         """This damage, `factor` times as large."""
         grown = {}
-        for name in amounts(type(self)):
+        for name in self.amounts():
             value = getattr(self, name)
             several = isinstance(value, tuple)
             grown[name] = tuple(x * factor for x in value) if several else value * factor
@@ -114,8 +114,7 @@ class BaseShift(Damage, words=("translate", "rotate")):
 class LinkShortening(Damage, words=("shorten",)):
     """A link shortened between its joints (the last: joint and tool)."""
 
-    link: str
-    """A link of the robot."""
+    link: Link
     shorten: Amount
     """Length taken off."""
     along: Along = "line"
@@ -141,8 +140,7 @@ class LinkShortening(Damage, words=("shorten",)):
 class EncoderShift(Damage, words=("encoder", "shift")):
     """An encoder that reports an angle with a constant error."""
 
-    encoder: str
-    """A joint of the robot."""
+    encoder: Joint
     shift: SignedTurn
     """Angle by which the joint stands beyond what its encoder reports."""
 

@@ -32,17 +32,15 @@ class Repeatability(Imperfection, words=("repeatability",)):
 
 @dataclass(frozen=True)
 class Outliers(Imperfection, words=("outlier_share", "outlier_size")):
-    """Measurements that are grossly wrong, in a random direction. Raises InvalidSetting."""
+    """Measurements that are grossly wrong, in a random direction."""
 
-    outlier_share: float = 0.0
-    """Of all measurements, from 0 to 1."""
+    outlier_share: bounded.Share = 0.0
+    """Of all measurements."""
     outlier_size: bounded.Amount = 0.0
     """By how much they miss the true position."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 0 <= self.outlier_share <= 1:
-            raise InvalidSetting("Outliers.outlier_share", self.outlier_share, "from 0 to 1")
+
+Disturbance = Noise | Repeatability | Outliers
 
 
 @dataclass(frozen=True)
@@ -54,7 +52,7 @@ class Disturbances:
     outliers: Outliers = Outliers()
 
     @classmethod
-    def of(cls, parts: Iterable[Noise | Repeatability | Outliers]) -> "Disturbances":
+    def of(cls, parts: Iterable[Disturbance]) -> "Disturbances":
         """Those that are among the parts. Raises InvalidSetting: two of a kind."""
         by_name: dict[str, Any] = {}
         for part in parts:
@@ -91,7 +89,8 @@ class Disturbances:
         ]
         shift, turn, direction = np.stack([normal for normal, _ in draws], axis=1)
         is_outlier = np.stack([uniform for _, uniform in draws]) < self.outliers.outlier_share
-        gross = self.outliers.outlier_size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+        gross = self.outliers.outlier_size * direction
         measured = poses.copy()
         measured[..., :3, 3] += self.noise.position_noise * shift + np.where(is_outlier, gross, 0.0)
         turns = Rotation.from_rotvec(self.noise.orientation_noise * turn.reshape(-1, 3)).as_matrix()

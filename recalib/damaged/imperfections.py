@@ -1,58 +1,123 @@
 """By what a real arm may differ from its model: damages, and what disturbs moves and measurements.
 
-The fields of a class are the words of a configuration: {link: forearm_link, shorten: 4 cm}.
+The fields of a class are the keys of a configuration: {link: forearm_link, shorten: 4 cm}.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields
 from functools import cache
-from typing import Any, ClassVar, get_type_hints
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
 from recalib.files.bounded import Bounded
+from recalib.spelling import listed, nearest
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+
+@dataclass(frozen=True)
+class Named:
+    """The note of a name: what it names, for editors and messages."""
+
+    meaning: str
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {**handler(schema), "description": self.meaning}
+
+
+Link = Annotated[str, Named("A link of the robot.")]
+Joint = Annotated[str, Named("A joint of the robot.")]
 
 
 @dataclass(frozen=True)
 class Imperfection:
-    """Base of frozen dataclasses; amounts are SI units within the bounds of their types.
+    """Base of frozen dataclasses: a new kind is one more class. Amounts are in SI units.
+
+    As the type of a part of a configuration it is read as the kind whose keys are there.
 
     Attributes:
-        kinds: every subclass that names its words, by each of them.
+        kinds: every kind, by each of its words.
 
-    Raises InvalidSetting for an amount beyond its bounds.
+    Raises InvalidSetting for an amount beyond the bounds of its type.
     """
 
     kinds: ClassVar[dict[str, type["Imperfection"]]] = {}
-
-    def __init_subclass__(cls, words: tuple[str, ...] = ()) -> None:
-        """Args: words: fields by which a reader knows the kind; no other kind has them."""
-        super().__init_subclass__()
-        cls.kinds.update(dict.fromkeys(words, cls))
-
-    def __post_init__(self) -> None:
-        for name, bounded in amounts(type(self)).items():
-            for amount in numbers(getattr(self, name)):
-                bounded.check(f"{type(self).__name__}.{name}", amount)
-
-
-@cache
-def amounts(kind: type[Imperfection]) -> dict[str, Bounded]:
-    """The fields that hold a bounded quantity, or three of them."""
-    hints = get_type_hints(kind, include_extras=True)
-    return {
-        field.name: note
-        for field in fields(kind)
-        for note in _notes(hints[field.name])
-        if isinstance(note, Bounded)
+    __pydantic_config__: ClassVar[dict[str, Any]] = {
+        "extra": "forbid",
+        "use_attribute_docstrings": True,
     }
 
+    def __init_subclass__(cls, words: Iterable[str] = ()) -> None:
+        """Args: words: fields that tell this kind from all others; none: it is a base of kinds."""
+        super().__init_subclass__()
+        for word in words:
+            if word in cls.kinds:
+                raise TypeError(f"{cls.__name__}: {cls.kinds[word].__name__} has {word}, too")
+            cls.kinds[word] = cls
 
-def numbers(value: float | tuple[float, ...]) -> tuple[float, ...]:
-    """One number or three, as a tuple."""
-    return value if isinstance(value, tuple) else (value,)
+    def __post_init__(self) -> None:
+        for name, bounds in self.bounds().items():
+            value = getattr(self, name)
+            for amount in value if isinstance(value, tuple) else (value,):
+                bounds.check(f"{type(self).__name__}.{name}", amount)
+
+    @classmethod
+    @cache
+    def bounds(cls) -> Mapping[str, Bounded]:
+        """Of each field that holds a quantity, or three of them."""
+        hints = get_type_hints(cls, include_extras=True)
+        return {
+            field.name: note
+            for field in fields(cls)
+            for note in _notes(hints[field.name])
+            if isinstance(note, Bounded)
+        }
+
+    @classmethod
+    def amounts(cls) -> list[str]:
+        """The fields that say how large it is."""
+        return [name for name, bounds in cls.bounds().items() if not bounds.direction]
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> "CoreSchema":
+        from pydantic_core import core_schema
+
+        if cls is not Imperfection:
+            schema: CoreSchema = handler(source)
+            return schema
+        for module in iter_modules([str(Path(__file__).parent)]):
+            import_module(f"{__package__}.{module.name}")  # its kinds are known from then on
+        kinds = sorted({*cls.kinds.values()}, key=lambda kind: kind.__name__)
+        return core_schema.tagged_union_schema(
+            {kind.__name__: handler.generate_schema(kind) for kind in kinds},
+            _kind_of,
+            custom_error_type="kind",
+            custom_error_message=f"one of {listed(map(_form, kinds), 'or')}",
+        )
+
+
+def _kind_of(value: Any) -> str | None:
+    """The kind that a value is or, by the first of its keys that is a word or nearly, means."""
+    if not isinstance(value, Mapping):
+        return type(value).__name__
+    kinds = Imperfection.kinds
+    exact = next((key for key in value if key in kinds), None)
+    meant = exact or next(filter(None, (nearest(str(key), kinds) for key in value)), None)
+    return kinds[meant].__name__ if meant else None
+
+
+def _form(kind: type[Imperfection]) -> str:
+    """The keys of a kind as they are written, without those that have a default unless all have."""
+    keys = [field.name for field in fields(kind)]
+    needed = [field.name for field in fields(kind) if field.default is MISSING]
+    return f"{{{', '.join(needed or keys)}}}"
 
 
 def _notes(hint: Any) -> Iterator[Any]:
-    """What `Annotated` notes of a type, or of the parts of a tuple."""
+    """What is noted of a type, or of the first part of a tuple."""
     yield from getattr(hint, "__metadata__", ())
     for part in getattr(hint, "__args__", ())[:1]:
         yield from getattr(part, "__metadata__", ())

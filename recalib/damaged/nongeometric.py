@@ -4,14 +4,14 @@ Each makes a joint stand off by an angle that depends on the arm's posture. They
 another and with the damages of `recalib.damaged.damage` through its `apply`.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
-from typing import Self
 
 import numpy as np
 
 from recalib.damaged.damage import Damage, DamagedArm, joint_index
-from recalib.files.bounded import Compliance, SignedTurn, Turn
+from recalib.damaged.imperfections import Joint
+from recalib.files.bounded import Compliance, Direction, Turn
 from recalib.nominal.robots import Robot
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
@@ -23,8 +23,7 @@ NO_LOAD = 1e-6
 class Deflection(Damage):
     """A joint that stands off by an angle of its own angle and of the torque that it holds."""
 
-    joint: str
-    """A joint of the robot."""
+    joint: Joint
 
     def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         damaged.deflections.append(partial(self._deflections, joint_index(robot, self.joint)))
@@ -45,11 +44,8 @@ class EccentricGear(Deflection, words=("eccentricity",)):
 
     eccentricity: Turn
     """Amplitude of its error, which goes as the sine of its angle."""
-    phase: SignedTurn = 0.0
+    phase: Direction = 0.0
     """Of that sine."""
-
-    def scaled(self, factor: float) -> Self:
-        return replace(self, eccentricity=factor * self.eccentricity)
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         return self.eccentricity * np.sin(angles + self.phase)

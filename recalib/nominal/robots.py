@@ -65,7 +65,7 @@ def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
 
 
 def link_end(model: pin.Model, tool: str, joint: int) -> pin.SE3:
-    """Where the link after `joint` ends in that joint's frame [m]; changing it changes the model."""
+    """Where the link after `joint` ends in its frame [m]; to change it is to change the model."""
     if joint < model.njoints - 1:
         return model.jointPlacements[joint + 1]
     return model.frames[tool_frame(model, tool)].placement

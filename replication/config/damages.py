@@ -1,20 +1,19 @@
-"""The entries of a scenario: damages and disturbances, read and written by one type."""
+"""The entries of a scenario: damages, what disturbs a robot, and the paper's damage as assigned."""
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
-from typing import Annotated, Any, Literal, Union
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal
 
-from pydantic import ConfigDict, Discriminator, Tag, TypeAdapter, with_config
+from pydantic import TypeAdapter
 
-from recalib.damaged.bending import LinkBend, LinkTwist
-from recalib.damaged.damage import BaseShift, Damage, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Disturbances, Noise, Outliers, Repeatability
+from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
+from recalib.damaged.disturbances import Disturbance, Disturbances
 from recalib.damaged.imperfections import Imperfection
-from recalib.damaged.nongeometric import Backlash, EccentricGear, Sag
-from replication.config.part import Part
 
 
-class Assigned(Part):
+@dataclass(frozen=True)
+class Assigned(Imperfection, words=("assigned",)):
     """A part of the paper's damage, as it is assigned to the robot."""
 
     assigned: Literal["links", "encoders"]
@@ -24,3 +23,29 @@ class Assigned(Part):
         """Those damages of an assignment that are meant."""
         kind = LinkShortening if self.assigned == "links" else EncoderShift
         return [damage for damage in assignment if isinstance(damage, kind)]
+
+
+Entry = Imperfection  # of a scenario: any kind of `recalib.damaged`, or Assigned
+
+
+def describe(entry: Entry) -> dict[str, Any]:
+    """The keys and values that are read as this entry, without those that are as by default."""
+    written = _adapter(type(entry))  # type: ignore[arg-type]  # a class can be hashed
+    short: dict[str, Any] = written.dump_python(entry, mode="json", exclude_defaults=True)
+    return short or written.dump_python(entry, mode="json")  # nothing at all would be no kind
+
+
+@cache
+def _adapter(kind: type[Imperfection]) -> TypeAdapter:
+    return TypeAdapter(kind)
+
+
+def damages_among(entries: Iterable[Entry]) -> list[Damage]:
+    """The damages of a scenario's entries."""
+    return [entry for entry in entries if isinstance(entry, Damage)]
+
+
+def disturbances_among(entries: Iterable[Entry]) -> Disturbances | None:
+    """What disturbs moves and measurements, if anything."""
+    parts = [entry for entry in entries if isinstance(entry, Disturbance)]
+    return Disturbances.of(parts) if parts else None

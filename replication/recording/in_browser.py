@@ -44,9 +44,9 @@ def script(
     for damage in damages_among(resolved.damages):
         match damage:
             case LinkShortening():
-                amounts[damage.link] = damage.length
+                amounts[damage.link] = damage.shorten
             case EncoderShift():
-                amounts[damage.joint] = damage.angle
+                amounts[damage.encoder] = damage.shift
     study = {
         "robot": _described(robot, links),
         "damage": [*amounts.values()],

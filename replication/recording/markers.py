@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import pinocchio as pin
 
-from recalib.damaged.damage import BaseShift, Damage, LinkShortening, apply
+from recalib.damaged.damage import BaseShift, Damage, apply
 from recalib.nominal.robots import Robot, link_end
 from replication.recording.naming import amount, name, part_of
 
@@ -40,13 +40,12 @@ def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker
     of_links: dict[str, list[Damage]] = {}
     of_joints: dict[str, list[Damage]] = {}
     for damage in damages:
-        if isinstance(damage, LinkShortening):
-            of_links.setdefault(damage.link, []).append(damage)
-        elif part := part_of(damage):
-            of_joints.setdefault(part, []).append(damage)
+        if part := part_of(damage):
+            its_kind = of_links if part in robot.links else of_joints
+            its_kind.setdefault(part, []).append(damage)
     found = []
     for link, its in of_links.items():
-        end = link_end(robot.arm.model, robot.arm.tool, robot.links[link])
+        end = link_end(robot.arm.model, robot.arm.tool, robot.links[link]).translation
         found.append(Marker(link, _words(link, its), end / 2, None))
     for joint, its in of_joints.items():
         number = 1 + robot.joints.index(joint)

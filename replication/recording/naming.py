@@ -1,14 +1,17 @@
 """What is wrong with an arm, in the words of labels, texts and the table of recordings."""
 
+from collections.abc import Mapping
 from typing import Any
 
-from recalib.damaged.damage import Damage, LinkShortening
+from recalib.damaged.damage import Damage, EncoderShift, LinkShortening
 from replication.config.damages import Entry, describe
+
+PARTS = "link", "joint", "encoder"  # keys of what a damage is at
 
 
 def part_of(damage: Damage) -> str:
     """The link or joint that a damage is at; a base has no name."""
-    return getattr(damage, "link", "") or getattr(damage, "joint", "")
+    return next((getattr(damage, key) for key in PARTS if hasattr(damage, key)), "")
 
 
 def name(part: str) -> str:
@@ -18,22 +21,31 @@ def name(part: str) -> str:
 
 def amount(damage: Damage) -> str:
     """What is wrong with the link or joint of a damage, and by how much."""
-    (key, _), (_, value), *_ = describe(damage).items()
-    return f"{value} short" if isinstance(damage, LinkShortening) else f"{key} {value}"
+    (key, value), *_ = _details(damage).items()
+    match damage:
+        case LinkShortening():
+            return f"{value} short"
+        case EncoderShift():
+            return f"encoder {value}"
+    return _joined({key: value})
 
 
 def in_words(entry: Entry) -> str:
     """What is wrong with an arm, or disturbs it."""
+    details = _details(entry)
     if not isinstance(entry, Damage) or not part_of(entry):
-        return _joined(describe(entry))
-    details = dict([*describe(entry).items()][2:])
-    return f"{name(part_of(entry))}: {', '.join(filter(None, [amount(entry), _joined(details)]))}"
+        return _joined(details)
+    others = dict([*details.items()][1:])
+    return f"{name(part_of(entry))}: {', '.join(filter(None, [amount(entry), _joined(others)]))}"
 
 
-def _joined(words: Any) -> str:
-    match words:
-        case dict():
-            return ", ".join(f"{key} {_joined(value)}" for key, value in words.items())
-        case list():
-            return ", ".join(words)
-    return str(words)
+def _details(entry: Entry) -> dict[str, Any]:
+    """An entry without the link or joint that it is at."""
+    return {key: value for key, value in describe(entry).items() if key not in PARTS}
+
+
+def _joined(details: Mapping[str, Any]) -> str:
+    return ", ".join(
+        f"{key.replace('_', ' ')} {', '.join(value) if isinstance(value, list) else value}"
+        for key, value in details.items()
+    )

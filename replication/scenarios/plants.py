@@ -6,7 +6,7 @@ from typing import Self
 
 import numpy as np
 
-from recalib.damaged.damage import DamagedArm, apply
+from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import orientation_error, position_error
@@ -82,7 +82,7 @@ class Resolved(Kept):
 class Assignment(Kept):
     """The assignment of the paper's damage that is used, as the rule `assignments` keeps it."""
 
-    damages: tuple[Entry, ...]
+    damages: tuple[LinkShortening | EncoderShift, ...]
 
 
 def resolve(
@@ -99,7 +99,7 @@ def resolve(
         poses: random ones, over which the errors are averaged.
         assignment: file of the paper's damage as assigned to the robot, where it has a part in it.
     """
-    assigned = damages_among(Assignment.read(assignment).damages) if assignment else []
+    assigned = Assignment.read(assignment).damages if assignment else ()
     resolved: list[Entry] = []
     for entry in damages:
         resolved += entry.part_of(assigned) if isinstance(entry, Assigned) else [entry]

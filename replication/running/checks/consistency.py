@@ -5,15 +5,14 @@ What depends on a robot's geometry is in `replication.running.checks.geometry`.
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
 from typing import TypeVar
 
 import numpy as np
 
 from recalib.damaged.damage import BaseShift, Damage
-from recalib.damaged.kinds import DISTURBANCES
-from recalib.damaged.words import words
 from replication.config.damages import Assigned, Entry, describe
-from replication.config.messages import KeyPath, Mistake, unknown, unlike
+from replication.config.messages import KeyPath, Mistake, shown, unknown, unlike
 from replication.config.study import Study
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.training.competitors import MOVES, peers
@@ -97,9 +96,8 @@ def _amounts(study: Study) -> Iterator[Mistake]:
         subjects = list(map(_subject, entries))
         for index, (entry, subject) in enumerate(zip(entries, subjects, strict=True)):
             if subject in subjects[:index]:
-                (key, value), *_ = describe(entry).items()
-                what = f"{key} {value}" if isinstance(value, str) else key
-                yield Mistake(("scenarios", name, index), f": {what} again; expected: once")
+                fault = f" is {shown(describe(entry))} again; expected: once"
+                yield Mistake(("scenarios", name, index), fault)
 
 
 def _budgets(study: Study) -> Iterator[Mistake]:
@@ -131,20 +129,17 @@ def _scales(study: Study) -> Iterator[Mistake]:
 
 def _subject(entry: Entry) -> object:
     """What an entry is about, without by how much; the robot may be moved again and again."""
-    if isinstance(entry, Assigned | BaseShift):
+    if isinstance(entry, BaseShift):
         return entry
-    if isinstance(entry, DISTURBANCES):
-        return type(entry)
-    said = words(type(entry)).items()
-    return type(entry), *(getattr(entry, name) for name, word in said if not word.grows)
+    names = [field.name for field in fields(entry) if field.name not in entry.amounts()]
+    return type(entry), *(getattr(entry, name) for name in names)
 
 
 def _damages(entry: Entry) -> bool:
     """Whether the robot differs by it."""
     if not isinstance(entry, Damage):
         return isinstance(entry, Assigned)
-    said = words(type(entry)).items()
-    return any(np.any(getattr(entry, name)) for name, word in said if word.grows)
+    return any(np.any(getattr(entry, name)) for name in entry.amounts())
 
 
 def _evidence(study: Study) -> Iterator[Mistake]:
