@@ -11,6 +11,7 @@ SNAKEMAKE = .venv/bin/snakemake --cores $(CORES) $(addprefix --configfile ,$(STU
 RECORDINGS = $(RESULTS)/recordings
 RECORDING = $(firstword $(SCENARIO:%=$(RECORDINGS)/%.rrd) \
   $(wildcard $(RECORDINGS)/links_encoders.rrd $(RECORDINGS)/*.rrd) $(RECORDINGS)/links_encoders.rrd)
+PICTURED = $(or $(SCENARIO),links_encoders)
 PIP = .venv/bin/python -m pip install --quiet --disable-pip-version-check
 UV = .venv/bin/uv --quiet --no-python-downloads
 PYTEST = .venv/bin/python -m pytest
@@ -20,7 +21,7 @@ LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --n
 export PYTHONDONTWRITEBYTECODE =
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults verify mutants peers check bench latency report article archive reproduce docs pictures view web notebook tune design power reference universes horizons ship lock clean
+.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers check bench latency article archive reproduce docs pictures view web notebook tune design campaign ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -33,9 +34,8 @@ quick: study ## a small replication, in two minutes with its set-up: results/stu
 
 study: setup ## a study of workflow/studies or of your own: make study STUDY=my_arm; see docs/bend.md
 	$(NO_SUCH)
-	@.venv/bin/python -m workflow.readable $(STUDY_FILE)
+	@.venv/bin/python -m replication.running.readable $(STUDY_FILE)
 	$(SNAKEMAKE) --quiet rules reason host
-	$(SNAKEMAKE) --quiet all --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css
 
 setup: .venv/installed ## the environment of the studies, from requirements.lock
 
@@ -68,15 +68,15 @@ test: lint ## the linters and all tests except whole workflows, examples, sites 
 test-all: lint ## the linters and all tests
 	$(PYTEST)
 
-lint: tools ## the linters and the types of the library
+lint: tools ## the linters and the types
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
+	.venv/bin/lint-imports
 	.venv/bin/snakefmt --check Snakefile workflow/rules
 
 lines: ## count the lines of Python
-	@echo "recalib and workflow: $$(git ls-files 'recalib/*.py' 'workflow/*.py' | xargs cat | wc -l)"
-	@echo "tests: $$(git ls-files 'tests/*.py' | xargs cat | wc -l)"
+	@for part in recalib replication workflow tests; do echo "$$part: $$(git ls-files "$$part/*.py" | xargs cat | wc -l)"; done
 
 dist: tools ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
@@ -98,9 +98,6 @@ slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults
 faults: tools ## kill runs, start two at once, damage files, fill the disk (10 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
-verify: setup ## remove results that have changed since they were written
-	.venv/bin/python -m workflow.digests results
-
 mutants: tools ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
 	$(PIP) --no-build-isolation --editable .[mutants]
 	.venv/bin/python -m tests.mutants --count $(COUNT)
@@ -117,14 +114,11 @@ bench: setup ## measure moves per second, and their ratio to a bare loop
 latency: vision live ## measure how fast a live calibration answers, and a corrected command
 	.venv/bin/python -m tests.station.latency
 
-report: all ## write all results into one page, results/report.html
-	$(SNAKEMAKE) --report $(RESULTS)/report.html --report-stylesheet workflow/report/style.css -- all $(wildcard $(RESULTS)/figures/arm_*.png)
-
 article: tools all ## the article, results/article.pdf
 	$(SNAKEMAKE) -- results/article.pdf
 
-archive: report article ## code, results, recordings and article in one file, results/archive.zip
-	.venv/bin/python -m workflow.archive results/archive.zip
+archive: article ## code, results, recordings and article in one file, results/archive.zip
+	.venv/bin/python -m replication.pages.archive results/archive.zip
 
 reproduce: archive ## unpack the archive elsewhere, and check that it reproduces its results (5 minutes)
 	$(ELSEWHERE) && archive="$$PWD/results/archive.zip" && cd "$$folder" && $(PYTHON) -m zipfile --extract "$$archive" . && \
@@ -135,49 +129,35 @@ docs: tools ## these pages and a reference as a site, results/site/index.html
 	@echo "the site: results/site/index.html"
 
 pictures: setup ## pictures before and after, and a film; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers
-	$(SNAKEMAKE) --forcerun before_and_after film -- \
-	  $(if $(SCENARIO),$(addprefix $(RESULTS)/figures/$(SCENARIO),_before.png .webp),pictures)
+	$(SNAKEMAKE) --forcerun before_and_after film -- $(addprefix $(RESULTS)/figures/$(PICTURED),_before.png .webp)
+	$(if $(SCENARIO)$(filter-out replication,$(STUDY)),,for part in _before.png _after.png .webp; do cp results/figures/$(PICTURED)$$part figures/arm$$part; done)
 
-view: setup ## open a recording; make view SCENARIO=noise or STUDY=ur3 opens another one
+view: setup ## open a recording; make view SCENARIO=links or STUDY=ur3 opens another one
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 # with CI, the viewer collects and sends no statistics
 	CI=true .venv/bin/rerun --bind 127.0.0.1 --new $(RECORDING) \
 	  || { echo "No display for a window here? make web shows the same in a browser."; exit 1; }
 
-web: setup ## show recordings and report in a browser, also from a server; SCENARIO and STUDY as for make view
+web: setup ## show recordings in a browser, also from a server; SCENARIO and STUDY as for make view
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
-	.venv/bin/python -m workflow.watch $(RESULTS) --port $(PORT)
+	.venv/bin/python -m replication.running.watch $(RESULTS) --port $(PORT)
 
 notebook: setup ## damage an arm with sliders, in a browser; installs marimo, which is not pinned
 	$(PIP) --no-build-isolation --editable .[notebook]
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
-tune: setup ## repeat all searches for widths and rates, and ship what is found (an hour)
-	$(SNAKEMAKE) tune
-	cp results/search/*.csv workflow/search/
+tune: ## find the settings of every variant in the reference study anew, and ship them (an hour)
+	$(MAKE) campaign SETUP=0
 
-design: setup ## draw the universes anew, and ship them
-	$(SNAKEMAKE) --forcerun design -- results/universes/design.csv
-	mkdir -p workflow/universes/second
-	cp results/universes/design.csv workflow/universes/second/
+campaign: setup ## measure what is missing of the campaign and ship it, or SETUP=N again (half an hour of a core each)
+	$(SNAKEMAKE) $(if $(SETUP),--forcerun outcomes -- results/campaign/outcomes/$(SETUP)/0.csv,campaign)
+	.venv/bin/python -m replication.campaign.ship results/campaign/outcomes
 
-power: setup ## simulate campaigns whose true effects are known, and ship what the model finds (10 minutes)
-	$(SNAKEMAKE) -- results/universes/power.csv
-	cp results/universes/power.csv workflow/universes/second/
-
-reference: setup ## measure the reference study as the universes are, and ship it (40 minutes)
-	$(SNAKEMAKE) -- results/universes/reference.csv results/universes/efforts.csv
-	cp results/universes/reference.csv results/universes/efforts.csv workflow/universes/second/
-
-universes: setup ## measure all universes of the design, or PIECE=0 or 1 of them, and ship them (half an hour a piece)
-	$(SNAKEMAKE) $(if $(PIECE),-- results/universes/outcomes_$(PIECE).csv,universes)
-	cp results/universes/outcomes_$(or $(PIECE),*).csv workflow/universes/second/
-
-horizons: setup ## how long Ritter's map takes in universes, or in PIECE=0 to 3 of them (half an hour a piece)
-	$(SNAKEMAKE) $(if $(PIECE),-- results/universes/horizon_$(PIECE).csv,horizons)
-	cp results/universes/horizon_$(or $(PIECE),*).csv workflow/universes/second/
+design: setup ## draw the setups of the campaign anew, and ship them
+	$(SNAKEMAKE) --forcerun design -- results/campaign/design.csv
+	cp results/campaign/design.csv workflow/campaign/
 
 ship: setup ## make the present config.yaml the shipped study
 	.venv/bin/python -m replication.running.studies

@@ -46,7 +46,7 @@ def draw(study: Study, number: int, row: Row) -> Setup:
     robot, joints = controller.robot, list(its.robot.home)
     tests = robot.workspace.sample(random, damage.poses)
     if row.number == 0:  # as the study itself has it, by its own poses
-        entries = assign(its, damage, study.seed)[1].damages
+        entries = assign(its, damage, study.seed)[1]
     else:
         ways = ways_in(its, levels, study)
         if levels["assignment"] == "any":

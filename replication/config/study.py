@@ -1,7 +1,7 @@
 """A study as one typed value: every key of config.yaml, with its meaning, unit and range.
 
-The shipped replication is one value of `Study`. Which trainings there are, and what they are
-called, follows from it: see `replication.training.trainings`.
+The shipped replication is one value of `Study`. Which trainings there are follows from it: see
+`replication.training.plan`.
 """
 
 import math
@@ -146,7 +146,7 @@ class Experiments(Part):
     """Trained on each of them, by learner."""
     robots: Distinct[Name]
     """Other robots on which they are trained, in the study's own scenario."""
-    own: dict[Name, Lengths]
+    own: dict[Name, Distinct[Count]]
     """More trainings in the study's own scenario, by learner."""
     iterations: Count
     """Of Figure 1, and of the improved system with a switch changed."""

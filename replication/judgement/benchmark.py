@@ -1,58 +1,47 @@
-"""The benchmark's tables: errors at each budget of moves, moves to each threshold, seconds."""
+"""Tables of the benchmark and of the real arm: errors, moves to each threshold, seconds."""
 
+from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from recalib.numerics.randomness import generator
-from replication.judgement.intervals import bootstrap
+from replication.config.study import Benchmark, Study
+from replication.judgement.summary import cells_of_mean
 from replication.training.competitors import needs_of
 from replication.training.measured import BOTH, ERRORS
 
-Names = tuple[str, ...]
 
-
-def put_together(
-    histories: list[Path],
-    scenarios: Names,
-    learners: Names,
-    thresholds: tuple[float, ...],
-    seed: int,
-) -> tuple[pd.DataFrame, ...]:
-    """The three tables, from files of histories: see `errors`, `reached` and `seconds`."""
+def put_together(study: Study, histories: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
+    """The benchmark's three tables, from files of histories: `errors`, `reached`, `seconds`."""
     history = pd.concat(map(pd.read_parquet, histories))
-    those = history, scenarios, learners
-    return errors(*those, seed), reached(*those, thresholds), seconds(history)
+    return errors(study.benchmark, history), reached(study.benchmark, history), seconds(history)
 
 
-def _entrants(history: pd.DataFrame, scenarios: Names, learners: Names):
+def _entrants(plan: Benchmark, history: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
     groups = history.groupby(["scenario", "learner"])
-    for competitor in product(scenarios, learners):
+    for competitor in product(plan.scenarios, (*plan.learners, *plan.papers)):
         yield *competitor, groups.get_group(competitor)
 
 
-def errors(history: pd.DataFrame, scenarios: Names, learners: Names, seed: int) -> pd.DataFrame:
+def errors(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
     """Both errors with their intervals, a row for each scenario, learner and budget of moves."""
     rows = []
-    for scenario, learner, own in _entrants(history, scenarios, learners):
+    for scenario, learner, own in _entrants(plan, history):
         for moves, measured in own.groupby("moves"):
             row = {"scenario": scenario, "learner": learner, "moves": moves, "seeds": len(measured)}
             for error in ERRORS:
-                rng = generator(seed, scenario, learner, moves, error)
-                row |= bootstrap(measured[error], rng).columns(error)
+                row |= cells_of_mean(error, measured[error].to_numpy())
             rows.append(row)
     return pd.DataFrame(rows)
 
 
-def reached(
-    history: pd.DataFrame, scenarios: Names, learners: Names, thresholds: tuple[float, ...]
-) -> pd.DataFrame:
+def reached(plan: Benchmark, history: pd.DataFrame) -> pd.DataFrame:
     """Moves to each threshold: medians over seeds, with the 5th and the 95th percentile."""
     rows = []
-    for scenario, learner, own in _entrants(history, scenarios, learners):
-        for error, threshold in product((*ERRORS, BOTH), thresholds):
+    for scenario, learner, own in _entrants(plan, history):
+        for error, threshold in product((*ERRORS, BOTH), plan.thresholds):
             moves = moves_to_reach(own, ERRORS if error == BOTH else (error,), threshold)
             low, median, high = np.quantile(moves, [0.05, 0.5, 0.95], method="nearest")
             about = {"scenario": scenario, "learner": learner, "error": error}
@@ -61,7 +50,7 @@ def reached(
     return pd.DataFrame(rows)
 
 
-def moves_to_reach(history: pd.DataFrame, errors: Names, threshold: float) -> np.ndarray:
+def moves_to_reach(history: pd.DataFrame, errors: Sequence[str], threshold: float) -> np.ndarray:
     """Moves (seed,) of the first measurement with all of these errors within the threshold.
 
     Infinity where there is none.
@@ -78,3 +67,18 @@ def moves_to_reach(history: pd.DataFrame, errors: Names, threshold: float) -> np
 def seconds(history: pd.DataFrame) -> pd.DataFrame:
     """Mean computing time of a move. It differs from run to run, and has a file of its own."""
     return history.groupby("learner", sort=False)["seconds_per_move"].mean().reset_index()
+
+
+def real_errors(runs: Sequence[Path]) -> pd.DataFrame:
+    """Errors on the real arm: a row for each learner and number of poses, or moves on its twin.
+
+    Args:
+        runs: files with a row for each of their subsets.
+    """
+    rows = []
+    table = pd.concat(map(pd.read_csv, runs))
+    for (learner, twin, poses), own in table.groupby(["learner", "twin", "poses"], sort=False):
+        cells = {"learner": learner, "twin": twin, "poses": poses, "subsets": len(own)}
+        error = own["position_error_mm"].to_numpy()
+        rows.append(cells | cells_of_mean("position_error_mm", error))
+    return pd.DataFrame(rows)

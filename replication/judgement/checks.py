@@ -7,11 +7,12 @@ import pandas as pd
 from recalib.errors import RecalibError
 from replication.training.measured import ERRORS
 
-KEYS = ["scenario", "learner"]
+KEYS = ["robot", "scenario", "learner", "iterations"]
+BAND = [*KEYS, "error", "low", "high"]  # the columns of a table of bands
 
-# The band is the mean plus and minus so many standard errors of it, at the settings that the
-# searches found: other seeds would stay inside, and a change of a rule that matters does not.
-STANDARD_ERRORS = 4
+# A band reaches twice as far as the 95 % interval of the mean, as a ratio: other seeds would stay
+# inside, and a change of a rule that matters does not.
+REACH = 2
 # Below these, an error is rounding and the nominal controller's tolerance.
 NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 
@@ -19,15 +20,15 @@ NEGLIGIBLE = {"position_error_cm": 1e-3, "orientation_error_deg": 1e-3}
 def report(summary: Path, expected: Path) -> str:
     """What the check says of a summary. Raises RecalibError with what is outside of its band."""
     table = check(pd.read_csv(summary), pd.read_csv(expected))
-    text = table.to_string(index=False, float_format="{:.4g}".format)
+    text: str = table.to_string(index=False, float_format="{:.4g}".format)
     print(text)
     rows = [
-        f"{row.scenario} {row.learner}: {row.error} is {row.value:.4g},"
-        f" expected {row.low:.4g} to {row.high:.4g}"
+        f"{row.learner}, {row.iterations} iterations, on the {row.robot}, {row.scenario}:"
+        f" {row.error} is {row.value:.4g}, expected {row.low:.4g} to {row.high:.4g}"
         for row in table[~table["ok"]].itertuples()
     ]
     if rows:
-        outside = f"{len(rows)} of the final errors are outside of their bands"
+        outside = f"{len(rows)} of {len(table)} final errors are outside of their bands"
         raise RecalibError("\n".join([outside, *rows]))
     return text + "\n"
 
@@ -38,22 +39,17 @@ def propose(summary: Path) -> pd.DataFrame:
 
 
 def expect(summary: pd.DataFrame) -> pd.DataFrame:
-    """Bands for the final errors of a summary, low to high: a row for each training and error."""
+    """Bands for the final errors of a summary: a row for each training and error."""
     rows = []
     for cells in summary.to_dict("records"):
         for error in ERRORS:
-            mean = cells[f"final_{error}"]
-            spread = STANDARD_ERRORS * cells[f"final_{error}_se"]
-            band = (
-                (0.0, NEGLIGIBLE[error])
-                if mean < NEGLIGIBLE[error]
-                else (mean - spread, mean + spread)
-            )
-            rows.append(
-                {key: cells[key] for key in KEYS}
-                | {"error": error, "low": band[0], "high": band[1]}
-            )
-    return pd.DataFrame(rows)
+            mean, *ends = (cells[f"final_{error}{end}"] for end in ("", "_low", "_high"))
+            low, high = 0.0, NEGLIGIBLE[error]
+            if mean >= high:
+                low, high = (mean * (end / mean) ** REACH for end in ends)
+            about = {key: cells[key] for key in KEYS}
+            rows.append(about | {"error": error, "low": low, "high": high})
+    return pd.DataFrame(rows, columns=BAND)
 
 
 def check(summary: pd.DataFrame, expected: pd.DataFrame) -> pd.DataFrame:

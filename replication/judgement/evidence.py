@@ -12,6 +12,7 @@ from recalib.errors import RecalibError
 from replication.config.campaign import Factors
 from replication.config.shipped import CAMPAIGN, SHIPPED, root_of
 from replication.config.study import Study
+from replication.judgement.findings import Finding, read_findings
 from replication.training.measured import ERRORS
 from replication.training.plan import Place, places
 
@@ -94,6 +95,23 @@ class Evidence:
         when = 0 if first else iterations
         then = history[history["iteration"] == when].sort_values("seed")
         return then[list(ERRORS)].to_numpy()
+
+    def findings(self) -> dict[str, Finding]:
+        """What was found about each claim, by its id. Raises NotMeasured: nothing was judged."""
+        path = self._project / self._root / "claims.json"
+        if not path.is_file():
+            raise NotMeasured("claims.json")
+        return read_findings(path)
+
+    def assignments(self) -> pd.DataFrame:
+        """Every assignment of the paper's damage to the study's robot, and its initial errors.
+
+        Raises NotMeasured: no scenario of the study has a part of this damage.
+        """
+        table = self.table(f"assignments/{self.study.robot}.parquet")
+        if table.empty:
+            raise NotMeasured("scenarios: [{assigned: links}]")
+        return table
 
     def outcomes(self) -> pd.DataFrame:
         """The campaign's table. Raises NotMeasured: it is of another study."""

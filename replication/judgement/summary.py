@@ -1,56 +1,57 @@
 """The first and the last errors of every training, with intervals."""
 
-import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from scipy.special import stdtrit
 
-from recalib.numerics.randomness import generator
-from replication.judgement.intervals import Draws
-from replication.training.measured import ERRORS, errors_of
+from replication.config.study import Study
+from replication.judgement.hierarchy import TAILS
+from replication.training.measured import ERRORS
+from replication.training.plan import places
 
 
-def summarise(
-    histories: list[Path], scenarios: list[Path], trainings: tuple[tuple[str, str], ...], seed: int
-) -> pd.DataFrame:
-    """A row for each training.
+def summarise(study: Study, histories: Sequence[Path]) -> pd.DataFrame:
+    """A row for each place, learner and number of iterations.
 
     Args:
-        histories: files of the trainings.
-        scenarios: files of all their scenarios as resolved.
-        trainings: scenario and learner of each, in the order of the histories.
+        histories: files, one for each learner of each place, in the order of the plan.
     """
-    resolved = [json.loads(path.read_text(encoding="utf-8")) for path in scenarios]
-    robots = {scenario["scenario"]: scenario["robot"] for scenario in resolved}
-    return pd.DataFrame(
-        [
-            {"robot": robots[scenario], "scenario": scenario, "learner": learner}
-            | _measured(pd.read_parquet(path), seed, scenario, learner)
-            for (scenario, learner), path in zip(trainings, histories, strict=True)
-        ]
-    )
+    files, rows = iter(histories), []
+    for place, learners in places(study).items():
+        for learner, lengths in learners.items():
+            table = pd.read_parquet(next(files))
+            for iterations in lengths:
+                about = {**place._asdict(), "learner": learner, "iterations": iterations}
+                rows.append(about | _measured(table[table["iterations"] == iterations]))
+    return pd.DataFrame(rows)
 
 
-def _measured(history: pd.DataFrame, seed: int, scenario: str, learner: str) -> dict:
+def _measured(history: pd.DataFrame) -> dict[str, float]:
+    last = history[history["iteration"] == history["iterations"]]
+    moments = {"initial": history[history["iteration"] == 0], "final": last}
     cells = {
-        "searches": history["search"].nunique(),
-        "seeds": history["seed"].nunique(),
-        "iterations": history["iteration"].max(),
-        "moves": history["moves"].max(),
-        "refused": history.groupby("seed")["refused"].max().sum(),
+        "seeds": len(last),
+        "moves": last["moves"].max(),
+        "refused": last["refused"].sum(),
     }
-    names = [f"{moment}_{error}" for moment in ("initial", "final") for error in ERRORS]
-    values = np.concatenate([errors_of(history, when) for when in ("first", "last")], axis=-1)
-    draws = Draws(generator(seed, "summary", scenario, learner), values)
-    means = draws.means(values)  # once for all four numbers: drawing is what takes the time
-    for index, name in enumerate(names):
-        cells |= draws.estimate(means[:, index]).columns(name)
-        cells[f"{name}_se"] = error_at_these_settings(values[..., index])
+    for moment, its in moments.items():
+        for error in ERRORS:
+            cells |= cells_of_mean(f"{moment}_{error}", its[error].to_numpy())
     return cells
 
 
-def error_at_these_settings(values: np.ndarray) -> float:
-    """Standard error of the mean of values (search, seed), where only the seeds were others."""
-    by_search = values.var(axis=1, ddof=1)
-    return float(np.sqrt(by_search.mean() / values.size))
+def cells_of_mean(name: str, values: np.ndarray) -> dict[str, float]:
+    """The mean of errors (seed,), and its 95 % interval: cells NAME, NAME_low and NAME_high.
+
+    The interval is Student's for the logarithm of the mean, so that it stays above zero; NaN where
+    there is a single seed.
+    """
+    count, mean = len(values), values.mean()
+    factor = np.nan
+    if count > 1:
+        reach = stdtrit(count - 1, TAILS[1]) * values.std(ddof=1) / np.sqrt(count)
+        factor = np.exp(reach / mean) if mean > 0 else 1.0
+    return {name: mean, f"{name}_low": mean / factor, f"{name}_high": mean * factor}

@@ -1,1 +1,1 @@
-"""What the paper says of the mapping, not of the learner: measured without a training."""
+"""What the paper says of the mapping and of the cells, before it trains a learner."""

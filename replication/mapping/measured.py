@@ -1,4 +1,4 @@
-"""What sections 3 to 5 say of the cells and of the true mapping, in one job."""
+"""What sections 3 to 6 say of the cells, the true mapping and the widths, in two jobs."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -6,47 +6,64 @@ from pathlib import Path
 import pandas as pd
 
 from recalib.numerics.randomness import generator
+from replication.config.study import Study
+from replication.config.switches import IMPROVED
 from replication.mapping.coupling import coupling
 from replication.mapping.nearness import nearness
 from replication.mapping.propagation import propagation
 from replication.mapping.quantisation import quantisation
 from replication.mapping.solutions import solutions
+from replication.mapping.visits import visits
 from replication.scenarios.plants import Resolved
+from replication.training.constant_widths import constant_widths
+from replication.training.replay import replay
+from replication.training.tuned import Tuned, rules_of
 
 
-def measure(
-    scenarios: list[Path],
-    own: Path,
-    poses: int,
-    balls: int,
-    points: int,
-    radius: float,
-    scales: tuple[float, ...],
-    seed: int,
-) -> tuple[pd.DataFrame, ...]:
-    """Coupling, nearness, propagation, quantisation and solutions.
+def measure(study: Study, scenarios: Sequence[Path], own: Path) -> tuple[pd.DataFrame, ...]:
+    """Coupling, nearness, propagation, quantisation, solutions and visits: without a learner.
 
-    `own` is the scenario with the paper's damage.
+    Args:
+        scenarios: files of the scenarios of the study's robot, as resolved.
+        own: that of the study's own, the paper's damage.
     """
+    plan, seed, resolved = study.mapping, study.seed, [Resolved.read(path) for path in scenarios]
+    damage = Resolved.read(own)
     return (
-        _in_each(scenarios, poses, seed, "coupling", lambda *its, **_: coupling(*its)),
-        nearness(own, poses, seed),
-        propagation(own, balls, points, radius, scales, seed),
+        _in_each(resolved, plan.poses, seed, "coupling", lambda *its, **_: coupling(*its)),
+        nearness(damage, plan.poses, seed),
+        propagation(damage, plan, seed),
         quantisation(seed),
-        _in_each(scenarios, poses, seed, "solutions", solutions),
+        _in_each(resolved, plan.poses, seed, "solutions", solutions),
+        visits(seed),
+    )
+
+
+def learn(study: Study, own: Path, settings: Sequence[Path]) -> tuple[pd.DataFrame, ...]:
+    """Replay and widths: what the improved system learns from a table, and with constant widths.
+
+    Args:
+        own: file of the study's own scenario as resolved, the paper's damage.
+        settings: files with widths and rates.
+    """
+    damage, iterations = Resolved.read(own), study.experiments.iterations
+    tuned = Tuned(study, settings)
+    return (
+        replay(damage, lambda: tuned.learner(IMPROVED, iterations, 1), iterations, study.seed),
+        constant_widths(damage, rules_of(study.every_learner[IMPROVED]), study.seed),
     )
 
 
 def _in_each(
-    scenarios: Sequence[Path],
+    scenarios: Sequence[Resolved],
     poses: int,
     seed: int,
     name: str,
     measure: Callable[..., pd.DataFrame],
 ) -> pd.DataFrame:
-    """What is measured at so many random poses of each scenario, from their files as resolved."""
+    """What is measured at so many random poses of each scenario."""
     tables = []
-    for scenario in map(Resolved.read, scenarios):
+    for scenario in scenarios:
         controller, rng = scenario.controller(), generator(seed, "study", name)
         desired = controller.robot.workspace.sample(rng, poses)
         table = measure(controller, scenario.arm(controller.robot), desired, random=rng)

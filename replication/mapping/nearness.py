@@ -1,7 +1,5 @@
 """Is the coupling weak since the workspace is small and far from singularities (section 4)?"""
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
@@ -16,19 +14,17 @@ SIZES = 1, 2
 DRAWS = 10
 
 
-def nearness(scenario: Path, poses: int, seed: int) -> pd.DataFrame:
+def nearness(resolved: Resolved, poses: int, seed: int) -> pd.DataFrame:
     """The coupling in the workspace and in a larger one, beside how near a singularity is.
 
     Args:
-        scenario: its file, as resolved.
         poses: random ones in each draw and size.
 
     Returns a row for each pose that is reached, with columns size, draw and condition, the
     condition number of the nominal Jacobian, and those of `coupling`. All are in half-ranges of the
     workspace itself: a larger one changes where poses are, and no unit.
     """
-    resolved, tables = Resolved.read(scenario), []
-    controller = resolved.controller()
+    controller, tables = resolved.controller(), []
     robot, workspace = controller.robot, controller.robot.workspace
     arm = resolved.arm(robot)
     for size in SIZES:

@@ -6,7 +6,6 @@ the original one than to a constant function", and likewise for Jacobians.
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -14,10 +13,11 @@ import pandas as pd
 from recalib.damaged.damage import Damage, EncoderShift, LinkShortening, apply
 from recalib.numerics.randomness import generator
 from replication.config.damages import damages_among
+from replication.config.study import Mapping
 from replication.mapping.true_mapping import mapping_jacobians, true_commands
 from replication.scenarios.plants import Resolved
 
-Mapping = Callable[[np.ndarray], np.ndarray]
+Function = Callable[[np.ndarray], np.ndarray]
 
 
 def ball(generator: np.random.Generator, points: int, dimensions: int, radius: float) -> np.ndarray:
@@ -28,7 +28,7 @@ def ball(generator: np.random.Generator, points: int, dimensions: int, radius: f
 
 
 def propagation_errors(
-    old: Mapping, new: Mapping, centre: np.ndarray, offsets: np.ndarray
+    old: Function, new: Function, centre: np.ndarray, offsets: np.ndarray
 ) -> dict[str, float]:
     """What section 5 compares, as means over the ball instead of integrals.
 
@@ -73,28 +73,24 @@ def grown(damages: Sequence[Damage], scale: float) -> list[Damage]:
     return [*links, *encoders]
 
 
-def propagation(
-    scenario: Path, balls: int, points: int, radius: float, scales: Sequence[float], seed: int
-) -> pd.DataFrame:
+def propagation(resolved: Resolved, plan: Mapping, seed: int) -> pd.DataFrame:
     """The integrals in balls about random centres, from slight to large damage.
 
     Args:
-        scenario: file of the paper's damage as resolved.
-        balls, points, radius: how many balls, of how many points, how large.
-        scales: of the damage.
+        resolved: the paper's damage.
+        plan: how many balls, of how many points, how large, and the scales of the damage.
 
     Returns a row for each scale, start (intact: the damage; damaged: as much again on top of it),
     kind (theta, jacobian) and ball, with the columns of `propagation_errors`.
     """
-    resolved = Resolved.read(scenario)
     controller = resolved.controller()
     robot, damages = controller.robot, damages_among(resolved.damages)
     random = partial(generator, seed, "study")
-    offsets = ball(random("ball"), points, 6, radius)
-    centres = robot.workspace.sample(random("centres"), balls) * (1 - radius)
+    offsets = ball(random("ball"), plan.points, 6, plan.radius)
+    centres = robot.workspace.sample(random("centres"), plan.balls) * (1 - plan.radius)
     starts = {"intact": [], "damaged": damages}
     rows = []
-    for scale in scales:
+    for scale in plan.scales:
         for start, before in starts.items():
             arms = [apply(robot, stage) for stage in (before, [*before, *grown(damages, scale)])]
             for kind, mapping in (("theta", true_commands), ("jacobian", mapping_jacobians)):

@@ -1,6 +1,5 @@
 """What colours and signs mean in every figure: also in black and white, and to the colour-blind."""
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import cycle
@@ -28,11 +27,11 @@ class Style:
     label: str
 
     def line(self) -> dict[str, Any]:
-        """How Matplotlib is told to draw a curve."""
+        """Matplotlib's arguments for a curve."""
         return {"color": self.color, "linestyle": self.linestyle}
 
     def signs(self) -> dict[str, Any]:
-        """How Matplotlib is told to draw points."""
+        """Matplotlib's arguments for points."""
         return {"color": self.color, "marker": self.marker or "."}
 
 
@@ -51,10 +50,8 @@ BOTH = tuple(map(ErrorStyle, COLOURS, "os", LINES, LABELS, ERRORS, KINDS, UNITS)
 HOLDS, FAILS = "#44AA99", "#580644"
 NEUTRAL = "black"
 INK = "0.25"  # of pictures of ideas
-BORDER: dict[str, Any] = {
-    "color": "0.4",
-    "linewidth": 0.8,
-}  # a line that parts one side from the other
+GREY = "0.4"  # words and lines beside the data
+BORDER: dict[str, Any] = {"color": GREY, "linewidth": 0.8}  # parts one side from the other
 # After Okabe and Ito's palette, whose pink, green, orange and grey some take for each other; in the
 # order of the learners. Later ones look as those nobody foresaw.
 SIGNS = (
@@ -71,25 +68,30 @@ STYLES = {
     name: Style(*signs, DASHED if name == RITTER else SOLID, label_of(name))
     for name, signs in zip((IMPROVED, RITTER, *peers()), SIGNS, strict=False)
 }
-# For the learner trained for another number of iterations, and for those that nobody foresaw.
-# Paler for its kin.
-OTHER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#D3977E", "^")}
-# The first is Ritter's net with the cells of both maps; to the colour-blind, too, it is unlike his.
-UNKNOWN = ("#661100", "X"), ("#ECDB79", "h"), ("0.4", "<"), ("#999933", ">"), ("#AA4499", "p")
+SHORTER = {IMPROVED: ("#80B9D9", "d"), RITTER: ("#D3977E", "^")}  # trainings of the learner
+UNKNOWN = ("#661100", "X"), ("#ECDB79", "h"), (GREY, "<"), ("#999933", ">"), ("#AA4499", "p")
+
+Training = tuple[str, int]  # a learner, and for how many iterations it is trained
 
 
 def styles_of(learners: Iterable[str]) -> dict[str, Style]:
     """How the learners of one figure are shown, by name."""
-    found: dict[str, Style] = {}
     unknown = cycle(UNKNOWN)
-    for learner in learners:
-        name = re.sub(r"_\d+$", "", learner)
-        if learner in STYLES:
-            found[learner] = STYLES[learner]
-        elif name in OTHER:
-            color, marker = OTHER[name]
-            found[learner] = replace(STYLES[name], color=color, marker=marker, linestyle=DOTTED)
-        else:
-            color, marker = next(unknown)
-            found[learner] = Style(color, marker, DASHED, label_of(learner))
+    return {
+        name: STYLES.get(name) or Style(*next(unknown), DASHED, label_of(name))
+        for name in dict.fromkeys(learners)
+    }
+
+
+def styles_of_trainings(trainings: Iterable[Training]) -> dict[Training, Style]:
+    """How trainings are shown: a learner's longest one as the learner, shorter ones paler."""
+    every = sorted(trainings)
+    longest, unknown = dict(every), cycle(reversed(UNKNOWN))
+    known, found = styles_of(longest), {}
+    for name, length in every:
+        style = replace(known[name], label=f"{known[name].label}, {length:,} iterations")
+        if length < longest[name]:
+            color, marker = SHORTER.get(name) or next(unknown)
+            style = replace(style, color=color, marker=marker, linestyle=DOTTED)
+        found[name, length] = style
     return found

@@ -1,4 +1,8 @@
-"""What all figures share: one style, and the words, lines and axes that they have in common."""
+"""What all figures share: one style, and the lines and axes that they have in common.
+
+Figures are as wide as a phone shows them with letters of 9 pixels: enlarged to the width of a page
+or of the article, all letters have more than 10 points.
+"""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -16,32 +20,42 @@ from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
 from recalib.files.storage import whole
-from replication.plots.palette import BORDER, Style
+from replication.plots.palette import BORDER, GREY, Style
 from replication.plots.steady import LOG, steady
 
+WIDTH = 5.0  # inches
+SMALL = 9  # points: no letter is smaller
 STYLE: Any = {
-    "figure.figsize": (8, 4.5),
-    "figure.dpi": 110,
+    "figure.figsize": (WIDTH, 2.8),
+    "figure.dpi": 220,
     "figure.constrained_layout.use": True,
-    "font.size": 11,
-    "axes.titlesize": 11,
+    "font.size": SMALL,
+    "axes.titlesize": SMALL,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
+    "axes.labelsize": SMALL,
+    "xtick.labelsize": SMALL,
+    "ytick.labelsize": SMALL,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,  # the grid
+    "axes.linewidth": 0.6,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
     "grid.color": "0.9",
-    "legend.fontsize": 9,
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 5,
+    "legend.fontsize": SMALL,
     "legend.frameon": False,
     "legend.handlelength": 2.6,  # two whole dashes
-    "legend.title_fontsize": 9,
+    "legend.columnspacing": 1.2,
     "svg.hashsalt": "recalib",  # the same drawing gives the same file
     "svg.fonttype": "none",
 }
 BAND = (5, 95)  # percent of the runs
-# of `statistics.Estimate`
-INTERVALS = "lines: where 95 % of repetitions with other searches and seeds would lie"
+MARK = 28  # points squared, of a sign
 
 
 def save(figure: Figure, *paths: str | Path) -> None:
@@ -71,6 +85,7 @@ def logarithmic(axis: Axis, *ticks: float) -> None:
 def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:
     """Name what stands in rows at these heights."""
     axes.set_yticks(heights, list(names))
+    axes.tick_params(axis="y", length=0)
     axes.grid(axis="y", visible=False)
 
 
@@ -90,41 +105,13 @@ def with_intervals(
 ) -> None:
     """Signs in rows, each on the line from the lower to the upper end of its interval."""
     low, high = ends
-    axes.hlines(rows, low, high, color=style.color)
-    axes.scatter(values, rows, label=label, zorder=3, **style.signs())
+    axes.hlines(rows, low, high, color=style.color, linewidth=1.2)
+    axes.scatter(values, rows, s=MARK, label=label, zorder=3, **style.signs())
 
 
 def note(axes: Axes, text: str, at: tuple, points: tuple[float, float], **font) -> None:
     """Words, so many points to the right of a place in the data and above it."""
     axes.annotate(text, at, points, textcoords="offset points", **font)
-
-
-def title(figure: Figure, text: str, below: str = "") -> None:
-    """What the figure shows above it, and what its signs mean below it."""
-    figure.suptitle(text, fontweight="bold", fontsize=12, x=0.01, ha="left")
-    if below:
-        figure.supxlabel(below, fontsize=9)
-
-
-def finish(figure: Figure, text: str, axes: Axes, columns: int, explained: str) -> None:
-    """The title, and below the figure, where it hides no data, the legend of one of the panels.
-
-    Args:
-        axes: whose legend is that of all panels.
-        explained: what its signs mean.
-    """
-    title(figure, text)
-    figure.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=columns,
-        title=explained,
-    )
-
-
-def legend_under(axes: Axes) -> None:
-    """The legend of a panel with signs of its own, under it."""
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2))
 
 
 def line_across(axes: Axes, text: str, x: float | None = None, y: float | None = None) -> None:
@@ -145,11 +132,23 @@ def line_across(axes: Axes, text: str, x: float | None = None, y: float | None =
         xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
         ha="center" if upright else "right",
         va="bottom",
-        fontsize=8,
-        color=BORDER["color"],
+        color=GREY,
     )
+
+
+def legend_below(figure: Figure, axes: Axes, columns: int) -> None:
+    """The legend of one panel for all of them, below the figure, where it hides no data."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=columns)
+
+
+def title(figure: Figure, text: str, below: str = "") -> None:
+    """What a picture of ideas shows above it, and what its signs mean below it."""
+    figure.suptitle(text, fontweight="bold", x=0.01, ha="left")
+    if below:
+        figure.supxlabel(below, fontsize=SMALL)
 
 
 def words(scenario: str) -> str:
     """A scenario's name for people."""
-    return scenario.replace("_", " and ").replace("-", " on the ")
+    return scenario.replace("_", " and ")

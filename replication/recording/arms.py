@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-import numpy as np
 import pinocchio as pin
 import rerun as rr
 
@@ -12,77 +11,52 @@ from recalib.files.storage import read_file
 from recalib.laboratory.viewer.arms import link_placements, log_meshes, send_frame
 from recalib.nominal.descriptions import MOST
 from recalib.nominal.robots import Robot
-from replication.recording.colours import BELIEVED, WRONG
-from replication.recording.labels import send_labels
-from replication.recording.markers import Marker, base_shift, circle, markers
-from replication.recording.scene import Scene, unit_of
+from replication.recording.colours import DAMAGE, NOMINAL, REACHED
+from replication.recording.markers import base_shift, circle, markers
+from replication.recording.scene import AXIS, Scene, axes_of, unit_of
 
 BONE, JOINT = 0.045, 0.075  # radii of the skeleton, in units of `unit_of`
-FOOT = 0.7  # radius of the circle about a base that was moved, in these units
+TOOL = 0.02  # radius of the axes of the real arm's tool
+FOOT = 0.7  # radius of the circle about a base that was moved
 
 
 def send_arms(scene: Scene, robot: Robot, damages: Sequence[Damage]) -> None:
-    """Both arms in motion, and what is wrong with the real one.
+    """Both arms in motion, the tool of the real one, and where it is damaged.
 
     Raises InvalidFile where a mesh of the robot is not found.
     """
-    rec, learner, motion = scene.rec, scene.learner, scene.motion
+    rec, learner, motion, unit = scene.rec, scene.learner, scene.motion, unit_of(scene.workspace)
     damaged, base = apply(robot, damages), base_shift(robot, damages)
     source = read_file(robot.urdf, MOST)
     visuals, missing = log_meshes(rec, source, robot.urdf, learner)
     if missing:
         raise InvalidFile(robot.urdf, f"mesh {missing[0]!r} is in none of its packages and folders")
-    unit, clock = unit_of(scene.workspace), motion.clock()
-    standing = damaged.standing(motion.angles)
+    clock, standing = motion.clock(), damaged.standing(motion.angles)
     found = markers(robot, damages, unit)
     links = dict.fromkeys([*visuals, *(marker.link for marker in found)])
-    placements = link_placements(damaged.arm, links, standing, base)
-    for link, poses in placements.items():
+    for link, poses in link_placements(damaged.arm, links, standing, base).items():
         send_frame(rec, f"{learner}/links/{link}", f"{learner}/{link}", clock, poses)
+    axes = axes_of(damaged.arm.forward(standing), AXIS * unit)
+    scene.send("tool", clock, rr.LineStrips3D.columns(strips=axes), 3)
+    scene.log("tool", rr.LineStrips3D.from_fields(colors=REACHED, radii=TOOL * unit))
     bones = robot.arm.skeleton(motion.angles)
     joints = rr.Points3D.columns(positions=bones.reshape(-1, 3))
-    scene.send("believed/joints", clock, joints, bones.shape[1])
-    scene.send("believed/bones", clock, rr.LineStrips3D.columns(strips=bones))
-    scene.log("believed/bones", rr.LineStrips3D.from_fields(colors=BELIEVED, radii=BONE * unit))
-    scene.log("believed/joints", rr.Points3D.from_fields(colors=BELIEVED, radii=JOINT * unit))
-    words, starts = [marker.words for marker in found], []
-    for number, marker in enumerate(found):
-        _log_marker(scene, f"wrong/{number}", marker, visuals)
-        starts.append(placements[marker.link][:, :3] @ [*marker.at, 1])
+    scene.send("nominal/joints", clock, joints, bones.shape[1])
+    scene.send("nominal/bones", clock, rr.LineStrips3D.columns(strips=bones))
+    scene.log("nominal/bones", rr.LineStrips3D.from_fields(colors=NOMINAL, radii=BONE * unit))
+    scene.log("nominal/joints", rr.Points3D.from_fields(colors=NOMINAL, radii=JOINT * unit))
+    for marker in found:
+        if marker.axis is None:
+            for mesh in visuals.get(marker.link, ()):
+                rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=DAMAGE), static=True)
+        else:
+            axis = rr.LineStrips3D([marker.axis], radii=BONE * unit / 2, colors=DAMAGE)
+            frame = rr.CoordinateFrame(f"{learner}/{marker.link}")
+            scene.log(f"damage/{marker.part}", axis, frame)
     if not base.isIdentity():
-        _log_base(scene, base)
-        words.append(_base_words(base))
-        starts.append(np.broadcast_to(base.translation, (len(standing), 3)))
-    if starts:
-        send_labels(scene, words, np.stack(starts))
-
-
-def _log_marker(scene: Scene, entity: str, marker: Marker, visuals: dict[str, list[str]]) -> None:
-    """The axis of a joint, or the colour of a link, with which something is wrong."""
-    if marker.axis is not None:
-        radius = BONE * unit_of(scene.workspace) / 2
-        axis = rr.LineStrips3D([marker.axis], radii=radius, colors=WRONG)
-        scene.log(f"{entity}/axis", axis, rr.CoordinateFrame(f"{scene.learner}/{marker.link}"))
-        return
-    for mesh in visuals.get(marker.link, ()):
-        scene.rec.log(mesh, rr.Asset3D.from_fields(albedo_factor=WRONG), static=True)
-
-
-def _log_base(scene: Scene, base: pin.SE3) -> None:
-    """Where the controller assumes the base, and where it stands."""
-    unit = unit_of(scene.workspace)
-    for name, placement, colour in (
-        ("believed", pin.SE3.Identity(), BELIEVED),
-        ("wrong", base, WRONG),
-    ):
-        strips = [circle(placement, FOOT * unit)]
-        line = rr.LineStrips3D(strips, radii=BONE * unit / 2, colors=colour)
-        scene.log(f"{name}/base", line)
-
-
-def _base_words(base: pin.SE3) -> str:
-    """How far off a base is, in words."""
-    far, turned = np.linalg.norm(base.translation), np.linalg.norm(pin.log3(base.rotation))
-    words = [f"{100 * far:.1f} cm"] if far else []
-    words += [f"{np.degrees(turned):.1f}°"] if turned else []
-    return f"base: {' and '.join(words)} off"
+        for name, at, colour in (
+            ("nominal", pin.SE3.Identity(), NOMINAL),
+            ("damage", base, DAMAGE),
+        ):
+            strips = [circle(at, FOOT * unit)]
+            scene.log(f"{name}/base", rr.LineStrips3D(strips, radii=BONE * unit / 2, colors=colour))

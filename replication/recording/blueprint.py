@@ -32,7 +32,7 @@ def arrange(
     arm = rrb.Horizontal(
         # the text on the left, because the viewer's notices pop up on the right
         rrb.Vertical(
-            rrb.TextDocumentView(origin="about", name="what one sees"),
+            rrb.TextDocumentView(origin="about", name="what you see"),
             *_plots(learners[:1], watched, published),
             row_shares=[12, 8, 8],
         ),
@@ -43,11 +43,11 @@ def arrange(
     beside = rrb.Vertical(
         rrb.Horizontal(*(_scene(label_of(name), name, sight) for name in learners)),
         rrb.Horizontal(
-            rrb.TextDocumentView(origin="beside", name="what one sees"),
+            rrb.TextDocumentView(origin="beside", name="what you see"),
             *_plots(learners, watched, published),
         ),
         row_shares=[5, 3],
-        name=" and ".join(map(label_of, learners)),
+        name="the learners side by side",
     )
     return rrb.Blueprint(
         rrb.Tabs(*([arm, beside] if len(learners) > 1 else [arm]), active_tab=0),
@@ -67,7 +67,7 @@ def _scene(name: str, learner: str, sight: Sight) -> rrb.Spatial3DView:
     """A view of a learner's arm."""
     return rrb.Spatial3DView(
         origin="/",
-        contents=["/workspace/**", "/desired/**", f"/{learner}/**"],
+        contents=["/workspace/**", "/desired/**", "/legend/**", f"/{learner}/**"],
         name=name,
         background=BACKGROUND,
         eye_controls=rrb.EyeControls3D(

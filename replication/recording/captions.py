@@ -1,21 +1,17 @@
 """What a recording says about itself, in words."""
 
 import importlib.metadata
-import json
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Any
 
 from replication.config.damages import damages_among
+from replication.recording import colours
 from replication.recording.measurements import enlarged
 from replication.recording.naming import in_words
 from replication.recording.watched import Watched
 from replication.scenarios.plants import Resolved
 from replication.training.competitors import label_of
 from replication.training.measured import ERRORS
-from replication.training.recordings import Recording
 
-TEXTS = Path("workflow/recording")
 PACKAGES = "pin", "rerun-sdk", "numpy", "scipy"
 
 
@@ -23,45 +19,58 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
     """The text beside the first learner's arm, in Markdown."""
     main, damages = next(iter(watched.values())), damages_among(resolved.damages)
     disturbances = [entry for entry in resolved.damages if entry not in damages]
-    said = {
-        "robot": resolved.robot.upper(),
-        "damages": "; ".join(map(in_words, damages)),
-        "disturbances": "; ".join(map(in_words, disturbances)),
-        "repeated": main.scatter.shape[1],
-        "times": enlarged(main),
-        "poses": len(main.desired),
-        "its": _told(main),
-    }
-    return _rendered("about", said)
+    text = [
+        f"**The grey arm** is the real one, a {resolved.robot.upper()}. **The blue skeleton** is"
+        " the arm that its controller assumes: it is always exactly where it was sent.",
+        f"**Its damage** (yellow): {'; '.join(map(in_words, damages))}."
+        if damages
+        else "**It has no damage**: it is where its controller assumes it to be.",
+    ]
+    if disturbances:
+        times = f", {enlarged(main)} times enlarged" if enlarged(main) > 1 else ""
+        text.append(
+            f"**Disturbances**: {'; '.join(map(in_words, disturbances))}. Pink lines lead from each"
+            f" pose reached to {main.scatter.shape[1]} measurements of it{times}."
+        )
+    misses = " and misses them (orange)" if damages else ""
+    before, after = (_errors(main)[row] for row in (0, -1))
+    text += [
+        f"The arm visits {len(main.desired)} poses (white){misses}, learns for {_effort(main)}, and"
+        f" visits them again. Mean errors over all test poses: {before} before, {after} after.",
+        "**The map** that corrects commands: each dot is a cell; those that have just learned are"
+        " larger. An arrow shows how far a cell moves a command.",
+    ]
+    return "\n\n".join(text)
+
+
+def legend(resolved: Resolved) -> dict[str, colours.Colour]:
+    """What stands for what in the picture, with its colour."""
+    lines = {"desired pose": colours.WHITE, "pose reached": colours.REACHED}
+    if damages_among(resolved.damages):
+        lines["damage"] = colours.DAMAGE
+    return lines | {"assumed arm": colours.NOMINAL}
 
 
 def beside(watched: Mapping[str, Watched]) -> str:
     """The text below all learners' arms, in Markdown."""
-    learners = {label_of(name): _told(its) for name, its in watched.items()}
-    return _rendered("beside", {"learners": learners})
+    text = ["**The same arm with each learner**: the same poses in the same order."]
+    for name, its in watched.items():
+        errors, kind = _errors(its), "maps" if its.cells else "an identified model"
+        text.append(
+            f"**{label_of(name)}** ({kind}) learns for {_effort(its)}. Mean errors: {errors[0]}"
+            f" before, {errors[-1]} after."
+        )
+    return "\n\n".join(text)
 
 
-def _rendered(name: str, said: Mapping[str, Any]) -> str:
-    import jinja2
-
-    text = (TEXTS / f"{name}.md.j2").read_text(encoding="utf-8")
-    return jinja2.Template(text, undefined=jinja2.StrictUndefined).render(said).strip()
-
-
-def _told(watched: Watched) -> dict[str, Any]:
-    """What is said of a learner."""
-    errors, history = _errors(watched), watched.history
-    return {
-        "iterations": history.iterations[-1],
-        "moves": history.moves[-1],
-        "map": watched.cells,
-        "before": errors[0],
-        "after": errors[-1],
-    }
+def _effort(watched: Watched) -> str:
+    """How long a learner learns."""
+    history = watched.history
+    return f"{history.iterations[-1]} iterations ({history.moves[-1]} moves)"
 
 
 def _errors(watched: Watched) -> list[str]:
-    """Mean errors over all test poses at each measurement, in words."""
+    """Mean errors over all test poses at each measurement."""
     position, orientation = (watched.history.columns()[error] for error in ERRORS)
     pairs = zip(position, orientation, strict=True)
     return [f"{centimetres:.2f} cm and {degrees:.2f}°" for centimetres, degrees in pairs]
@@ -76,12 +85,7 @@ def progress(resolved: Resolved, watched: Watched) -> list[str]:
     return [f"{words}: mean errors {errors}" for words, errors in pairs]
 
 
-def properties(job: Recording, resolved: Resolved) -> dict[str, Any]:
-    """The job that was done, what it was done on, and with which packages."""
+def properties(resolved: Resolved) -> dict[str, str]:
+    """The scenario that was recorded, and with which packages."""
     versions = {package: importlib.metadata.version(package) for package in PACKAGES}
-    return {
-        "robot": resolved.robot,
-        "damage": json.dumps([in_words(entry) for entry in resolved.damages]),
-        "job": job.model_dump_json(),
-        **versions,
-    }
+    return {"scenario": resolved.model_dump_json(), **versions}

@@ -1,9 +1,11 @@
 """What the colours of a recording mean: each one thing, told apart by the colour-blind, too."""
 
+Colour = tuple[int, int, int]
+
 WHITE, GREY = (255, 255, 255), (120, 125, 130)  # what is desired and said; what only surrounds it
-BELIEVED = (86, 180, 233)  # what the controller assumes, and by how much its commands are moved
-WRONG = (240, 228, 66)  # where the arm is not what its controller assumes
+NOMINAL = (86, 180, 233)  # the arm that the controller assumes, and what the map adds to commands
+DAMAGE = (240, 228, 66)  # where the arm is not what its controller assumes
 REACHED = (235, 70, 0)  # where it goes instead of where it is sent
 MEASURED = (255, 164, 171)  # what an instrument says
-LEARNERS = BELIEVED, (93, 147, 100), (111, 95, 250)  # in the plots
+LEARNERS = NOMINAL, (93, 147, 100), (111, 95, 250)  # in the plots
 BACKGROUND = 24, 28, 36

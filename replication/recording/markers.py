@@ -1,32 +1,30 @@
-"""What is wrong with an arm, marked where it is: which link is short, which joint is off."""
+"""Where an arm is damaged: which links, which joints, and how its base was moved."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
 
 from recalib.damaged.damage import BaseShift, Damage, apply
-from recalib.nominal.robots import Robot, link_end
-from replication.recording.naming import amount, name, part_of
+from recalib.nominal.robots import Robot
+from replication.recording.naming import joint_of, link_of
 
 HALF_AXIS = 0.5  # of the axis that is drawn through a joint, in units of `scene.unit_of`
 
 
 @dataclass(frozen=True)
 class Marker:
-    """A marker at a link, in its frame.
+    """A damaged link or joint.
 
     Attributes:
-        link: that has it.
-        words: for its label.
-        at: (3,) m, where the leader to its label starts.
-        axis: (2, 3) m, of the joint that is off; None where it is the link itself.
+        part: its name.
+        link: the link itself, or the one that the joint moves.
+        axis: (2, 3) m in the frame of that link, of the joint; None where the link is damaged.
     """
 
+    part: str
     link: str
-    words: str
-    at: np.ndarray
     axis: np.ndarray | None
 
 
@@ -36,23 +34,16 @@ def markers(robot: Robot, damages: Iterable[Damage], unit: float) -> list[Marker
     Args:
         unit: m, by which they are sized.
     """
-    moved = {joint: link for link, joint in robot.links.items()}
-    of_links: dict[str, list[Damage]] = {}
-    of_joints: dict[str, list[Damage]] = {}
+    moved = {number: link for link, number in robot.links.items()}
+    found: dict[str, Marker] = {}
     for damage in damages:
-        if part := part_of(damage):
-            its_kind = of_links if part in robot.links else of_joints
-            its_kind.setdefault(part, []).append(damage)
-    found = []
-    for link, its in of_links.items():
-        end = link_end(robot.arm.model, robot.arm.tool, robot.links[link]).translation
-        found.append(Marker(link, _words(link, its), end / 2, None))
-    for joint, its in of_joints.items():
-        number = 1 + robot.joints.index(joint)
-        reach = HALF_AXIS * unit * _axis(robot, number)
-        axis = np.stack([-reach, reach])
-        found.append(Marker(moved[number], _words(joint, its), reach, axis))
-    return found
+        if link := link_of(damage):
+            found[link] = Marker(link, link, None)
+        elif joint := joint_of(damage):
+            number = 1 + robot.joints.index(joint)
+            reach = HALF_AXIS * unit * _axis(robot, number)
+            found[joint] = Marker(joint, moved[number], np.stack([-reach, reach]))
+    return [*found.values()]
 
 
 def base_shift(robot: Robot, damages: Iterable[Damage]) -> pin.SE3:
@@ -67,11 +58,6 @@ def circle(placement: pin.SE3, radius: float) -> np.ndarray:
     angles = np.linspace(0, 2 * np.pi, 49)
     flat = radius * np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
     return flat @ placement.rotation.T + placement.translation
-
-
-def _words(part: str, damages: Sequence[Damage]) -> str:
-    """What is wrong with a link or joint."""
-    return f"{name(part)}: {', '.join(map(amount, damages))}"
 
 
 def _axis(robot: Robot, joint: int) -> np.ndarray:

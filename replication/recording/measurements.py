@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import rerun as rr
 
-from replication.recording.colours import BELIEVED, GREY, MEASURED, REACHED
+from replication.recording.colours import GREY, MEASURED, NOMINAL, REACHED
 from replication.recording.scene import AXIS, Scene, axes_of, unit_of
 from replication.recording.watched import MapCells, Watched
 from replication.training.measured import ERRORS, UNITS
@@ -51,7 +51,7 @@ def send_landings(scene: Scene) -> None:
     misses = np.stack([meant[::3, 0], reached[::3, 0]], axis=1)  # from origin to origin
     tips = np.stack([meant[:, 1], reached[:, 1]], axis=1)
     for part, strips, apart, widest in (
-        ("achieved", reached, tips, 0.01 * unit),
+        ("reached", reached, tips, 0.01 * unit),
         ("miss", misses, misses, 0.03 * unit),
     ):
         far = np.linalg.norm(apart[:, 1] - apart[:, 0], axis=-1)
@@ -86,8 +86,8 @@ def send_map(scene: Scene, cells: MapCells) -> None:
     """
     unit, (_, rows) = unit_of(scene.workspace), scene.motion.measurements()
     points = rr.Points3D.columns(radii=(0.022 + 0.038 * cells.weights[rows].ravel()) * unit)
-    cell = rr.Points3D(cells.centres, colors=BELIEVED)
+    cell = rr.Points3D(cells.centres, colors=NOMINAL)
     scene.show("map/cells", points, len(cells.centres), cell)
     arrows = rr.Arrows3D.columns(vectors=cells.corrections[rows].reshape(-1, 3))
-    arrow = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=BELIEVED)
+    arrow = rr.Arrows3D.from_fields(origins=cells.centres, radii=0.011 * unit, colors=NOMINAL)
     scene.show("map/corrections", arrows, len(cells.centres), arrow)

@@ -2,12 +2,14 @@
 
     /about, /beside                the texts of the two tabs
     /workspace, /desired           the box of positions, and the shown test poses in it
+    /legend                        what the colours mean
     /<learner>/<robot>             the meshes of the real arm that this learner moves
     /<learner>/links               where its links are
-    /<learner>/believed            the arm that its controller assumes, as a skeleton
-    /<learner>/wrong               where the arm is not what its controller assumes
+    /<learner>/tool                the pose of its tool
+    /<learner>/nominal             the arm that its controller assumes, as a skeleton
+    /<learner>/damage              where the arm is not what its controller assumes
     /<learner>/target              the pose that the arm is sent to, and a caption
-    /<learner>/achieved            where the real arm lands
+    /<learner>/reached             where the real arm lands
     /<learner>/miss                lines to there from the desired positions
     /<learner>/measured            what is measured there, where that is disturbed
     /<learner>/map/cells           the supernet's cells, lit by the neighbourhood of the last winner
@@ -25,12 +27,15 @@ import numpy as np
 import rerun as rr
 
 from recalib.nominal.poses import POSITION, Workspace
-from replication.recording.colours import GREY, WHITE
+from replication.recording.colours import GREY, WHITE, Colour
 from replication.recording.phases import CLOCK, Clock, Motion
 from replication.recording.sight import Sight
 from replication.recording.watched import Watched
 
-TOP = 0.98  # of a picture whose half is 1 high: where the caption stands
+# of a picture whose half is 1 high
+TOP = 0.98  # where the caption stands
+LEGEND = 0.88, -0.52  # the first line of the legend, aside and above: below the base
+LINE = 0.125
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
 
 
@@ -85,6 +90,14 @@ def log_surroundings(
     rec.log("workspace", box, static=True)
     axes = rr.LineStrips3D(axes_of(desired, AXIS * unit), colors=WHITE, radii=0.013 * unit)
     rec.log("desired", axes, static=True)
+
+
+def log_legend(rec: rr.RecordingStream, sight: Sight, lines: Mapping[str, Colour]) -> None:
+    """What the colours mean, each line in its own, in the corner below the base."""
+    aside, above = LEGEND
+    places = [sight.place(aside, above - LINE * number) for number in range(len(lines))]
+    legend = rr.Points3D(places, radii=0, colors=[*lines.values()], labels=[*lines])
+    rec.log("legend", legend, static=True)
 
 
 def send_target(scene: Scene, captions: Sequence[str]) -> None:

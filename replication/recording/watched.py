@@ -12,7 +12,7 @@ from recalib.loop.training import History
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import POSITION
 from replication.recording.phases import POSES
-from replication.training.poses import ResultPoses, train_for_results
+from replication.training.poses import ResultPoses, SearchPoses, train_for_results
 
 REPEATED = 10  # measurements of each shown pose, to see how they scatter
 
@@ -68,7 +68,7 @@ def watch(
     controller: Controller,
     plant: Plant,
     learner: Learner,
-    poses: ResultPoses,
+    poses: ResultPoses | SearchPoses,
     measure_at: Sequence[int],
 ) -> Watched:
     """Train a fresh learner of one run and watch it.

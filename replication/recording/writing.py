@@ -1,4 +1,4 @@
-"""A recording: a run of an experiment is repeated, recorded, and compared with the experiment."""
+"""Recordings: trainings are repeated and watched, and must be those of the histories."""
 
 import warnings
 from collections.abc import Mapping, Sequence
@@ -14,8 +14,8 @@ from rerun.error_utils import RerunWarning
 from recalib.errors import InvalidFile
 from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
-from replication.config.damages import damages_among, disturbances_among
-from replication.judgement.intervals import typical
+from replication.config.damages import Assigned, damages_among, disturbances_among
+from replication.config.study import Study
 from replication.recording import captions, colours
 from replication.recording.arms import send_arms
 from replication.recording.blueprint import arrange
@@ -27,135 +27,133 @@ from replication.recording.measurements import (
     send_scatter,
 )
 from replication.recording.phases import move
-from replication.recording.scene import Scene, log_surroundings, send_target
-from replication.recording.sight import Sight, sight_of
+from replication.recording.recorded import (
+    MOVES,
+    TODAYS,
+    recorded_history,
+    recorded_iterations,
+    recorded_learners,
+    typical_seed,
+)
+from replication.recording.scene import Scene, log_legend, log_surroundings, send_target
+from replication.recording.sight import sight_of
 from replication.recording.watched import Watched, watch
 from replication.scenarios.plants import Resolved
 from replication.training.competitors import make_peer
-from replication.training.measured import ERRORS, errors_of
-from replication.training.poses import ResultPoses, Stream
-from replication.training.recordings import FEW, Recording
-from replication.training.settings import build_tuned
+from replication.training.measured import ERRORS
+from replication.training.poses import Stream
+from replication.training.tuned import Tuned
 
 
 def record(
-    rrd: Path, recording: Recording, scenario: Path, samples: list[Path], histories: list[Path]
+    study: Study,
+    scenarios: Sequence[Path],
+    settings: Sequence[Path],
+    histories: Sequence[Path],
+    recordings: Sequence[Path],
 ) -> None:
-    """Write the recording of a scenario from files: a run of a typical search.
+    """Write a recording of each scenario: of one training of each of `recorded_learners`.
 
-    It is that of the first of the paper's learners. See `write_recording`.
+    It is the training with the seed that is typical of the first of them. In the study's own
+    scenario, one of today's learners is watched, too.
 
     Args:
-        samples: for each of its learners of the paper, the file of the search for it.
-        histories: for each of them, the file of its training.
+        scenarios: files of the scenarios, those of `recorded_places`.
+        settings: files with widths and rates.
+        histories: files of the trainings of all learners in the first scenario, then in the second
+            one, and so on.
+        recordings: files that are written, one for each scenario.
+
+    Raises InvalidFile: a mesh of the robot is not found, or a history says something else than
+    what was watched.
     """
-    resolved = Resolved.read(scenario)
-    papers = recording.papers()
-    tables = dict(zip(papers, map(pd.read_parquet, histories), strict=True))
-    errors = errors_of(next(iter(tables.values())))
-    seed = typical(errors) * errors.shape[1]  # the first one of that search
-    measured = {name: table[table["seed"] == seed] for name, table in tables.items()}
-    searched = dict(zip(papers, samples, strict=True))
-    learners = {
-        name: build_tuned(learner, searched[name], measured[name]["search"].unique())
-        if learner
-        else make_peer(name, 1, resolved.controller().robot)
-        for name, learner in recording.learners.items()
+    tuned, names = Tuned(study, settings), recorded_learners(study)
+    for number, (file, rrd) in enumerate(zip(scenarios, recordings, strict=True)):
+        files = histories[number * len(names) :][: len(names)]
+        tables = [recorded_history(study, path) for path in files]
+        resolved, seed = Resolved.read(file), typical_seed(tables[0])
+        watched = _watched(study, resolved, tuned, seed)
+        for name, path, table in zip(names, files, tables, strict=True):
+            _compare(path, watched[name], table[table["seed"] == seed])
+        write_recording(rrd, resolved, watched, _published(study, resolved.scenario))
+
+
+def _watched(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[str, Watched]:
+    """The trainings of all learners with a seed."""
+    iterations, controller = recorded_iterations(study), resolved.controller()
+    learners: dict[str, tuple[Learner, Sequence[int]]] = {
+        name: (tuned.learner(name, iterations, 1), study.training.during(iterations))
+        for name in recorded_learners(study)
     }
-    write_recording(rrd, recording, resolved, learners, measured, seed)
+    if resolved.scenario == study.scenario:
+        learners[TODAYS] = make_peer(TODAYS, 1, controller.robot), range(MOVES + 1)
+    found = {}
+    for name, (learner, measure_at) in learners.items():
+        tests, scenario = study.training.tests, resolved.scenario
+        poses = Stream.SCENARIO.draw(study.seed, [seed], measure_at[-1], tests, scenario=scenario)
+        plant = resolved.plant(controller, study.seed, [seed])
+        found[name] = watch(controller, plant, learner, poses, measure_at)
+    return found
+
+
+def _published(study: Study, scenario: str) -> dict[str, float]:
+    """The initial errors in the paper, where a scenario is the paper's damage."""
+    assigned = any(isinstance(entry, Assigned) for entry in study.scenarios[scenario])
+    is_own = scenario == study.scenario
+    return study.paper_damage.published.model_dump() if assigned and is_own else {}
+
+
+def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:
+    """Raise InvalidFile where a history says something else than what was watched."""
+    shown = pd.DataFrame(watched.history.columns())
+    for column in ("iteration", *ERRORS):
+        ours, theirs = shown[column].to_numpy(), history[column].to_numpy()
+        if len(ours) != len(theirs) or not np.allclose(ours, theirs, rtol=1e-9, atol=1e-12):
+            raise InvalidFile(path, f"its {column} is not that of the same training now")
 
 
 def write_recording(
     path: Path,
-    job: Recording,
     resolved: Resolved,
-    learners: Mapping[str, Learner],
-    measured: Mapping[str, Mapping[str, Sequence]],
-    seed: int,
-) -> dict[str, Watched]:
-    """Train learners on a scenario's robot, and write what one would have seen.
-
-    The file appears whole or not at all, and not before it was compared with the experiment.
+    watched: Mapping[str, Watched],
+    published: Mapping[str, float],
+) -> None:
+    """Write what was watched of learners on a scenario's robot.
 
     Args:
-        learners: its learners, fresh ones of one run.
-        measured: for each of the paper's learners, the columns of its history with this seed in the
-            experiment.
-        seed: of the poses that are visited.
+        published: initial errors by quantity, where there are any.
 
-    Returns what was watched, by learner. Raises InvalidFile where a mesh of the robot is not found,
-    or where the experiment measured anything else than what was watched.
+    Raises InvalidFile: a mesh of the robot is not found, or the file ends too early.
     """
-    controller, watched = resolved.controller(), {}
-    for name, learner in learners.items():
-        measure_at = list(range(FEW + 1))  # of today's: after each move
-        if rules := job.learners[name]:
-            measure_at = job.measuring.during(rules.iterations)
-        poses = Stream.SCENARIO.draw(
-            job.seed, [seed], measure_at[-1], job.measuring.tests, scenario=job.scenario
-        )
-        plant = resolved.plant(controller, job.seed, [seed])
-        watched[name] = watch(controller, plant, learner, ResultPoses.only(poses), measure_at)
-        if name in measured:
-            _compare(path, name, watched[name].history.columns(), measured[name])
+    robot, damages = resolved.controller().robot, damages_among(resolved.damages)
     main = next(iter(watched.values()))
-    misses = (main.achieved[0] - main.desired)[:, :3, 3]
-    sight = sight_of(controller.robot.workspace, misses)
+    sight = sight_of(robot.workspace, (main.achieved[0] - main.desired)[:, :3, 3])
+    most = max(its.history.iterations[-1] for its in watched.values())
     rr.set_strict_mode(True)  # a mere warning would leave a hole in the recording
     with whole(path) as temporary:
         # without the properties that Rerun would add by itself: one is the time of writing
         rec = rr.RecordingStream("recalib", recording_id=path.stem, send_properties=False)
-        rec.save(temporary, default_blueprint=arrange(watched, sight, job.published))
-        _fill(rec, path.stem, job, resolved, watched, sight)
+        rec.save(temporary, default_blueprint=arrange(watched, sight, published))
+        rec.send_recording_name(path.stem)
+        rec.send_property("run", rr.AnyValues(**captions.properties(resolved)))
+        texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
+        log_surroundings(rec, robot.workspace, main.desired, texts)
+        log_legend(rec, sight, captions.legend(resolved))
+        for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
+            motion = move(its.angles, its.history.iterations, robot.home, most)
+            scene = Scene(rec, name, robot.workspace, its, motion, sight)
+            if its is main:
+                send_published(scene, published)
+            send_arms(scene, robot, damages)
+            send_target(scene, captions.progress(resolved, its))
+            send_errors(scene, colour)
+            send_landings(scene)
+            if disturbances_among(resolved.damages):
+                send_scatter(scene)
+            if its.cells:
+                send_map(scene, its.cells)
         rec.disconnect()
         check_end(temporary)
-    return watched
-
-
-def _compare(path: Path, learner: str, shown: Mapping, measured: Mapping) -> None:
-    """Raise InvalidFile where something else was watched than what had been measured."""
-    rows = {moves: row for row, moves in enumerate(shown["moves"])}
-    for row, moves in enumerate(measured["moves"]):
-        where = f"{learner} after {moves} moves"
-        if moves not in rows:
-            raise InvalidFile(path, f"{where} was measured, but is not shown")
-        for quantity in ERRORS:
-            ours = shown[quantity][rows[moves]]
-            theirs = np.asarray(measured[quantity])[row]
-            if not np.isclose(ours, theirs, rtol=1e-9, atol=1e-12):
-                raise InvalidFile(
-                    path, f"{where}: {quantity} is {ours}, but was measured as {theirs}"
-                )
-
-
-def _fill(
-    rec: rr.RecordingStream,
-    title: str,
-    job: Recording,
-    resolved: Resolved,
-    watched: Mapping[str, Watched],
-    sight: Sight,
-) -> None:
-    robot, damages = resolved.controller().robot, damages_among(resolved.damages)
-    main = next(iter(watched.values()))
-    most = max(its.history.iterations[-1] for its in watched.values())
-    texts = {"about": captions.about(resolved, watched), "beside": captions.beside(watched)}
-    rec.send_recording_name(title)
-    rec.send_property("run", rr.AnyValues(**captions.properties(job, resolved)))
-    log_surroundings(rec, robot.workspace, main.desired, texts)
-    for colour, (name, its) in zip(cycle(colours.LEARNERS), watched.items(), strict=False):
-        motion = move(its.angles, its.history.iterations, robot.home, most)
-        scene = Scene(rec, name, robot.workspace, its, motion, sight)
-        if its is main:
-            send_published(scene, job.published)
-        send_arms(scene, robot, damages)
-        send_target(scene, captions.progress(resolved, its))
-        send_errors(scene, colour)
-        send_landings(scene)
-        if disturbances_among(resolved.damages):
-            send_scatter(scene)
-        if its.cells:
-            send_map(scene, its.cells)
 
 
 def check_end(path: Path) -> None:

@@ -27,7 +27,7 @@ LIKE = "like"  # the key by which a study names another one, of which it says wh
 LOCK = "workflow/shipped.json"  # digests of the shipped study, part by part; see `make ship`
 DESCRIPTION = "real", "description"
 EXPECTED = ("expected",)
-BANDS = "scenario,learner,iterations,error,low,high"  # the header of a table of them
+BANDS = "robot,scenario,learner,iterations,error,low,high"  # the header of a table of them
 PLACES = {"real": {"data": {"fit": {"file"}, "test": {"file"}}}}  # where copies of data lie
 
 

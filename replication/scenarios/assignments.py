@@ -15,7 +15,7 @@ from recalib.nominal.poses import pose_errors
 from recalib.numerics.randomness import generator
 from replication.config.study import PaperDamage, Published
 from replication.scenarios.nominal import Nominal
-from replication.scenarios.plants import Assignment, nominal_controller
+from replication.scenarios.plants import nominal_controller
 
 TIE = 9  # decimals of a distance: nearer to one another than that, rounding would decide
 
@@ -68,6 +68,9 @@ class Ways:
         return (*self.short[short], *self.shifted[shifted])
 
 
+Assignment = tuple[LinkShortening | EncoderShift, ...]
+
+
 def assign(
     nominal: Nominal, damage: PaperDamage, seed: int
 ) -> tuple[dict[str, np.ndarray], Assignment]:
@@ -82,7 +85,7 @@ def assign(
     ways = Ways(nominal.robot.links, damage.shorten, robot.joints, damage.shift)
     poses = robot.workspace.sample(generator(seed, "assignments"), damage.poses)
     table, nearest = compare(controller, ways, poses, damage.published)
-    return table, Assignment(damages=ways[nearest])
+    return table, ways[nearest]
 
 
 def compare(

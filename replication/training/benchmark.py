@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 
 from recalib.loop import interfaces
-from replication.config.study import LearnerSettings
-from replication.scenarios.plants import Resolved
+from replication.config.study import Study
+from replication.scenarios.resolving import resolve
 from replication.training.competitors import MOVES, make_peer
 from replication.training.poses import Stream, train_for_results
-from replication.training.settings import build_tuned
+from replication.training.tuned import Tuned
 
 
 class Timed:
@@ -48,45 +48,33 @@ def measured_at(budgets: Sequence[int], iterations: int, moves: int) -> list[int
     return [budget // moves for budget in met if budget <= iterations * moves]
 
 
-def compete(
-    scenarios: list[Path],
-    name: str,
-    rules: LearnerSettings | None,
-    seeds: int,
-    moves: tuple[int, ...],
-    longer: tuple[int, ...],
-    tests: int,
-    seed: int,
-    sample: Path | None = None,
-) -> pd.DataFrame:
-    """Let a learner work through scenarios, in each of them anew.
+def compete(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFrame:
+    """Let a learner work through the scenarios of the benchmark, in each of them anew.
 
     Args:
-        scenarios: files of the scenarios as resolved.
-        rules: its settings, if it is one of the paper.
-        seeds: of each scenario.
-        moves: budgets at which it is measured.
-        longer: more of them, for a learner of the paper.
-        sample: for a learner of the paper, file of the searches for it, whose winners the seeds
-            get in turn.
+        settings: files with widths and rates, for a learner of the paper.
 
     Returns a row for each scenario, seed and budget of moves.
     """
-    runs, frames = range(seeds), []
-    iterations, moves_each = (rules.iterations, MOVES) if rules else (max(moves), 1)
-    budgets = measured_at([*moves, *longer], iterations, moves_each)
-    for scenario in map(Resolved.read, scenarios):
+    plan, runs, frames = study.benchmark, range(study.benchmark.seeds), []
+    papers = learner in plan.papers
+    moves_each = MOVES if papers else 1
+    iterations = plan.papers[learner] if papers else max(plan.moves)
+    budgets = measured_at([*plan.moves, *plan.longer], iterations, moves_each)
+    for scenario in resolve(study, study.robot, plan.scenarios)[0]:
         controller = scenario.controller()
-        learner = Timed(
-            build_tuned(rules, sample, [run + 1 for run in runs])
-            if rules and sample
-            else make_peer(name, seeds, controller.robot)
+        its = Timed(
+            Tuned(study, settings).learner(learner, iterations, plan.seeds)
+            if papers
+            else make_peer(learner, plan.seeds, controller.robot)
         )
-        poses = Stream.SCENARIO.draw(seed, runs, iterations, tests, scenario=scenario.scenario)
-        plant = scenario.plant(controller, seed, runs)
-        history = train_for_results(plant, learner, poses, budgets)
+        poses = Stream.SCENARIO.draw(
+            study.seed, runs, iterations, study.training.tests, scenario=scenario.scenario
+        )
+        plant = scenario.plant(controller, study.seed, runs)
+        history = train_for_results(plant, its, poses, budgets)
         frame = pd.DataFrame(history.columns()).rename(columns={"run": "seed"})
-        seconds = learner.seconds / (seeds * iterations * moves_each)
-        named = {"scenario": scenario.scenario, "learner": name, "seconds_per_move": seconds}
+        seconds = its.seconds / (plan.seeds * iterations * moves_each)
+        named = {"scenario": scenario.scenario, "learner": learner, "seconds_per_move": seconds}
         frames.append(frame.assign(**named))
     return pd.concat(frames, ignore_index=True)

@@ -1,11 +1,10 @@
 """The learners that are compared: what each is called, what it needs to know, and how it is made.
 
-The paper's are made from their settings in the configuration
-(`replication.training.settings`). They make two moves an iteration; today's, the peers, make
-one.
+The paper's are made from their settings (`replication.training.tuned`). They make two moves an
+iteration; today's, the peers, make one.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from recalib.learners.kinds import KINDS, POSES, class_of
@@ -57,13 +56,6 @@ def make_peer(name: str, runs: int, robot: "Robot") -> "Learner":
 
         return UncorrectedLearner()
     return class_of(its.kind).from_settings(its.settings, runs, robot)
-
-
-def homes_of(names: Iterable[str]) -> list[str]:
-    """The modules of those of these learners that are peers: they are imported by what they say."""
-    known = peers()
-    kinds = [known[name].kind for name in names if name in known]
-    return [KINDS[kind].home.rpartition(".")[0] for kind in kinds if kind]
 
 
 def needs_of(name: str) -> str:

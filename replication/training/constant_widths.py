@@ -4,17 +4,15 @@ The improved system learns with widths and rates that do not fall. Each width ha
 chosen on other poses from the same few.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from replication.config.study import LearnerSettings, Measuring
+from replication.config.study import Measuring
 from replication.scenarios.plants import Resolved
 from replication.training.poses import ResultPoses, SearchPoses, Stream, train_on
-from replication.training.settings import rules_of
 
 # Half of the workspace, and half of the distance between cells, whose neighbours hardly learn.
 WIDTHS = {"wide": 1.0, "narrow": 1 / 3}
@@ -26,7 +24,7 @@ MEASURING = Measuring(tests=50, measure_every=1, measure_evenly=1, measurements=
 
 def halved_after(
     resolved: Resolved,
-    rules: LearnerSettings,
+    rules: Rules,
     width: float,
     rates: np.ndarray,
     poses: SearchPoses | ResultPoses,
@@ -38,9 +36,8 @@ def halved_after(
         rates: (run,) learning rates.
         seed: of the robots.
     """
-    its = rules_of(rules)
-    schedule = Schedule(width, dict.fromkeys(its.maps, (width, width)), rates, rates)
-    learner = HierarchicalLearner(its, schedule, runs=len(rates))
+    schedule = Schedule(width, dict.fromkeys(rules.maps, (width, width)), rates, rates)
+    learner = HierarchicalLearner(rules, schedule, runs=len(rates))
     plant = resolved.plant(resolved.controller(), seed, range(len(rates)))
     history = train_on(plant, learner, poses, MEASURING.during(poses.desired.shape[1]))
     errors = np.stack([history.position_error, history.orientation_error])
@@ -50,19 +47,12 @@ def halved_after(
     )
 
 
-def constant_widths(scenario: Path, rules: LearnerSettings, seed: int) -> pd.DataFrame:
+def constant_widths(resolved: Resolved, rules: Rules, seed: int) -> pd.DataFrame:
     """A row for each width and seed, with columns width, rate, seed and iterations."""
-    resolved, tables = Resolved.read(scenario), []
-    trials = np.repeat(RATES, SEEDS)
+    trials, tables = np.repeat(RATES, SEEDS), []
     for name, width in WIDTHS.items():
-        searched = Stream.SEARCH.draw(
-            seed,
-            range(len(trials)),
-            ITERATIONS,
-            MEASURING.tests,
-            number=1,
-            training=f"{name} widths",
-            scenario=resolved.scenario,
+        searched = Stream.RATES.draw(
+            seed, range(len(trials)), ITERATIONS, MEASURING.tests, widths=name
         )
         found = halved_after(resolved, rules, width, trials, searched, seed)
         rate = RATES[np.log(found).reshape(len(RATES), SEEDS).mean(axis=1).argmin()]

@@ -11,13 +11,13 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
-from replication.config.study import LearnerSettings
+from replication.config.study import Study
 from replication.scenarios.assignments import Ways
-from replication.scenarios.nominal import Nominal
+from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_controller
 from replication.training.measured import ERRORS
 from replication.training.poses import Stream, train_for_results
-from replication.training.settings import build_tuned
+from replication.training.tuned import Tuned
 
 
 def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> DamagedArm:
@@ -35,49 +35,38 @@ def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> It
         yield ways[index]
 
 
-def train_draws(
-    sample: Path,
-    nominal: Nominal,
-    shorten: tuple[float, ...],
-    shift: tuple[float, ...],
-    series: str,
-    scales: tuple[float, ...],
-    first: int,
-    last: int,
-    rules: LearnerSettings,
-    tests: int,
-    seed: int,
-) -> pd.DataFrame:
-    """Train a learner on some robots of a series, each with all scales of its damage.
+def train_draws(study: Study, learner: str, settings: Sequence[Path]) -> pd.DataFrame:
+    """Train a learner on the robots of all its series, each with all scales of its damage.
 
     Args:
-        sample: file of the searches for this training, whose winners the robots get in turn.
-        shorten, shift: the paper's damage [m, rad]; see `Ways`.
-        scales: factors of all amounts.
-        first, last: the first robot of the series that is one of them, and one past the last.
+        settings: files with widths and rates.
 
-    Returns a row for each robot and scale.
+    Returns a row for each series, draw and scale, with both errors before and after learning.
     """
-    controller = nominal_controller(nominal)
-    robot, iterations = controller.robot, rules.iterations
-    ways = Ways(nominal.robot.links, shorten, robot.joints, shift)
-    order = generator(seed, "ensemble", series).permutation(len(ways)).tolist()
-    drawn = list(islice(feasible(robot, ways, order, max(scales)), first, last))
-    cases = [(index, scale) for index in range(len(drawn)) for scale in scales]
-    arms = [scaled_arm(robot, drawn[index], scale) for index, scale in cases]
-    runs = [first + index for index, _ in cases]
-    history = train_for_results(
-        Plant(controller, arms),
-        build_tuned(rules, sample, [run + 1 for run in runs]),
-        Stream.ENSEMBLE.draw(seed, runs, iterations, tests),
-        [0, iterations],
-    )
-    table = {
-        "robot": runs,
-        "scale": [scale for _, scale in cases],
-        "refused": history.refused[:, -1],
-    }
-    columns = history.columns()
-    for when, moment in enumerate(("initial", "final")):
-        table |= {f"{moment}_{error}": columns[error][when::2] for error in ERRORS}
-    return pd.DataFrame(table)
+    its, iterations = nominal(study, study.robot), study.experiments.iterations
+    controller, tuned = nominal_controller(its), Tuned(study, settings)
+    robot, damage = controller.robot, study.paper_damage
+    ways = Ways(its.robot.links, damage.shorten, robot.joints, damage.shift)
+    tables = []
+    for name, series in study.experiments.ensemble[learner].items():
+        order = generator(study.seed, "ensemble", name).permutation(len(ways)).tolist()
+        drawn = islice(feasible(robot, ways, order, max(series.scales)), series.draws)
+        cases = [(*draw, scale) for draw in enumerate(drawn) for scale in series.scales]
+        draws = [draw for draw, _, _ in cases]
+        history = train_for_results(
+            Plant(controller, [scaled_arm(robot, damages, scale) for _, damages, scale in cases]),
+            tuned.learner(learner, iterations, len(cases)),
+            Stream.ENSEMBLE.draw(study.seed, draws, iterations, study.training.tests),
+            [0, iterations],
+        )
+        table = {
+            "series": name,
+            "draw": draws,
+            "scale": [scale for _, _, scale in cases],
+            "refused": history.refused[:, -1],
+        }
+        columns = history.columns()
+        for when, moment in enumerate(("initial", "final")):
+            table |= {f"{moment}_{error}": columns[error][when::2] for error in ERRORS}
+        tables.append(pd.DataFrame(table))
+    return pd.concat(tables, ignore_index=True)

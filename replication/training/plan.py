@@ -39,6 +39,8 @@ def places(study: Study) -> dict[Place, Lengths]:
         names = (name for switch in SWITCHES for name in (switch.without, switch.added))
         more += [(name, (plan.iterations,)) for name in names]
     for name, lengths in more:
+        if not lengths:
+            continue
         here[name] = tuple(sorted({*here.get(name, ()), *lengths}))
     return {
         place: {name: tuple(sorted(its)) for name, its in lengths.items()}

@@ -29,6 +29,7 @@ class Stream(Enum):
     TWIN = "twin"
     REPLAY = "replay"
     WIDTHS = "constant widths"
+    RATES = "search for a rate with {widths} widths"
 
     def draw(
         self,

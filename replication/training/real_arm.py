@@ -1,5 +1,6 @@
 """Learning from laser tracker data of a real arm, and on a twin identified from these data."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -11,20 +12,19 @@ import pinocchio as pin
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import Calibration
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.tables.description import Description
 from recalib.learners.kinds import KINEMATICS, class_of
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm, tool_frame
 from recalib.nominal.poses import POSITION, Workspace
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
-from replication.config.study import LearnerSettings
-from replication.scenarios.nominal import Nominal
+from replication.config.study import Study
+from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_robot
 from replication.training.competitors import MOVES, TWIN, UNCORRECTED, Peer, peers
 from replication.training.poses import Stream, train_for_results
-from replication.training.settings import build_tuned
 from replication.training.tracker import TrackerMeasurements, read_of, read_whole_description
+from replication.training.tuned import Tuned
 
 if TYPE_CHECKING:
     from recalib.learners.geometric import GeometricLearner
@@ -43,13 +43,6 @@ def with_tool_point(robot: Robot, point: np.ndarray) -> Robot:
     tool.placement = tool.placement * pin.SE3(np.eye(3), np.array(point))
     workspace = replace(robot.workspace, centre=arm.forward(robot.home[None])[0])
     return replace(robot, arm=arm, workspace=workspace)
-
-
-def _described(description: Path, nominal: Nominal) -> tuple[Description, Robot]:
-    """What tables do not say themselves, and the robot with its tool where they measured it."""
-    said = read_whole_description(description)
-    assert said.target is not None  # as of a whole description
-    return said, with_tool_point(nominal_robot(nominal), said.target[:3, 3])
 
 
 def identified(kind: str, arm: Arm, measurements: TrackerMeasurements) -> Calibration:
@@ -108,74 +101,69 @@ def remaining_errors(
     return np.linalg.norm(errors, axis=-1)
 
 
-def learn_from_tables(
+def learn(
+    study: Study,
+    learner: str,
     fit: Path,
     test: Path,
     description: Path,
-    nominal: Nominal,
-    learner: str,
-    poses: tuple[int, ...],
-    subsets: int,
-    seed: int,
+    settings: Sequence[Path],
 ) -> pd.DataFrame:
-    """Let a learner learn from random subsets of the poses in `fit`; test it on those in `test`.
+    """Let a learner learn from poses in `fit`, and test it on those in `test`.
+
+    One that chooses its poses itself learns on a twin, identified from all poses in `fit`.
 
     Args:
-        description: what these tables do not say themselves.
-        poses: how many to learn from.
-        subsets: for each number of poses.
+        description: file of what these tables do not say themselves.
+        settings: files with widths and rates, for a learner of the paper.
 
-    Returns a row for each number of poses and subset, with the mean error in mm.
+    Returns a row for each number of poses, or of moves on the twin, and random subset of them, with
+    the mean error in mm.
     """
-    said, robot = _described(description, nominal)
-    known, tests = (read_of(robot.arm, path, said) for path in (fit, test))
+    said = read_whole_description(description)
+    assert said.target is not None  # as of a whole description
+    robot = with_tool_point(nominal_robot(nominal(study, study.real.robot)), said.target[:3, 3])
+    known = read_of(robot.arm, fit, said)
+    if learner in study.real.twin:
+        return _on_twin(study, learner, robot, known, Tuned(study, settings))
+    return _from_tables(study, learner, robot, known, read_of(robot.arm, test, said))
+
+
+def _from_tables(
+    study: Study,
+    learner: str,
+    robot: Robot,
+    known: TrackerMeasurements,
+    tests: TrackerMeasurements,
+) -> pd.DataFrame:
     rows = []
-    for count in poses:
+    for count in study.real.poses:
         # With all of them there is one subset only; what learns nothing needs one, too.
         once = count >= len(known) or learner == UNCORRECTED
-        for subset in range(1 if once else subsets):
-            order = generator(seed, "real", count, subset).permutation(len(known))
+        for subset in range(1 if once else study.real.subsets):
+            order = generator(study.seed, "real", count, subset).permutation(len(known))
             errors = remaining_errors(learner, robot, known[order[:count]], tests)
-            cells = {"learner": learner, "poses": count, "subset": subset}
+            cells = {"learner": learner, "twin": False, "poses": count, "subset": subset}
             rows.append(cells | {"position_error_mm": 1e3 * errors.mean()})
     return pd.DataFrame(rows)
 
 
-def learn_on_twin(
-    fit: Path,
-    description: Path,
-    sample: Path,
-    nominal: Nominal,
-    name: str,
-    rules: LearnerSettings,
-    poses: tuple[int, ...],
-    subsets: int,
-    tests: int,
-    seed: int,
+def _on_twin(
+    study: Study, learner: str, robot: Robot, known: TrackerMeasurements, tuned: Tuned
 ) -> pd.DataFrame:
-    """Let a learner that chooses its poses learn on a twin, identified from all poses in `fit`.
-
-    Args:
-        description: what that table does not say itself.
-        sample: file of the searches for this training, whose winners the subsets get in turn.
-        poses: numbers of moves after which it is measured.
-        subsets: trainings.
-
-    Returns a row for each number of moves and subset, with the mean error in mm.
-    """
-    said, robot = _described(description, nominal)
-    twin = identified(peers()[TWIN].kind, robot.arm, read_of(robot.arm, fit, said))
-    iterations, runs = rules.iterations, range(subsets)
-    met = {count // MOVES for count in poses if count // MOVES <= iterations}
+    twin = identified(peers()[TWIN].kind, robot.arm, known)
+    iterations, runs = study.real.twin[learner], range(study.real.subsets)
+    met = {count // MOVES for count in study.real.poses if count // MOVES <= iterations}
     history = train_for_results(
-        Plant(Controller(robot, nominal.controller.greatest_condition), twin),
-        build_tuned(rules, sample, [run + 1 for run in runs]),
-        Stream.TWIN.draw(seed, runs, iterations, tests),
+        Plant(Controller(robot, study.controller.greatest_condition), twin),
+        tuned.learner(learner, iterations, len(runs)),
+        Stream.TWIN.draw(study.seed, runs, iterations, study.training.tests),
         sorted(met | {iterations}),
     )
     return pd.DataFrame(
         {
-            "learner": f"{name} on a twin",
+            "learner": learner,
+            "twin": True,
             "poses": np.tile(history.moves, len(runs)),
             "subset": np.repeat(runs, len(history.moves)),
             "position_error_mm": 1e3 * history.position[..., 0].ravel(),

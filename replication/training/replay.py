@@ -1,20 +1,24 @@
 """Is the controller left alone (section 8)? A learner is taught by a robot, then by a table."""
 
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 
 from recalib.files.archives import flat
-from replication.config.study import LearnerSettings
+from recalib.learners.hierarchical import HierarchicalLearner
 from replication.scenarios.plants import Resolved
 from replication.training.poses import Stream
-from replication.training.settings import build_tuned
 
 
-def replay(scenario: Path, sample: Path, rules: LearnerSettings, seed: int) -> pd.DataFrame:
-    """For each array that the learner holds, the largest difference between both teachers."""
-    resolved, iterations = Resolved.read(scenario), rules.iterations
+def replay(
+    resolved: Resolved, learner: Callable[[], HierarchicalLearner], iterations: int, seed: int
+) -> pd.DataFrame:
+    """For each array that the learner holds, the largest difference between both teachers.
+
+    Args:
+        learner: makes one of a single run that has learned nothing.
+    """
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
     table = {}
@@ -30,10 +34,10 @@ def replay(scenario: Path, sample: Path, rules: LearnerSettings, seed: int) -> p
 
     learned = []
     for execute in (by_robot, by_table):
-        learner = build_tuned(rules, sample, [1])
+        its = learner()
         for iteration in range(iterations):
-            learner.learn(desired[:, iteration], execute, iteration / iterations)
-        learned.append(flat(learner.state()[0]))
+            its.learn(desired[:, iteration], execute, iteration / iterations)
+        learned.append(flat(its.state()[0]))
     first, second = learned
     return pd.DataFrame(
         [

@@ -26,9 +26,13 @@ def bare_loop(robot: Robot, arm: DamagedArm, angles: np.ndarray) -> None:
         pin.updateFramePlacement(damaged, other, frame)
 
 
-def measure_speed(scenario: Path) -> str:
-    """A line for moves, one for the bare loop, and one for their ratio."""
-    resolved = Resolved.read(scenario)
+def measure_speed(own: Path) -> str:
+    """A line for moves, one for the bare loop, and one for their ratio.
+
+    Args:
+        own: file of the study's own scenario as resolved.
+    """
+    resolved = Resolved.read(own)
     controller = resolved.controller()
     robot, arm = controller.robot, resolved.arm(controller.robot)
     plant, rng = Plant(controller, arm), np.random.default_rng(0)

@@ -12,12 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
-from recalib.files.storage import whole
 from recalib.laboratory.tables.description import Description, read_description
 from recalib.laboratory.tables.measurements import NOMINAL, read_measurements
 from recalib.laboratory.tables.nominal_checks import check_nominal
 from recalib.nominal.kinematics import Arm
-from replication.config.study import Source
+from replication.config.study import Source, Study
 
 PATIENCE = 60  # seconds for the public address to answer
 
@@ -78,8 +77,13 @@ def read_of(arm: Arm, path: str | PathLike, description: Description) -> Tracker
     )
 
 
-def fetch(source: Source, table: Path) -> None:
-    """Bring a `table`, from a file or from its public address.
+def fetch(study: Study) -> tuple[bytes, bytes]:
+    """The tables of the real arm: to learn from, and to test on. See `fetched` for its errors."""
+    return fetched(study.real.data.fit), fetched(study.real.data.test)
+
+
+def fetched(source: Source) -> bytes:
+    """A table, from a file or from its public address.
 
     Raises RecalibError where it is out of reach or not the one that is meant.
     """
@@ -98,5 +102,4 @@ def fetch(source: Source, table: Path) -> None:
     found = hashlib.sha256(content).hexdigest()
     if found != source.sha256:
         raise RecalibError(f"{where} has SHA-256 {found}; expected {source.sha256}")
-    with whole(table) as path:
-        path.write_bytes(content)
+    return content

@@ -4,7 +4,6 @@ That a killed run goes on is tested, too, and takes no run of its own.
 """
 
 import shutil
-from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -24,7 +23,7 @@ class Killed(NamedTuple):
 
     Attributes:
         project: the copy.
-        done: when each chunk was written of those trainings that were done by then [ns].
+        done: when each history was written that was there by then [ns].
     """
 
     project: Project
@@ -43,23 +42,21 @@ def with_studies(tmp_path) -> Path:
 
 @pytest.fixture(scope="session")
 def killed(tmp_path_factory, controller) -> Killed:
-    """A run of the small study, killed with all its jobs as soon as one training is done.
+    """A run of the small study, killed with all its jobs as soon as the trainings are done.
 
     What a controller needs is compiled by now, so that the copy has it: no job compiles it again.
     """
     project = Project(tmp_path_factory.mktemp("project"), *SMALL, name="tiny")
-    runs, run = project.results / "runs", project.start()
+    run = project.start()
 
-    def gathered() -> list[Path]:
+    def summarised() -> bool:
         assert run.poll() is None, "the run ended before it could be interrupted"
-        return list(runs.glob("*/[!.]*.parquet"))  # a dot begins the name of a file in the making
+        return (project.results / "summary.csv").exists()
 
-    wait_until("a training is done", gathered)
-    done = gathered()
+    wait_until("all trainings are done", summarised)
     kill(run)
-    chunks = project.results / "chunks" / "runs"
-    parts = [chunks.glob(f"{its.parent.name}/{its.stem}.*.parquet") for its in done]
-    return Killed(project, {path: path.stat().st_mtime_ns for path in chain(*parts)})
+    done = (project.results / "runs").rglob("*.parquet")
+    return Killed(project, {path: path.stat().st_mtime_ns for path in done})
 
 
 @pytest.fixture(scope="session")

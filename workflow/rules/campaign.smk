@@ -3,7 +3,6 @@
 from replication.campaign.setups import DESIGN, planned
 from replication.campaign.variants import lengths, needed, variants
 
-SHIPPED_STUDY = STUDIES[RESULTS]
 MEASURED = f"{RESULTS}/campaign/outcomes/{{setup}}/{{replicate}}.csv"
 PIECE = f"{RESULTS}/campaign/pieces/{{setup}}/{{replicate}}/{{variant}}.csv"
 
@@ -16,7 +15,7 @@ wildcard_constraints:
 
 def measured(wildcards):
     """The variants of a setup."""
-    every = variants(SHIPPED_STUDY).items()
+    every = variants(STUDY).items()
     return [name for name, variant in every if lengths(variant, int(wildcards.setup))]
 
 
@@ -34,7 +33,7 @@ rule design:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("replication.campaign.drawing.design", SHIPPED_STUDY),
+        **calls("campaign.drawing.design"),
     message:
         "Draw the setups of the campaign"
     script:
@@ -51,7 +50,7 @@ rule untrained:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("replication.campaign.untrained.untrained", SHIPPED_STUDY),
+        **calls("campaign.untrained.untrained"),
     message:
         "Measure the mapping in every setup"
     script:
@@ -62,7 +61,7 @@ rule untrained:
 rule variant:
     input:
         design=DESIGN,
-        others=lambda w: pieces(w, needed(variants(SHIPPED_STUDY)[w.variant])),
+        others=lambda w: pieces(w, needed(variants(STUDY)[w.variant])),
     output:
         temp(PIECE),
     log:
@@ -70,7 +69,7 @@ rule variant:
     resources:
         **room(mem_mb=2000, runtime=60),
     params:
-        **calls("replication.campaign.measuring.measure_variant", SHIPPED_STUDY),
+        **calls("campaign.measuring.measure_variant"),
         setup=lambda w: int(w.setup),
         replicate=lambda w: int(w.replicate),
         variant=lambda w: w.variant,
@@ -89,7 +88,7 @@ rule outcomes:
         f"{RESULTS}/logs/outcomes/{{setup}}.{{replicate}}.log",
     localrule: True
     params:
-        **calls("replication.campaign.measuring.put_together", SHIPPED_STUDY),
+        **calls("campaign.measuring.put_together"),
     message:
         "Put setup {wildcards.setup}, replicate {wildcards.replicate} together"
     script:
@@ -98,6 +97,6 @@ rule outcomes:
 
 rule campaign:
     input:
-        [MEASURED.format(setup=its, replicate=number) for its, number in planned(SHIPPED_STUDY)],
+        [MEASURED.format(setup=its, replicate=number) for its, number in planned(STUDY)],
     message:
         "What was missing of the campaign: {input}; `make campaign` ships it"

@@ -1,0 +1,30 @@
+"""Puts measured replicates into the campaign's one table: `python -m replication.campaign.ship FOLDER`.
+
+What was measured again takes the place of what was there.
+"""
+
+import sys
+from pathlib import Path
+
+import pandas as pd
+
+from recalib.files.storage import whole
+from replication.campaign.setups import OUTCOMES
+
+ROW = ["setup", "replicate", "variant", "iterations"]
+
+
+def ship(folder: Path, table: Path = Path(OUTCOMES)) -> None:
+    """Add the replicates of a folder, SETUP/REPLICATE.csv, to a table."""
+    new = pd.concat(map(pd.read_csv, sorted(folder.glob("*/*.csv"))), ignore_index=True)
+    if table.exists():
+        old = pd.read_csv(table)
+        measured = pd.MultiIndex.from_frame(new[ROW[:2]])
+        kept = old[~pd.MultiIndex.from_frame(old[ROW[:2]]).isin(measured)]
+        new = pd.concat([kept, new], ignore_index=True)
+    with whole(table) as path:
+        new.sort_values(ROW, kind="stable").to_csv(path, index=False)
+
+
+if __name__ == "__main__":
+    ship(*map(Path, sys.argv[1:]))

@@ -1,0 +1,133 @@
+"""The figure of the setups: what each claim says, in every one of them."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from replication.judgement.claims import claims
+from replication.judgement.claims.claim import OfSetups
+from replication.judgement.contrasts import Crossing, Remaining
+from replication.judgement.evidence import Evidence
+from replication.judgement.findings import Finding
+from replication.judgement.verdicts import Verdict
+from replication.plots.palette import BORDER, HOLDS, NEUTRAL
+from replication.plots.style import MARK, WIDTH, logarithmic, name_rows, plt
+
+ROW = 0.28  # inches
+TICKS = 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100
+MARGIN = 1.15  # times the most that is shown
+LABELS: Mapping[str, str] = {  # of the claims' numbers, by claim
+    "large-neighbourhoods": "$g_k$ as tuned / wide",
+    "no-good-solution": "tuned for both / for each",
+    "separate-maps": "two maps / one map",
+    "widths-position": "position widths / reversed",
+    "widths-orientation": "orientation widths / reversed",
+    "cells-position": "position: supernet / subnets",
+    "cells-orientation": "orientation: subnets / supernet",
+    "theta-increments": "theta: increments / values",
+    "jacobian-increments": "Jacobians: increments / values",
+    "not-drastic": "drastic change / the paper's",
+    "cooperation": "both: increments / values",
+    "schedule": "equal visits / exponential",
+    "local-units": "radial units: increments / values",
+    "ritter-slow": "Ritter, as many cells",
+    "figure-1": "improved",
+    "rough-search": "improved, rough search",
+}
+
+
+class Row(NamedTuple):
+    """A claim that setups decide.
+
+    Attributes:
+        claim: what it says.
+        finding: what was found.
+        numbers: (setup,) what was measured.
+    """
+
+    claim: OfSetups
+    finding: Finding
+    numbers: np.ndarray
+
+    @property
+    def is_share(self) -> bool:
+        """Whether its number is what remains of an error, not a ratio of errors."""
+        return isinstance(self.claim.estimand, Remaining)
+
+    @property
+    def result(self) -> str:
+        """Its mean and its verdict."""
+        value = self.finding.estimates[0].value
+        number = f"{100 * value:.2g} %" if self.is_share else f"{value:.2f}"
+        return f"{number} {self.finding.verdict}"
+
+
+def rows(evidence: Evidence) -> list[Row]:
+    """All claims that setups decide by errors, in the paper's order."""
+    findings, outcomes = evidence.findings(), evidence.outcomes()
+    return [
+        Row(its, findings[its.statement.id], np.exp(its.estimand.values(outcomes).model().numbers))
+        for its in claims(evidence.study)
+        if isinstance(its, OfSetups) and not isinstance(its.estimand, Crossing)
+    ]
+
+
+def contrasts(evidence: Evidence) -> Figure:
+    """The number of each claim in all setups; above: ratios of errors, below: remaining errors."""
+    shown = rows(evidence)
+    parts = [[row for row in shown if row.is_share is share] for share in (False, True)]
+    counts = [len(its) for its in parts]
+    figure, panels = plt.subplots(
+        2, 1, figsize=(WIDTH, ROW * sum(counts) + 0.9), height_ratios=counts
+    )
+    labels = "ratio of errors", "larger error that remains, share"
+    for axes, its, label in zip(panels, parts, labels, strict=True):
+        _draw(axes, its)
+        axes.set_xlabel(label)
+    return figure
+
+
+def _draw(axes: Axes, its: list[Row]) -> None:
+    heights = range(len(its) - 1, -1, -1)
+    low, high = _ends(its)
+    for height, row in zip(heights, its, strict=True):
+        _draw_row(axes, height, row, (low, high))
+    name_rows(axes, heights, [LABELS[row.claim.statement.id] for row in its])
+    beside = axes.secondary_yaxis("right")
+    beside.set_yticks(heights, [row.result for row in its])
+    beside.tick_params(length=0)
+    beside.spines["right"].set_visible(False)
+    for label, row in zip(beside.get_yticklabels(), its, strict=True):
+        if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):
+            label.set_fontweight("bold")
+    logarithmic(axes.xaxis, *(tick for tick in TICKS if low < tick < high))
+    axes.set(xlim=(low, high), ylim=(-0.5, len(its) - 0.5))
+
+
+def _ends(its: list[Row]) -> tuple[float, float]:
+    """Between which everything lies."""
+    every = np.concatenate(
+        [[*row.numbers, *(row.finding.estimates[0].predictive_interval or ())] for row in its]
+    )
+    return float(every.min() / MARGIN), float(every.max() * MARGIN)
+
+
+def _draw_row(axes: Axes, height: float, row: Row, ends: tuple[float, float]) -> None:
+    comparison, number = row.claim.comparison, row.finding.estimates[0]
+    limit = np.exp(comparison.limit)
+    side = (ends[0], limit) if comparison.below else (limit, ends[1])
+    around = height - 0.47, height + 0.47
+    axes.fill_between(side, *around, color=HOLDS, alpha=0.2, linewidth=0)
+    axes.vlines(limit, *around, **BORDER)
+    if comparison.same:
+        same = np.exp([comparison.limit - comparison.same, comparison.limit + comparison.same])
+        axes.vlines(same, *around, linestyle=(0, (1, 1)), **BORDER)
+    upper = height + 0.14 + 0.3 * (np.arange(len(row.numbers)) * 0.618 % 1 - 0.5)
+    axes.scatter(row.numbers, upper, s=12, marker=".", color="0.35", lw=0)
+    lower = height - 0.26
+    axes.hlines(lower, *(number.predictive_interval or ()), color=NEUTRAL, linewidth=0.8)
+    axes.hlines(lower, *(number.interval or ()), color=NEUTRAL, linewidth=3)
+    axes.scatter(number.value, lower, s=0.8 * MARK, marker="D", color=NEUTRAL, zorder=3)

@@ -1,0 +1,116 @@
+"""What should one use today? No part of the default run."""
+
+
+rule benchmark_run:
+    input:
+        settings=SETTINGS,
+    output:
+        f"{RESULTS}/benchmark/{{learner}}.parquet",
+    log:
+        f"{RESULTS}/logs/benchmark/{{learner}}.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("training.benchmark.compete"),
+        learner=lambda w: w.learner,
+    message:
+        "Let {wildcards.learner} work through the benchmark's scenarios"
+    script:
+        "../scripts/call.py"
+
+
+rule benchmark_table:
+    input:
+        histories=[
+            f"{RESULTS}/benchmark/{learner}.parquet"
+            for learner in (*STUDY.benchmark.learners, *STUDY.benchmark.papers)
+        ],
+    output:
+        errors=f"{RESULTS}/benchmark.csv",
+        reached=f"{RESULTS}/benchmark_moves.csv",
+        seconds=f"{RESULTS}/benchmark_seconds.csv",  # which differ from run to run
+    log:
+        f"{RESULTS}/logs/benchmark_table.log",
+    localrule: True
+    params:
+        **calls("judgement.benchmark.put_together"),
+        digits=6,
+    message:
+        "Put the benchmark together"
+    script:
+        "../scripts/call.py"
+
+
+rule real_data:
+    output:
+        fit=f"{RESULTS}/real/fit.csv",
+        test=f"{RESULTS}/real/test.csv",
+    log:
+        f"{RESULTS}/logs/real_data.log",
+    localrule: True
+    params:
+        **calls("training.tracker.fetch"),
+    message:
+        "Bring the poses of the real arm"
+    script:
+        "../scripts/call.py"
+
+
+rule real_run:
+    input:
+        fit=f"{RESULTS}/real/fit.csv",
+        test=f"{RESULTS}/real/test.csv",
+        description=STUDY.real.description,
+        settings=SETTINGS,
+    output:
+        f"{RESULTS}/real/{{learner}}.csv",
+    log:
+        f"{RESULTS}/logs/real/{{learner}}.log",
+    wildcard_constraints:
+        learner="|".join([*STUDY.real.learners, *STUDY.real.twin]),
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("training.real_arm.learn"),
+        learner=lambda w: w.learner,
+    message:
+        "Let {wildcards.learner} learn from recorded poses of the real arm"
+    script:
+        "../scripts/call.py"
+
+
+rule real_table:
+    input:
+        runs=[
+            f"{RESULTS}/real/{learner}.csv"
+            for learner in (*STUDY.real.learners, *STUDY.real.twin)
+        ],
+    output:
+        f"{RESULTS}/real.csv",
+    log:
+        f"{RESULTS}/logs/real_table.log",
+    localrule: True
+    params:
+        **calls("judgement.real_arm.put_together"),
+        digits=5,
+    message:
+        "Put the results on the real arm together"
+    script:
+        "../scripts/call.py"
+
+
+rule bench:
+    input:
+        own=OWN.scenario_file(RESULTS),
+    output:
+        f"{RESULTS}/bench.txt",
+    log:
+        f"{RESULTS}/logs/bench.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("training.speed.measure_speed"),
+    message:
+        "Measure the speed of moves"
+    script:
+        "../scripts/call.py"

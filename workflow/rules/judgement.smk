@@ -1,0 +1,81 @@
+"""From histories to one table, the check of it, and a finding for each claim."""
+
+from replication.judgement.evidence import files
+
+TRAININGS = {
+    "resolved": [place.scenario_file(RESULTS) for place in PLACES],
+    "histories": [
+        place.history_file(RESULTS, learner)
+        for place, learners in PLACES.items()
+        for learner in learners
+    ],
+}
+PARTS = ["trainings", "mapping", "ensemble"] + ["campaign"] * IS_SHIPPED
+
+
+rule summary:
+    input:
+        **TRAININGS,
+    output:
+        f"{RESULTS}/summary.csv",
+    log:
+        f"{RESULTS}/logs/summary.log",
+    localrule: True
+    params:
+        **calls("judgement.summary.summarise"),
+        digits=6,
+    message:
+        "Put the final errors of every training into one table"
+    script:
+        "../scripts/call.py"
+
+
+rule findings:
+    input:
+        [path for part in PARTS for path in files(STUDY, part)],
+    output:
+        f"{RESULTS}/claims.json",
+    log:
+        f"{RESULTS}/logs/findings.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("judgement.claims.judge"),
+    message:
+        "Judge every claim of the paper"
+    script:
+        "../scripts/call.py"
+
+
+rule check:
+    input:
+        summary=f"{RESULTS}/summary.csv",
+        expected=STUDY.expected or [],
+    output:
+        f"{RESULTS}/check.txt",
+    log:
+        f"{RESULTS}/logs/check.log",
+    localrule: True
+    params:
+        **calls("judgement.checks.report"),
+    message:
+        "Check the final errors against their bands"
+    script:
+        "../scripts/call.py"
+
+
+rule expect:
+    input:
+        summary=f"{RESULTS}/summary.csv",
+    output:
+        f"{RESULTS}/expected.csv",
+    log:
+        f"{RESULTS}/logs/expect.log",
+    localrule: True
+    params:
+        **calls("judgement.checks.propose"),
+        digits=4,
+    message:
+        "Propose new bands for the check"
+    script:
+        "../scripts/call.py"

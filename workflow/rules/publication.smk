@@ -1,0 +1,188 @@
+"""What people see: figures, recordings, pages; and what the shipped study publishes of them."""
+
+from replication.config.switches import IMPROVED
+from replication.pages.writing import OUTCOME, pages_of
+from replication.plots.drawing import figures_of
+from replication.recording.recorded import recorded_learners, recorded_places
+
+FIGURES = [
+    f"{RESULTS}/figures/{name}.{suffix}"
+    for name in figures_of(STUDY)
+    for suffix in ("svg", "png")
+]
+PAGES = [f"{RESULTS}/pages/{page}" for page in pages_of(STUDY)]
+RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded_places(STUDY)]
+FINDINGS = f"{RESULTS}/claims.json"
+EVIDENCE_FILES = [path for part in PARTS for path in files(STUDY, part)]
+CHECK = [f"{RESULTS}/check.txt"] if STUDY.expected else []
+
+
+rule figures:
+    input:
+        EVIDENCE_FILES,
+        findings=FINDINGS,
+    output:
+        figures=FIGURES,
+    log:
+        f"{RESULTS}/logs/figures.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("plots.drawing.draw"),
+    message:
+        "Draw the figures"
+    script:
+        "../scripts/call.py"
+
+
+rule recordings:
+    input:
+        scenarios=[place.scenario_file(RESULTS) for place in recorded_places(STUDY)],
+        settings=SETTINGS,
+        histories=[
+            place.history_file(RESULTS, learner)
+            for place in recorded_places(STUDY)
+            for learner in recorded_learners(STUDY)
+        ],
+    output:
+        recordings=RECORDINGS,
+    log:
+        f"{RESULTS}/logs/recordings.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("recording.writing.record"),
+    message:
+        "Record the arm before and after recalibration"
+    script:
+        "../scripts/call.py"
+
+
+rule pages:
+    input:
+        EVIDENCE_FILES,
+        FINDINGS,
+        templates=[str(path) for path in sorted(ROOT.glob("workflow/templates/*.j2"))],
+        figures=FIGURES,
+    output:
+        pages=PAGES,
+    log:
+        f"{RESULTS}/logs/pages.log",
+    localrule: True
+    params:
+        **calls("pages.writing.write"),
+    message:
+        "Write the pages"
+    script:
+        "../scripts/call.py"
+
+
+rule in_browser:
+    input:
+        scenario=OWN.scenario_file(RESULTS),
+        settings=SETTINGS,
+        history=OWN.history_file(RESULTS, IMPROVED),
+    output:
+        f"{RESULTS}/pages/study.js",
+    log:
+        f"{RESULTS}/logs/in_browser.log",
+    localrule: True
+    params:
+        **calls("recording.in_browser.script"),
+    message:
+        "Write what a browser needs to repeat the recorded run"
+    script:
+        "../scripts/call.py"
+
+
+def committed(path):
+    """Where a file of the shipped study is committed."""
+    name = Path(path).name
+    if path in FIGURES:
+        return f"figures/{name}"
+    return name if name == "README.md" else f"docs/{name}"
+
+
+PUBLISHED = [
+    *FIGURES,
+    *(page for page in PAGES if page.endswith(".md")),
+    f"{RESULTS}/pages/study.js",
+]
+
+
+# A copy takes no time: whatever becomes of a drawing, the committed file is there.
+rule publish:
+    input:
+        sources=PUBLISHED,
+    output:
+        copies=[committed(path) for path in PUBLISHED],
+    log:
+        f"{RESULTS}/logs/publish.log",
+    localrule: True
+    params:
+        **calls("running.publishing.publish"),
+    message:
+        "Publish figures and pages"
+    script:
+        "../scripts/call.py"
+
+
+EVERYTHING = [f"{RESULTS}/summary.csv", FINDINGS, *CHECK, *FIGURES, *RECORDINGS, *PAGES]
+if IS_SHIPPED:
+    EVERYTHING += [committed(path) for path in PUBLISHED]
+
+
+rule article:
+    input:
+        source=f"{RESULTS}/pages/article.typ",
+        references="workflow/article/references.bib",
+        figures=FIGURES,
+    output:
+        article=f"{RESULTS}/article.pdf",
+    log:
+        f"{RESULTS}/logs/article.log",
+    localrule: True
+    params:
+        **calls("pages.article.typeset"),
+    message:
+        "Set the article"
+    script:
+        "../scripts/call.py"
+
+
+rule before_and_after:
+    input:
+        recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
+    output:
+        before=f"{RESULTS}/figures/{{scenario}}_before.png",
+        after=f"{RESULTS}/figures/{{scenario}}_after.png",
+    log:
+        f"{RESULTS}/logs/before_and_after/{{scenario}}.log",
+    localrule: True
+    params:
+        **calls("recording.pictures.before_and_after"),
+    message:
+        "Take pictures of the arm with the viewer, which needs a Vulkan driver"
+    script:
+        "../scripts/call.py"
+
+
+rule film:
+    input:
+        recording=f"{RESULTS}/recordings/{{scenario}}.rrd",
+    output:
+        film=f"{RESULTS}/figures/{{scenario}}.webp",
+    log:
+        f"{RESULTS}/logs/film/{{scenario}}.log",
+    localrule: True
+    params:
+        **calls("recording.pictures.take_film"),
+    message:
+        "Film the arm with the viewer, which needs a Vulkan driver: minutes, where that is software"
+    script:
+        "../scripts/call.py"
+
+
+onsuccess:
+    if any(job.rule.name == "pages" for job in workflow.dag.jobs):
+        print(Path(f"{RESULTS}/pages/{OUTCOME}").read_text(encoding="utf-8"))

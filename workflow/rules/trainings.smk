@@ -1,0 +1,139 @@
+"""Scenarios, settings, trainings, and what is measured of the mapping."""
+
+from replication.campaign.own import untuned
+from replication.campaign.setups import OUTCOMES
+from replication.scenarios.nominal import nominal
+from replication.training.plan import Place, places
+
+PLACES = places(STUDY)
+OWN = Place(STUDY.robot, STUDY.scenario)
+EVIDENCE = STUDY.experiments.evidence
+SETTINGS = [OUTCOMES] + [f"{RESULTS}/settings/{learner}.csv" for learner in untuned(STUDY, ROOT)]
+
+
+wildcard_constraints:
+    robot=r"\w+",
+    scenario=r"\w+",
+    learner=r"\w+",
+
+
+rule scenarios:
+    output:
+        resolved=[place.scenario_file(RESULTS) for place in PLACES],
+        assignments=f"{RESULTS}/assignments/{STUDY.robot}.parquet",
+    log:
+        f"{RESULTS}/logs/scenarios.log",
+    resources:
+        **room(mem_mb=2000, runtime=10),
+    params:
+        **calls("training.scenarios.write_scenarios"),
+        robots=[nominal(STUDY, robot).urdf_sha256 for robot, _ in PLACES],
+    message:
+        "Put the damages on the robots"
+    script:
+        "../scripts/call.py"
+
+
+rule settings:
+    input:
+        scenario=OWN.scenario_file(RESULTS),
+    output:
+        f"{RESULTS}/settings/{{learner}}.csv",
+    log:
+        f"{RESULTS}/logs/settings/{{learner}}.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("campaign.own.tune"),
+        learner=lambda w: w.learner,
+    message:
+        "Search for the widths and rates of {wildcards.learner}"
+    script:
+        "../scripts/call.py"
+
+
+# A rule for each place: each trains learners of its own.
+for place in PLACES:
+
+    rule:
+        name:
+            f"train_{place.robot}_{place.scenario}"
+        input:
+            resolved=place.scenario_file(RESULTS),
+            settings=SETTINGS,
+        output:
+            histories=[place.history_file(RESULTS, learner) for learner in PLACES[place]],
+            learned=[place.learned_file(RESULTS, learner) for learner in PLACES[place]],
+        log:
+            f"{RESULTS}/logs/train/{place.robot}.{place.scenario}.log",
+        priority: 10
+        resources:
+            **room(mem_mb=2000, runtime=60),
+        params:
+            **calls("training.train.train"),
+            robot=place.robot,
+            scenario=place.scenario,
+        message:
+            f"Train on the {place.robot}: {place.scenario}"
+        script:
+            "../scripts/call.py"
+
+
+rule ensemble:
+    input:
+        settings=SETTINGS,
+    output:
+        f"{RESULTS}/ensemble/{{learner}}.parquet",
+    log:
+        f"{RESULTS}/logs/ensemble/{{learner}}.log",
+    resources:
+        **room(mem_mb=2000, runtime=60),
+    params:
+        **calls("training.ensemble.train_draws"),
+        learner=lambda w: w.learner,
+    message:
+        "Train {wildcards.learner} on many other damages"
+    script:
+        "../scripts/call.py"
+
+
+rule mapping:
+    input:
+        scenarios=[its.scenario_file(RESULTS) for its in PLACES if its.robot == STUDY.robot],
+        own=OWN.scenario_file(RESULTS),
+    output:
+        coupling=f"{RESULTS}/mapping/coupling.parquet",
+        nearness=f"{RESULTS}/mapping/nearness.parquet",
+        propagation=f"{RESULTS}/mapping/propagation.parquet",
+        quantisation=f"{RESULTS}/mapping/quantisation.parquet",
+        solutions=f"{RESULTS}/mapping/solutions.parquet",
+        visits=f"{RESULTS}/mapping/visits.parquet",
+    log:
+        f"{RESULTS}/logs/mapping.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("mapping.measured.measure"),
+    message:
+        "Measure the mapping that is to be learned"
+    script:
+        "../scripts/call.py"
+
+
+rule learning:
+    input:
+        own=OWN.scenario_file(RESULTS),
+        settings=SETTINGS,
+    output:
+        replay=f"{RESULTS}/mapping/replay.parquet",
+        widths=f"{RESULTS}/mapping/widths.parquet",
+    log:
+        f"{RESULTS}/logs/learning.log",
+    resources:
+        **room(mem_mb=2000, runtime=20),
+    params:
+        **calls("mapping.measured.learn"),
+    message:
+        "Learn from a table, and with constant widths"
+    script:
+        "../scripts/call.py"
