@@ -30,7 +30,8 @@ from recalib.nominal.robots import Robot
 from replication.config.reading import read_study
 from replication.config.study import Study
 from replication.scenarios.nominal import Nominal, nominal
-from replication.scenarios.plants import Resolved, nominal_controller, resolve
+from replication.scenarios.plants import Resolved, nominal_controller
+from replication.scenarios.resolving import resolve
 from replication.training.competitors import make_peer, peers
 
 settings.register_profile("untimed", deadline=None)  # what is compiled takes seconds, once
@@ -110,10 +111,9 @@ class Plan(NamedTuple):
         return nominal(self.study, robot)
 
     def resolved(self, scenario: str) -> Resolved:
-        """A scenario on the study's robot without a part that is assigned."""
-        damages, poses = self.study.scenarios[scenario], self.study.paper_damage.poses
-        its = self.nominal(self.study.robot)
-        return resolve(scenario, its, damages, poses, self.study.seed)
+        """A scenario on the study's robot."""
+        (its,), _ = resolve(self.study, self.study.robot, [scenario])
+        return its
 
 
 @pytest.fixture(scope="session")

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from importlib import import_module
-from pathlib import Path
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
 
+import recalib.damaged
 from recalib.files.bounded import Bounded
 from recalib.spelling import listed, nearest
 
@@ -88,8 +88,8 @@ class Imperfection:
         if cls is not Imperfection:
             schema: CoreSchema = handler(source)
             return schema
-        for module in iter_modules([str(Path(__file__).parent)]):
-            import_module(f"{__package__}.{module.name}")  # its kinds are known from then on
+        for module in iter_modules(recalib.damaged.__path__):
+            import_module(f"recalib.damaged.{module.name}")  # its kinds are known from then on
         kinds = sorted({*cls.kinds.values()}, key=lambda kind: kind.__name__)
         return core_schema.tagged_union_schema(
             {kind.__name__: handler.generate_schema(kind) for kind in kinds},

@@ -53,7 +53,7 @@ class WorkspaceSettings(Part):
 
     def scale_to(self, other: Self) -> float:
         """How large this one is, where the other is 1: the cube root of the ratio of volumes."""
-        return round((math.prod(self.position) / math.prod(other.position)) ** (1 / 3), 4)
+        return round(math.cbrt(math.prod(self.position) / math.prod(other.position)), 4)
 
 
 class RobotSettings(Part):
