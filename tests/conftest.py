@@ -112,8 +112,7 @@ class Plan(NamedTuple):
 
     def resolved(self, scenario: str) -> Resolved:
         """A scenario on the study's robot."""
-        (its,), _ = resolve(self.study, self.study.robot, [scenario])
-        return its
+        return resolve(self.study, self.study.robot, [scenario])[0][0]
 
 
 @pytest.fixture(scope="session")

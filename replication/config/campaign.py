@@ -43,33 +43,33 @@ class Factors(Part):
     """Each of them by its levels."""
 
     robot: SomeDistinct[Name]
-    """Robots whose workspaces have the proportions of the study's own."""
+    """Robot; the proportions of its workspace are those of the study's own."""
     home: SomeDistinct[Literal["configured", "random"]]
-    """The centre of the workspace."""
+    """Centre of the workspace."""
     assignment: SomeDistinct[Literal["nearest", "any"]]
-    """The one nearest to the published errors, or any, of the paper's damage."""
+    """Links, encoders and signs of the paper's damage."""
     shortening: SomeDistinct[Literal["line", "axis"]]
-    """Along what a link is shortened."""
+    """Direction in which a link is shortened."""
     coordinates: SomeDistinct[Literal["roll_pitch_yaw", "rotation_vector"]]
-    """By which orientations are given."""
+    """Coordinates of orientations."""
     norm: SomeDistinct[Literal["half_ranges", "metres_radians", "centimetres_degrees"]]
-    """The units of pose coordinates in the norm in (3) and (8)."""
+    """Units of poses in the norm in (3) and (8)."""
     centres: SomeDistinct[Literal["boxes", "faces"]]
-    """Where the centres of the cells lie."""
+    """Centres of the cells."""
     dimensions: SomeDistinct[Literal[3, 6]]
-    """n in (10)."""
+    """The exponent n in (10)."""
     spread: SomeDistinct[Literal["widths", "logarithms"]]
-    """What equal visits are spread over evenly."""
+    """Steps of widths that are visited equally."""
     rate: SomeDistinct[Literal["exponential", "linear"]]
-    """How the learning rate of Ritter's algorithm falls."""
+    """Decay of the learning rate of Ritter's algorithm."""
     error: SomeDistinct[Literal["norm", "coordinates"]]
-    """The error of a pose."""
+    """Definition of the errors of a pose."""
     widths: SomeDistinct[Literal["half_ranges", "centimetres_degrees"]]
-    """The units of the widths of neighbourhoods."""
+    """Units of the widths of neighbourhoods."""
     order: SomeDistinct[Literal["random", "even"]]
-    """Of the poses to learn from."""
+    """Order of the poses to learn from."""
     tool: SomeDistinct[Literal["flange", "longer"]]
-    """Where the tool ends."""
+    """Tool."""
 
 
 class Campaign(Part):

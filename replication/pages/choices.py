@@ -1,26 +1,74 @@
-"""What the page of choices says: what the paper leaves open, and what this study took."""
+"""Choices of config.yaml, each with the reason that stands in a comment beside it."""
 
-from replication.judgement.results import Evidence
-from replication.pages.words import amounts
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import NamedTuple
 
-NEEDS = """
-    assignments/{robot}.parquet search/{improved}.csv short_searches searches_long setups
-    scenarios/{scenario}.json scenarios/translation.json scenarios/rotation.json
-"""
+import yaml
+
+from replication.config.campaign import Factors
 
 
-def context(evidence: Evidence) -> dict:
-    """Everything that the page may say."""
-    improved = evidence.facts["improved"]
-    searches = evidence.sought(improved).searches
-    return {
-        "setups": evidence.facts["setups"]["outcomes"],
-        "damages": "; ".join(map(amounts, evidence.scenario()["damages"])),
-        "assignments": len(evidence.assignments()),
-        "translation": amounts(evidence.scenario("translation")["damages"][0]),
-        "rotation": amounts(evidence.scenario("rotation")["damages"][0]),
-        "trials": len(evidence.sample(improved)) // searches,
-        "searches": searches,
-        "short": evidence.facts["short_searches"],
-        "searches_long": evidence.facts["searches_long"],
-    }
+class Choice(NamedTuple):
+    """A key of the configuration.
+
+    Attributes:
+        name: its path, as in "search.trials"; of a factor of the campaign, what it is.
+        values: the value as it is written; of a factor, its levels.
+        reason: the comment above the key and behind it.
+    """
+
+    name: str
+    values: tuple[str, ...]
+    reason: str
+
+
+def read_choices(path: Path) -> dict[str, Choice]:
+    """The keys of a configuration that have a comment, by their paths."""
+    text = path.read_text(encoding="utf-8")
+    return {its.name: its for its in _choices(yaml.compose(text), "", text) if its.reason}
+
+
+def alternatives(factors: Factors, choices: Mapping[str, Choice]) -> list[Choice]:
+    """The factors of the campaign, the level of the reference study first."""
+    return [
+        Choice(
+            str(field.description).rstrip("."),
+            tuple(str(level).replace("_", " ") for level in getattr(factors, name)),
+            choices[f"campaign.factors.{name}"].reason,
+        )
+        for name, field in Factors.model_fields.items()
+    ]
+
+
+def _choices(node: yaml.MappingNode, above: str, text: str) -> Iterator[Choice]:
+    lines = text.splitlines()
+    for key, value in node.value:
+        name = f"{above}{key.value}"
+        parts = [_above(key, lines), _behind(key, value, lines)]
+        yield Choice(name, (_written(value, text),), " ".join(filter(None, parts)))
+        if isinstance(value, yaml.MappingNode) and not value.flow_style:
+            yield from _choices(value, f"{name}.", text)
+
+
+def _above(key: yaml.Node, lines: list[str]) -> str:
+    """The lines of comment directly above a key, as one."""
+    first = last = key.start_mark.line
+    while lines[first - 1].startswith(f"{' ' * key.start_mark.column}# "):
+        first -= 1
+    return " ".join(" ".join(line.strip(" #").split()) for line in lines[first:last])
+
+
+def _behind(key: yaml.Node, value: yaml.Node, lines: list[str]) -> str:
+    """The comment in the last line of a value, or in that of the key of a block."""
+    block = isinstance(value, yaml.CollectionNode) and not value.flow_style
+    mark = key.end_mark if block else value.end_mark
+    _, _, comment = lines[mark.line][mark.column :].partition("  # ")
+    return comment
+
+
+def _written(value: yaml.Node, text: str) -> str:
+    """A value as it stands in the file, a block in one line."""
+    lines = text[value.start_mark.index : value.end_mark.index].splitlines()
+    parts = (line.partition("  # ")[0].strip().removeprefix("- ") for line in lines)
+    return ", ".join(filter(None, parts))

@@ -1,76 +1,130 @@
-"""What the page of guidance says, taken from the benchmark's tables."""
+"""Tables of the benchmark and of the real arm, as pages show them."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
-from replication.judgement.results import Evidence
-from replication.pages.words import ranged
-from replication.training.competitors import label_of, peers
-from replication.training.measured import BOTH, ERRORS
+from replication.pages.formats import short
+from replication.training.competitors import label_of, needs_of, peers
+from replication.training.measured import BOTH, ERRORS, KINDS
 
-if TYPE_CHECKING:
-    import pandas as pd
-
-NEEDS = "benchmark.csv benchmark_moves.csv threshold budgets"
+HYBRID = "hybrid"
 WORSE = 1.1  # times the best peer's error is worse
 NEGLIGIBLE = 1e-4  # cm and degrees: below it, errors are rounding
 FIRST = 4  # moves from which the hybrid is held to be as good as the best peer
 
 
-def moves_text(reached: "pd.Series") -> str:
-    """Moves until errors are within a threshold, with their spread."""
-    if not np.isfinite(reached["moves"]):
+class Row(NamedTuple):
+    """A row of a page's table."""
+
+    label: str
+    cells: tuple[str, ...]
+
+
+class Worse(NamedTuple):
+    """Where the hybrid's error exceeds that of the best other peer."""
+
+    scenario: str
+    moves: int
+    kind: str
+    hybrid: float
+    best: float
+    learner: str
+
+
+class Benchmark:
+    """What the benchmark found.
+
+    Args:
+        errors: a row for each scenario, learner and budget of moves.
+        reached: moves until errors are below a threshold, with their quantiles.
+        threshold: in cm and degrees, for both errors.
+        budgets: of moves, that all of today's learners have.
+    """
+
+    def __init__(
+        self,
+        errors: pd.DataFrame,
+        reached: pd.DataFrame,
+        threshold: float,
+        budgets: Collection[int],
+    ):
+        self.errors, self.threshold, self.budgets = errors, threshold, budgets
+        both = (reached["threshold"] == threshold) & (reached["error"] == BOTH)
+        self._reached = reached[both].set_index(["scenario", "learner"])
+        self.learners = list(errors["learner"].unique())
+        self.labels = [label_of(name) for name in self.learners]
+        self.needs = {label_of(name): needs_of(name) for name in self.learners}
+        self.seeds = int(errors["seeds"].max())
+
+    @property
+    def moves(self) -> list[Row]:
+        """Moves that each learner needs: a row for each scenario, a cell for each learner."""
+        return [
+            Row(
+                scenario.replace("_", " "),
+                tuple(_moves(self._reached.loc[(scenario, name)]) for name in self.learners),
+            )
+            for scenario in self.errors["scenario"].unique()
+        ]
+
+    @property
+    def worse(self) -> list[Worse]:
+        """Where the hybrid is not as good as the best of today's other learners."""
+        its = self.errors
+        counted = its["moves"].isin([budget for budget in self.budgets if budget >= FIRST])
+        others = its[counted & its["learner"].isin({*peers()} - {HYBRID})]
+        own = its[counted & (its["learner"] == HYBRID)]
+        found = []
+        for row in own.to_dict("records"):
+            same = (others["scenario"] == row["scenario"]) & (others["moves"] == row["moves"])
+            for error, kind in zip(ERRORS, KINDS, strict=True):
+                best = others[same].set_index("learner")[error]
+                if row[error] > max(WORSE * best.min(), NEGLIGIBLE):
+                    place = row["scenario"].replace("_", " "), row["moves"], kind
+                    found.append(Worse(*place, row[error], best.min(), label_of(best.idxmin())))
+        return found
+
+
+def _moves(reached: pd.Series) -> str:
+    """Moves until errors are below the threshold: the median, and quantiles if they differ."""
+    median, low, high = reached[["moves", "low", "high"]]
+    if not np.isfinite(median):
         return "-"
-    bounds = reached["low"], reached["high"]
-    return ranged(
-        reached["moves"], bounds, lambda value: f"{value:,.0f}" if np.isfinite(value) else "more"
-    )
+    if low == high:
+        return short(median)
+    return f"{short(median)} ({short(low)} to {short(high) if np.isfinite(high) else 'more'})"
 
 
-def where_worse(table: "pd.DataFrame", budgets: Sequence[int]) -> list[dict]:
-    """Scenarios, budgets and errors at which the hybrid is worse than the best other peer."""
-    rows = []
-    counted = [budget for budget in budgets if budget >= FIRST]
-    of_peers = table[table["learner"].isin([*peers()]) & table["moves"].isin(counted)]
-    for (scenario, moves), own in of_peers.groupby(["scenario", "moves"], sort=False):
-        for error in ERRORS:
-            errors = own.set_index("learner")[error]
-            others = errors.drop("hybrid")
-            if errors["hybrid"] > max(WORSE * others.min(), NEGLIGIBLE):
-                rows.append(
-                    {
-                        "scenario": scenario,
-                        "moves": moves,
-                        "error": error.split("_")[0],
-                        "hybrid": errors["hybrid"],
-                        "best": others.min(),
-                        "learner": label_of(others.idxmin()),
-                    }
-                )
-    return rows
+def on_real_arm(table: pd.DataFrame, poses: Sequence[int]) -> list[Row]:
+    """Mean position errors [mm]: a row for each learner, a cell for each number of poses.
+
+    Args:
+        table: a row for each learner and number of poses, or of moves on the twin.
+    """
+    errors = table.pivot(index=["learner", "twin"], columns="poses", values="position_error_mm")
+    names = table[["learner", "twin"]].drop_duplicates().itertuples(index=False)
+    return [
+        Row(
+            label_of(learner) + (" on a twin" if twin else ""),
+            tuple(
+                f"{errors.loc[(learner, twin), count]:.3f}" if known else "-"
+                for count, known in errors.reindex(columns=poses)
+                .loc[(learner, twin)]
+                .notna()
+                .items()
+            ),
+        )
+        for learner, twin in names
+    ]
 
 
-def context(evidence: Evidence) -> dict:
-    """Everything that the page may say."""
-    table, budgets = evidence.table("benchmark.csv"), evidence.facts["budgets"]
-    reached, threshold = evidence.table("benchmark_moves.csv"), evidence.facts["threshold"]
-    both = reached[(reached["threshold"] == threshold) & (reached["error"] == BOTH)]
-    its = both.set_index(["scenario", "learner"])
-    learners = list(table["learner"].unique())
-    return {
-        "shipped": evidence.shipped,
-        "threshold": threshold,
-        "seeds": table["seeds"].max(),
-        "learners": learners,
-        "label": label_of,
-        "scenarios": list(table["scenario"].unique()),
-        "moves": lambda scenario, learner: moves_text(its.loc[(scenario, learner)]),
-        "needs": reached.groupby("learner")["needs"].first(),
-        "first": FIRST,
-        "budget": max(budgets),
-        "percent": f"{100 * (WORSE - 1):.0f}",
-        "negligible": NEGLIGIBLE,
-        "worse": where_worse(table, budgets) if {"hybrid", "geometric"} <= {*learners} else None,
-    }
+def ends_on_twin(table: pd.DataFrame) -> list[Row]:
+    """Of each learner on the twin, the number of its moves and its last error [mm]."""
+    last = table[table["twin"]].sort_values("poses").groupby("learner", sort=False).last()
+    return [
+        Row(label_of(str(learner)), (short(its["poses"]), f"{its['position_error_mm']:.3f}"))
+        for learner, its in last.iterrows()
+    ]

@@ -2,8 +2,9 @@
 
 import importlib.metadata
 from collections.abc import Mapping
+from typing import Any
 
-from replication.config.damages import damages_among
+from replication.config.damages import damages_among, disturbances_among
 from replication.recording import colours
 from replication.recording.measurements import enlarged
 from replication.recording.naming import in_words
@@ -46,6 +47,8 @@ def about(resolved: Resolved, watched: Mapping[str, Watched]) -> str:
 def legend(resolved: Resolved) -> dict[str, colours.Colour]:
     """What stands for what in the picture, with its colour."""
     lines = {"desired pose": colours.WHITE, "pose reached": colours.REACHED}
+    if disturbances_among(resolved.damages):
+        lines["measurement"] = colours.MEASURED
     if damages_among(resolved.damages):
         lines["damage"] = colours.DAMAGE
     return lines | {"assumed arm": colours.NOMINAL}
@@ -85,7 +88,7 @@ def progress(resolved: Resolved, watched: Watched) -> list[str]:
     return [f"{words}: mean errors {errors}" for words, errors in pairs]
 
 
-def properties(resolved: Resolved) -> dict[str, str]:
+def properties(resolved: Resolved) -> dict[str, Any]:
     """The scenario that was recorded, and with which packages."""
     versions = {package: importlib.metadata.version(package) for package in PACKAGES}
     return {"scenario": resolved.model_dump_json(), **versions}

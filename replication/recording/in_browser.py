@@ -1,44 +1,36 @@
-"""What a browser needs to repeat the run that is recorded: the site has a page that does."""
+"""What a browser needs to repeat the training that is recorded: a page of the site does."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from recalib.damaged.damage import EncoderShift, LinkShortening
 from recalib.nominal.chain import Chain
 from recalib.nominal.robots import Robot
 from replication.config.damages import damages_among
-from replication.config.study import LearnerSettings, Measuring
-from replication.judgement.intervals import typical
+from replication.config.study import Study
+from replication.config.switches import IMPROVED
+from replication.recording.recorded import recorded_history, recorded_iterations, typical_seed
 from replication.scenarios.plants import Resolved, nominal_robot
-from replication.training.measured import errors_of
 from replication.training.poses import Stream
-from replication.training.settings import build_tuned
+from replication.training.tuned import Tuned, rules_of
 
 DIGITS = 12  # of placements: machines differ in how they round sines
 
 
-def script(
-    scenario: Path,
-    sample: Path,
-    history: Path,
-    learner: LearnerSettings,
-    measuring: Measuring,
-    seed: int,
-) -> str:
+def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path) -> str:
     """A script that defines STUDY: robot, damage, learner and poses; lengths in m, angles in rad.
 
     Args:
-        history: file of its training.
+        scenario: file of the study's own scenario, which has links short and encoders shifted.
+        settings: files with widths and rates.
+        history: file of the improved system's trainings there.
     """
-    resolved, errors = Resolved.read(scenario), errors_of(pd.read_parquet(history))
-    search = typical(errors)
-    run = int(search * errors.shape[1])  # the first one of that search
-    poses = Stream.SCENARIO.draw(
-        seed, [run], learner.iterations, measuring.tests, scenario=resolved.scenario
-    )
+    resolved, iterations = Resolved.read(scenario), recorded_iterations(study)
+    seed, tests = typical_seed(recorded_history(study, history)), study.training.tests
+    poses = Stream.SCENARIO.draw(study.seed, [seed], iterations, tests, scenario=resolved.scenario)
     robot, links = nominal_robot(resolved.nominal), resolved.nominal.robot.links
     amounts = dict.fromkeys((*links, *robot.joints), 0.0)
     for damage in damages_among(resolved.damages):
@@ -47,19 +39,19 @@ def script(
                 amounts[damage.link] = damage.shorten
             case EncoderShift():
                 amounts[damage.encoder] = damage.shift
-    study = {
+    rules = rules_of(study.every_learner[IMPROVED])
+    described = {
         "robot": _described(robot, links),
         "damage": [*amounts.values()],
-        "run": run,
-        "iterations": learner.iterations,
-        "every": measuring.measure_every,
-        "supernet": learner.supernet,
-        "subnet": learner.subnet,
-        "schedule": build_tuned(learner, sample, [search + 1]).settings()["by_run"][0],
+        "iterations": iterations,
+        "every": study.training.measure_every,
+        "supernet": rules.supernet,
+        "subnet": rules.subnet,
+        "schedule": Tuned(study, settings).learner(IMPROVED, iterations, 1).settings()["by_run"][0],
         "desired": poses.desired[0].tolist(),
         "tests": poses.tests[0].tolist(),
     }
-    return f"// Written by the pipeline: run {run}.\nconst STUDY = {json.dumps(study)};\n"
+    return f"// Written by the pipeline: seed {seed}.\nconst STUDY = {json.dumps(described)};\n"
 
 
 def _described(robot: Robot, links: tuple[str, ...]) -> dict[str, list]:

@@ -23,7 +23,8 @@ WINDOW = 1400, 800  # pixels
 TOP_BAR = 37  # pixels of it: the window's own bar, which shows nothing of the recording
 REPAINTS = 40  # until the viewer's notices have gone: they count repaints, not seconds
 
-FILM = 1160, 600  # pixels of the window, of which the arm has five eighths
+FILM = 1490, 800  # pixels of the window, of which the arm has five eighths: as wide as a page
+ZOOM = 5  # steps of a tenth, by which words are larger: they can be read on a telephone
 SHOWN = 4 * VISIT  # frames at the end of each phase of visits
 STEP = 8  # frames of a visit from one picture to the next
 FRAME, LAST = 100, 2000  # milliseconds
@@ -40,11 +41,15 @@ class _Patient:
         return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
 
 
-def before_and_after(recording: Path, before: Path, after: Path) -> None:
-    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
+def picture(recording: Path, before: Path, after: Path, film: Path) -> None:
+    """Take the pictures of a recording: the arm before and after its recalibration, and a film.
+
+    Needs and raises what `take_pictures` does.
+    """
     first, last = ends(recording)
     # the last frame of learning: its number is one of iterations, and the arm rests there, too
     take_pictures(recording, {before: BEFORE, after: first + last})
+    take_film(recording, film)
 
 
 def take_pictures(
@@ -52,20 +57,24 @@ def take_pictures(
     pictures: Mapping[Path, int],
     view: str | None = None,
     window: tuple[int, int] = WINDOW,
+    zoom: int = 0,
 ) -> None:
     """Write what the viewer shows of a recording, one PNG for each frame.
 
     Args:
         pictures: the frame that each shows.
         view: name of the one that is shown, such as `phases.ARM`; all that the window shows
-            unless given. In a smaller window, words are larger beside the rest.
+            unless given.
         window: its size in pixels.
+        zoom: steps of a tenth by which words are larger.
 
     Needs a Vulkan driver; one in software will do, such as Debian's mesa-vulkan-drivers.
     Raises RecalibError where the viewer does not start or does not load the recording.
     """
     with _client(window) as client:
         _load(client, recording)
+        for _ in range(zoom):
+            client.run_command("ui.zoom_in_ui")
         for repaint in range(REPAINTS):
             _show(client, -repaint)
         views = {shown.name: shown.view_id for shown in client.get_state().views}
@@ -88,7 +97,7 @@ def take_film(recording: Path, film: Path) -> None:
     frames = np.concatenate([visits, learning, last + 1 + visits])
     with tempfile.TemporaryDirectory() as folder:
         shown = {Path(folder, f"{number}.png"): int(frame) for number, frame in enumerate(frames)}
-        take_pictures(recording, shown, view=ARM, window=FILM)
+        take_pictures(recording, shown, ARM, FILM, ZOOM)
         start, *others = [Image.open(png).convert("RGB") for png in shown]
     with whole(film) as temporary:
         start.save(

@@ -34,8 +34,8 @@ from replication.recording.watched import Watched
 
 # of a picture whose half is 1 high
 TOP = 0.98  # where the caption stands
-LEGEND = 0.88, -0.52  # the first line of the legend, aside and above: below the base
-LINE = 0.125
+LEGEND = 0.88, -0.44  # the first line of the legend, aside and above: below the base
+LINE = 0.12
 AXIS = 0.22  # length of the axes of a pose, in units of `unit_of`
 
 

@@ -1,4 +1,4 @@
-"""A small campaign on a Slurm of one node gives the same bytes as here, whatever befalls it."""
+"""A small study on a Slurm of one node gives the same bytes as here, whatever befalls it."""
 
 import re
 import signal
@@ -7,7 +7,6 @@ from importlib.util import find_spec
 
 import pytest
 
-from replication.config.shipped import DESIGN
 from tests.project import Project, ended, kill
 from tests.slurm.cluster import Cluster, missing
 
@@ -22,18 +21,20 @@ pytestmark = [
     ),
 ]
 
-UNIVERSES, TOGETHER, JOBS = 3, 2, 2  # universes of the campaign, those of a job, jobs in Slurm
+TRAININGS, TOGETHER = 3, 2  # places of the study, and those of a job in Slurm
+JOBS = 1 + 2 + 2  # the scenarios, the settings of two learners, the trainings
 # nobody minds to be asked often
 ON_SLURM = ["--profile", "profiles/slurm", "--slurm-init-seconds-before-status-checks", "1"]
-ON_SLURM += ["--group-components", f"universes={TOGETHER}"]
+ON_SLURM += ["--group-components", f"trainings={TOGETHER}"]
 
 
-class Campaign:
-    """A campaign of this name, of which at most one run is on its way."""
+class Trainings:
+    """The trainings of a study of this name, of which at most one run is on its way."""
 
     def __init__(self, project: Project, name: str, *arguments: str, **options):
         self._project, self._name, self._options = project, name, options
-        self._arguments = [*arguments, "--config", f"name={name}", "--", "universes"]
+        self._arguments = [*arguments, "--config", f"name={name}", "--"]
+        self._arguments += [f"results/studies/{name}/summary.csv"]
         self.start()
 
     def start(self):
@@ -41,7 +42,7 @@ class Campaign:
         self._process = self._project.start(*self._arguments, **self._options)
 
     def at_work(self):
-        """Wait until a universe is being measured, and say where."""
+        """Wait until a job is at work, and say where."""
         return self._project.at_work(self._process)[0]
 
     def kill(self):
@@ -53,25 +54,21 @@ class Campaign:
         """Wait for its end; by their paths, what the files hold that it made, and what it says."""
         said = ended(self._process).well().said
         folder = self._project.results / self._name
-        tables = {str(path.relative_to(folder)): path for path in folder.rglob("*.csv")}
-        return {name: path.read_bytes() for name, path in tables.items()}, said
+        files = [folder / "summary.csv", *(folder / "runs").rglob("*.*")]
+        return {str(path.relative_to(folder)): path.read_bytes() for path in files}, said
 
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory) -> Project:
-    """A copy of the project with few universes."""
-    its = Project(tmp_path_factory.mktemp("slurm"), "--configfile", "tests/slurm/campaign.yaml")
-    path = its.folder / DESIGN
-    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
-    path.write_text("".join(lines[: 1 + UNIVERSES]), encoding="utf-8")
-    return its
+    """A copy of the project with a small study."""
+    return Project(tmp_path_factory.mktemp("slurm"), "--configfile", "tests/slurm/study.yaml")
 
 
 @pytest.fixture(scope="module")
 def expected(project) -> dict[str, bytes]:
-    """What the campaign makes without Slurm."""
-    made, _ = Campaign(project, "here", "--cores", "2").made()
-    assert len(made) == UNIVERSES + 1, "each universe, and the table"
+    """What it makes without Slurm."""
+    made, _ = Trainings(project, "here", "--cores", "2").made()
+    assert len(made) == 1 + 2 * 2 * TRAININGS, "the table; of each learner, history and maps"
     return made
 
 
@@ -82,29 +79,29 @@ def cluster(tmp_path_factory):
 
 
 @pytest.fixture
-def campaign(project, expected, cluster, request):
+def trainings(project, expected, cluster, request):
     """On the cluster under the test's name; nothing of it outlives the test."""
     name = re.sub(r"\W+", "_", request.node.name)[-30:].strip("_")  # of a study: not a long one
-    its = Campaign(project, name, *ON_SLURM, env=cluster.environment)
+    its = Trainings(project, name, *ON_SLURM, env=cluster.environment)
     yield its
     its.kill()
     cluster.clear()
 
 
-def test_slurm_makes_the_same_bytes(campaign, expected):
-    made, said = campaign.made()
+def test_slurm_makes_the_same_bytes(trainings, expected):
+    made, said = trainings.made()
     assert made == expected
     assert said.count("has been submitted with SLURM jobid") == JOBS
 
 
 @pytest.mark.parametrize("how", ["cancelled", "killed"])
-def test_a_job_that_is_ended_is_done_again(how, campaign, expected, cluster):
-    job = campaign.at_work()
+def test_a_job_that_is_ended_is_done_again(how, trainings, expected, cluster):
+    job = trainings.at_work()
     if how == "killed":
         job.kill()
     else:
         cluster.ask("scancel", cluster.jobs("running")[0])
-    made, said = campaign.made()
+    made, said = trainings.made()
     assert made == expected and said.count("Trying to restart job") == 1
 
 
@@ -115,17 +112,17 @@ def test_a_job_that_is_ended_is_done_again(how, campaign, expected, cluster):
         ("slurmctld", signal.SIGTERM, 15),  # longer than between two questions
     ],
 )
-def test_a_daemon_may_be_away(daemon, how, away, campaign, expected, cluster):
-    campaign.at_work()
+def test_a_daemon_may_be_away(daemon, how, away, trainings, expected, cluster):
+    trainings.at_work()
     cluster.stop(daemon, how)
     time.sleep(away)
     cluster.start(daemon)
-    assert campaign.made()[0] == expected
+    assert trainings.made()[0] == expected
 
 
-def test_a_killed_snakemake_goes_on(campaign, expected, cluster):
-    campaign.at_work()
-    campaign.kill()
+def test_a_killed_snakemake_goes_on(trainings, expected, cluster):
+    trainings.at_work()
+    trainings.kill()
     assert cluster.jobs("running"), "what it left in Slurm works on"
-    campaign.start()
-    assert campaign.made()[0] == expected
+    trainings.start()
+    assert trainings.made()[0] == expected

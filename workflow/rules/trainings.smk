@@ -66,6 +66,8 @@ for place in PLACES:
             learned=[place.learned_file(RESULTS, learner) for learner in PLACES[place]],
         log:
             f"{RESULTS}/logs/train/{place.robot}.{place.scenario}.log",
+        group:
+            "trainings"
         priority: 10
         resources:
             **room(mem_mb=2000, runtime=60),

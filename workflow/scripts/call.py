@@ -10,6 +10,7 @@ import inspect
 import os
 import sys
 import time
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
@@ -20,10 +21,15 @@ from replication.config.study import Study
 from replication.running.outputs import write
 
 
+def function_of(name: str) -> Callable:
+    """The function of a dotted name."""
+    module, _, last = name.rpartition(".")
+    return getattr(import_module(module), last)
+
+
 def main(job) -> None:
     """Do the job of a rule. A mistake of the user's or of the system is told in one line."""
-    module, _, name = job.params.function.rpartition(".")
-    function = getattr(import_module(module), name)
+    function = function_of(job.params.function)
     asked = inspect.signature(function).parameters
     files = {**dict(job.input.items()), **dict(job.output.items())}
     given = {name: path for name, path in files.items() if name in asked}
@@ -40,7 +46,8 @@ def main(job) -> None:
             write(Path(path), value, job.params.get("digits"))
     except (RecalibError, OSError) as error:
         sys.exit(f"{job.rule}: {error}")
-    print(f"{job.rule}: made {job.output[0]} in {time.perf_counter() - start:.1f} s", file=sys.stderr)
+    seconds = time.perf_counter() - start
+    print(f"{job.rule}: made {job.output[0]} in {seconds:.1f} s", file=sys.stderr)
 
 
 def into(log: Path) -> int:

@@ -6,11 +6,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from replication.judgement.contrasts import Estimand
+from replication.judgement.contrasts import Estimand, Values
 from replication.judgement.effects import strongest
 from replication.judgement.evidence import Evidence, NotMeasured
 from replication.judgement.findings import Finding, Number, number, spread
-from replication.judgement.hierarchy import Model
 from replication.judgement.verdicts import RATIO, Comparison, Verdict
 
 
@@ -84,7 +83,8 @@ class OfSetups:
 
     def judge(self, evidence: Evidence) -> Finding:
         """Raises NotMeasured: fewer than three setups have the number."""
-        its, unsettled = self.model(evidence)
+        values = self.values(evidence)
+        its, setups = values.model(), values.table.index
         numbers = [number(self.name, self.system, its.mean, its.another)]
         for (name, system), estimand in self.beside.items():
             other = estimand.values(evidence.outcomes()).model()
@@ -94,18 +94,18 @@ class OfSetups:
             *numbers,
             spread=spread(
                 its,
-                unsettled,
+                values.unsettled,
                 self.comparison.shares(its),
-                strongest(its.numbers, evidence.levels()),
+                strongest(its.numbers, evidence.levels().loc[setups]),
             ),
         )
 
-    def model(self, evidence: Evidence) -> tuple[Model, int]:
-        """The number over all setups, and how many searches have not converged."""
+    def values(self, evidence: Evidence) -> Values:
+        """The number in each setup. Raises NotMeasured, as `judge`."""
         values = self.estimand.values(evidence.outcomes())
         if len(values.table) < FEWEST:
             raise NotMeasured(f"campaign: {self.statement.id} in {FEWEST} setups")
-        return values.model(), values.unsettled
+        return values
 
 
 FEWEST = 3  # setups: fewer have no mean and heterogeneity

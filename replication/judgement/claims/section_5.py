@@ -30,7 +30,8 @@ def nearer(kind: str):
     """How to judge the paper's condition for what is propagated: theta or jacobian."""
 
     def judge(statement: Statement, evidence: Evidence) -> Finding:
-        tried = evidence.mapping("propagation").query("kind == @kind")
+        balls = evidence.mapping("propagation")
+        tried = balls[balls["kind"] == kind]
         table = tried.dropna()
         meets = table["to_original"] < EQUAL * table["to_constant"]
         better = table["updated"] < EQUAL * table["classic"]

@@ -149,5 +149,4 @@ def test_what_was_planted_is_found(study, world):
     random = np.random.default_rng(len(world))
     claim = next(its for its in claims(study) if its.statement.id == name)
     table = campaign(study, names, surface, effects + 0.03 * random.normal(size=SETUPS), 1)
-    model, _ = claim.model(Table(table))
-    assert claim.comparison.verdict(model) is verdict
+    assert claim.comparison.verdict(claim.values(Table(table)).model()) is verdict

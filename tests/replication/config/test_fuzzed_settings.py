@@ -4,34 +4,29 @@ Every part of the configuration is replaced by values that people mistype and ma
 is accepted must give a study all of whose jobs can be made.
 """
 
-import json
 import math
 import re
-from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
 import pytest
 
-from replication.running.checks.consistency import check
-from replication.running.checks.geometry import check_robots
+from replication.campaign.variants import needed, variants
 from replication.config.messages import InvalidConfiguration
 from replication.config.reading import read_study
 from replication.config.shipped import root_of
 from replication.config.study import Study
 from replication.config.values import from_file
-from replication.judgement.claims import judging
-from replication.judgement.needs import Request
-from replication.plots.registry import drawn
+from replication.pages.writing import pages_of
+from replication.plots.drawing import figures_of
+from replication.running.checks.consistency import check
+from replication.running.checks.geometry import check_robots
 from replication.running.studies import named_files
-from replication.training.chunks import bounds, chunks, searches_per_job
-from replication.training.competitors import MOVES, peers
-from replication.training.search import draw
-from replication.training.settings import rules_of
-from replication.training.trainings import Trainings, searches, seeds
-from replication.training.trainings import rules as rules_named
+from replication.scenarios.nominal import nominal
+from replication.training.plan import places
+from replication.training.settings import Space
+from replication.training.tuned import rules_of, trained
 from tests.conftest import ROOT
-from tests.rules import Rules
 
 pytestmark = pytest.mark.slow  # thousands of settings take a minute
 
@@ -110,7 +105,7 @@ def overlay(path, value):
     return overlay(parents, {last: value}) if parents else {last: value}
 
 
-OF_ROBOTS = {"robots", "controller", "paper_damage", "scenarios", "universes"}
+OF_ROBOTS = {"robot", "scenario", "robots", "controller", "paper_damage", "scenarios"}
 
 
 class Robots:
@@ -122,76 +117,35 @@ class Robots:
     def __call__(self, study: Study) -> list:
         parts = study.model_dump_json(include=OF_ROBOTS)
         its = study.real.robot, study.experiments.evidence, study.experiments.ensemble
-        scenarios = Trainings(study).scenarios()
-        same = parts, *scenarios, repr(its)
+        same = parts, *places(study), repr(its)
         if same not in self._said:
-            self._said[same] = check_robots(study, scenarios)
+            self._said[same] = check_robots(study)
         return self._said[same]
 
 
-def jobs_of(study: Study) -> Iterator[tuple[str, dict]]:
-    """A job of each kind for all that the study consists of: of many chunks, the ends."""
-    trainings, plan = Trainings(study), study.experiments
-    once = "design study_mapping study_visits summary benchmark_table real_table"
-    yield from ((rule, {}) for rule in once.split())
-    yield from (("assignments", {"robot": robot}) for robot in study.robots)
-    for scenario in trainings.scenarios():
-        yield "scenario", {"scenario": scenario}
-        yield "recording", {"recording": scenario}
-    for learner, scenario in {learner: scenario for scenario, learner in trainings.runs}.items():
-        for chunk in ends(seeds(study, learner), study.training.seeds_per_job):
-            yield "train", {"scenario": scenario, "learner": learner, "chunk": chunk}
-    for name in trainings.tuned():
-        last = ends(searches(study, name), searches_per_job(study, name))[1]
-        yield "search", {"training": name, "chunk": last}
-        yield "search_sample", {"training": name}
-    for learner, series in plan.ensemble.items():
-        for name, its in series.items():
-            last = ends(its.draws, plan.draws_per_job)[1]
-            yield "ensemble_chunk", {"series": name, "learner": learner, "chunk": last}
-    yield from (("benchmark_run", {"learner": learner}) for learner in study.benchmark.learners)
-    yield from (("real_data", {"part": part}) for part in ("fit", "test"))
-    yield from (("real_run", {"learner": learner}) for learner in study.real.learners)
-    yield from (("real_twin", {"learner": learner}) for learner in study.real.twin)
-
-
-def ends(total: int, size: int) -> tuple[int, int]:
-    """The first chunk and the last one, which hold all."""
-    numbers = chunks(total, size)
-    assert bounds(numbers[0], total, size)["first"] == 0
-    assert bounds(numbers[-1], total, size)["last"] == total
-    return numbers[0], numbers[-1]
-
-
-def assert_sense(study: Study, rules: Rules) -> None:
-    """All jobs can be made and travel, and what they would draw and measure is something."""
-    for rule, wildcards in jobs_of(study):
-        text = rules.text(study, rule, **wildcards)
-        assert "NaN" not in text and "Infinity" not in text
-        json.loads(text)
-    trainings = Trainings(study)
-
-    def request():
-        return Request(study, trainings, root_of(study.name), "search/{}.csv".format)
-
-    assert "figure2" in drawn(study, request)
-    if study.experiments.evidence:
-        assert judging(request)
-    its = study.training
-    for learner in {learner for _, learner in trainings.runs}:
-        iterations = rules_named(study, learner).iterations
-        few = its.model_copy(update={"measurements": min(its.measurements, 100)})
+def assert_sense(study: Study) -> None:
+    """A job gets the same study, and what it would train, draw and measure is something."""
+    text = study.model_dump_json()
+    assert "NaN" not in text and "Infinity" not in text
+    assert Study.model_validate_json(text) == study
+    root = root_of(study.name)
+    for place, learners in places(study).items():
+        assert learners and all(learners.values())
+        nominal(study, place.robot)
+        paths = [place.scenario_file(root), *(place.history_file(root, its) for its in learners)]
+        assert len(paths) == len({*paths})
+    few = study.training.model_copy(update={"measurements": min(study.training.measurements, 100)})
+    for learner, iterations in trained(study):
         grid = few.during(iterations)
         assert grid[0] == 0 and grid[-1] == iterations
-    for learner in study.benchmark.learners:
-        budgets = [*study.benchmark.moves, *study.benchmark.longer]
-        assert len(budgets) == len({*budgets})
-        if learner not in peers():
-            most = MOVES * rules_named(study, learner).iterations
-            assert [each for each in budgets if each % MOVES == 0 and each <= most]
-    learner = rules_of(next(iter(study.learners.values())))
-    trials = draw(learner, study.search.ranges.model_dump(), 2, np.random.default_rng(1))
-    assert (trials.to_numpy() > 1e-9).all() and np.isfinite(trials.to_numpy()).all()
+        space = Space(rules_of(study.every_learner[learner]), study.search.ranges)
+        middle = space.rows(np.full((1, len(space.coordinates)), 0.5))
+        assert (middle > 1e-9).all() and np.isfinite(middle).all()
+    assert "figure1" in figures_of(study) and pages_of(study)
+    for name, variant in variants(study).items():
+        assert needed(variant) or variant.lengths or variant.at_home, name
+    budgets = [*study.benchmark.moves, *study.benchmark.longer]
+    assert len(budgets) == len({*budgets})
 
 
 @pytest.fixture(scope="module")
@@ -204,7 +158,7 @@ def test_thousands_of_settings_are_tried():
 
 
 @pytest.mark.parametrize("key", TREE)
-def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, rules, monkeypatch):
+def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, monkeypatch):
     monkeypatch.chdir(ROOT)
     accepted, wrong = 0, []
     for path, value in settings(key):
@@ -212,7 +166,7 @@ def test_a_setting_is_refused_in_a_sentence_or_makes_sense(key, robots, rules, m
             study = read_study(
                 SHIPPED, overlay(path, value), checks=(check, partial(named_files, ROOT), robots)
             )
-            assert_sense(study, rules)
+            assert_sense(study)
             accepted += 1
         except InvalidConfiguration as error:
             unclear = [line for line in error.mistakes if not REFUSAL.fullmatch(line)]

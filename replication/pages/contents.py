@@ -1,0 +1,239 @@
+"""What the pages of a study show: results as objects, from which templates choose."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from replication.config.campaign import Factors
+from replication.config.shipped import root_of
+from replication.config.study import Study
+from replication.config.switches import IMPROVED
+from replication.judgement.claims import claims
+from replication.judgement.claims.claim import FEWEST, Claim, OfSetups, Statement
+from replication.judgement.contrasts import Remaining
+from replication.judgement.deviations import Deviations
+from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.findings import Finding, Number
+from replication.judgement.verdicts import Verdict
+from replication.pages.choices import Choice, alternatives, read_choices
+from replication.pages.formats import estimate, interval, percent, short
+from replication.pages.guidance import Benchmark
+from replication.training.competitors import label_of
+from replication.training.measured import ERRORS, KINDS, UNITS
+
+NOT_MEASURED = "not measured"
+SYSTEMS = {IMPROVED: "improved system"}
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A claim, and what was found about it.
+
+    Attributes:
+        statement: what the paper says.
+        finding: None if it was not measured.
+        needs: then, what would measure it.
+        shares: names and systems of those of its numbers that are shares of an error.
+    """
+
+    statement: Statement
+    finding: Finding | None
+    needs: str
+    shares: frozenset[tuple[str, str]]
+
+    @property
+    def verdict(self) -> str:
+        """In a word or two."""
+        return str(self.finding.verdict) if self.finding else NOT_MEASURED
+
+    @property
+    def slug(self) -> str:
+        """The anchor of its heading."""
+        return re.sub(r"[^a-z0-9 -]", "", self.statement.claim.lower()).replace(" ", "-")
+
+    @property
+    def number(self) -> Number | None:
+        """The one that decides."""
+        return self.finding.estimates[0] if self.finding else None
+
+    @property
+    def value(self) -> str:
+        """That number with its interval."""
+        return self.text(self.number) if self.number else NOT_MEASURED
+
+    @property
+    def result(self) -> str:
+        """That number with its name."""
+        return f"{_named(self.number.name)}: {self.value}" if self.number else NOT_MEASURED
+
+    def name(self, number: Number) -> str:
+        """What a number is, and of which algorithm."""
+        return f"{_named(number.name)} ({SYSTEMS.get(number.system, number.system)})"
+
+    def text(self, number: Number) -> str:
+        """A number with its interval."""
+        return estimate(number, self._form(number))
+
+    def predicted(self, number: Number) -> str:
+        """The interval of one more study."""
+        assert number.predictive_interval
+        return interval(number.predictive_interval, self._form(number))
+
+    def _form(self, number: Number) -> Callable[[float], str]:
+        return percent if (number.name, number.system) in self.shares else short
+
+
+class Contents:
+    """Everything that a template can show; it is computed when a page asks for it.
+
+    Args:
+        figures: files of figures. A page shows those that it knows.
+        project: the folder of the project.
+    """
+
+    def __init__(self, study: Study, figures: Mapping[str, Path], project: Path = Path()):
+        self.study, self.figures, self.project = study, figures, project
+        self.evidence = Evidence(study, project)
+        self.root = root_of(study.name)
+
+    @cached_property
+    def claims(self) -> dict[str, Judged]:
+        """All claims in the paper's order, by their ids."""
+        found = self.evidence.findings()
+        return {
+            claim.statement.id: self._judged(claim, found.get(claim.statement.id))
+            for claim in claims(self.study)
+        }
+
+    def _judged(self, claim: Claim, finding: Finding | None) -> Judged:
+        numbers = {}
+        if isinstance(claim, OfSetups):
+            numbers = {(claim.name, claim.system): claim.estimand, **claim.beside}
+        shares = frozenset(key for key, its in numbers.items() if isinstance(its, Remaining))
+        needs = "" if finding else self._needs(claim)
+        return Judged(claim.statement, finding, needs, shares)
+
+    def _needs(self, claim: Claim) -> str:
+        if isinstance(claim, OfSetups):
+            return f"the campaign, in at least {FEWEST} setups"
+        try:
+            claim.judge(self.evidence)
+        except NotMeasured as error:
+            return f"`{error}`"
+        return "a run of the rule `claims`"
+
+    @cached_property
+    def verdicts(self) -> dict[str, list[Judged]]:
+        """The claims by their verdicts; those that were not measured come last."""
+        names = [*map(str, Verdict), NOT_MEASURED]
+        found = {
+            name: [its for its in self.claims.values() if its.verdict == name] for name in names
+        }
+        return {name: its for name, its in found.items() if its}
+
+    @cached_property
+    def setups(self) -> int:
+        """Setups of the campaign that have been measured."""
+        try:
+            return int(self.evidence.outcomes()["setup"].nunique())
+        except NotMeasured:
+            return 0
+
+    @cached_property
+    def own(self) -> dict[str, Any]:
+        """The row of the improved system in the summary, for Figure 1."""
+        table = self.evidence.table("summary.csv").set_index(
+            ["robot", "scenario", "learner", "iterations"]
+        )
+        its = self.study
+        return table.loc[its.robot, its.scenario, IMPROVED, its.experiments.iterations].to_dict()
+
+    @cached_property
+    def errors(self) -> list[dict[str, str]]:
+        """Errors of the main learners on the study's own robot and scenario, in words."""
+        table = self.evidence.table("summary.csv")
+        own = (table["robot"] == self.study.robot) & (table["scenario"] == self.study.scenario)
+        main = self.study.experiments.learners
+        return [
+            {
+                "learner": label_of(row["learner"]),
+                "iterations": short(row["iterations"]),
+                "before": _pair(row, "initial"),
+                "after": _pair(row, "final"),
+            }
+            for row in table[own].to_dict("records")
+            if row["iterations"] in main.get(row["learner"], ())
+        ]
+
+    @cached_property
+    def damages(self) -> list[str]:
+        """The damages of the study's scenario as resolved: "link forearm_link, shorten 4 cm"."""
+        return [_words(entry) for entry in self.evidence.scenario()["damages"]]
+
+    @cached_property
+    def assignments(self) -> int:
+        """Assignments of the paper's damage to the study's robot that were tried."""
+        return len(self.evidence.table(f"assignments/{self.study.robot}.parquet"))
+
+    @cached_property
+    def choices(self) -> dict[str, Choice]:
+        """Keys of config.yaml with their values and reasons."""
+        return read_choices(self.project / "config.yaml")
+
+    @cached_property
+    def alternatives(self) -> list[Choice]:
+        """What the campaign's setups decide otherwise."""
+        return alternatives(self.study.campaign.factors, self.choices)
+
+    def factor(self, name: str) -> str:
+        """What a factor of the campaign is."""
+        return str(Factors.model_fields[name].description).rstrip(".").lower()
+
+    @cached_property
+    def deviations(self) -> Deviations:
+        """What changed after a result had been seen."""
+        return Deviations.read(self.project)
+
+    @cached_property
+    def benchmark(self) -> Benchmark:
+        """What one should use today. Raises NotMeasured."""
+        plan = self.study.benchmark
+        errors, reached = map(self.evidence.table, ("benchmark.csv", "benchmark_moves.csv"))
+        return Benchmark(errors, reached, min(plan.thresholds), plan.moves)
+
+    @cached_property
+    def real(self) -> pd.DataFrame:
+        """Errors on the real arm. Raises NotMeasured."""
+        return self.evidence.table("real.csv")
+
+
+def _named(name: str) -> str:
+    """The name of a number, with columns in words."""
+    for error, kind, unit in zip(ERRORS, KINDS, UNITS, strict=True):
+        name = name.replace(error, f"{kind} error [{unit}]")
+    return name
+
+
+def _pair(row: Mapping[str, Any], moment: str) -> str:
+    """Both errors of a row of the summary, before or after learning."""
+    errors = (row[f"{moment}_{error}"] for error in ERRORS)
+    return ", ".join(f"{short(its)} {unit}" for its, unit in zip(errors, UNITS, strict=True))
+
+
+def _words(entry: Mapping[str, Any]) -> str:
+    """A damage in the words of the configuration."""
+    return ", ".join(f"{key} {_text(value)}" for key, value in entry.items())
+
+
+def _text(value: Any) -> str:
+    match value:
+        case Mapping():
+            return _words(value)
+        case list():
+            return " ".join(map(str, value))
+    return str(value)

@@ -1,0 +1,63 @@
+"""Writes the pages of a study from their templates: no measured number in them is typed."""
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from recalib.files.storage import whole
+from replication.config.shipped import SHIPPED
+from replication.config.study import Study
+from replication.pages import formats, guidance
+from replication.pages.contents import Contents
+
+TEMPLATES = "workflow/templates"
+OUTCOME = "outcome.txt"  # what a run prints when it ends
+EVERYWHERE = (OUTCOME, "findings.md")
+OF_SHIPPED = ("README.md", "index.md", "choices.md", "deviations.md", "article.typ")
+MARKUP = re.compile(r"[\\*_`$#@<>\[\]~]|//")  # of Typst: in a result it is text
+
+
+def pages_of(study: Study) -> list[str]:
+    """The pages that a run of a study writes."""
+    return [*EVERYWHERE, *(OF_SHIPPED if study.name == SHIPPED else ())]
+
+
+def write(
+    study: Study,
+    pages: Sequence[Path],
+    figures: Sequence[Path] = (),
+    project: Path = Path(),
+) -> None:
+    """Write pages, each from the template of its name.
+
+    Args:
+        figures: of the study; a page shows those that it knows.
+        project: the folder of the project.
+    """
+    contents = Contents(study, {path.stem: path for path in figures}, project)
+    for path in pages:
+        text = render(path.name, contents)
+        with whole(path) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+
+
+def render(page: str, contents: Contents) -> str:
+    """The text of a page."""
+    environment = Environment(
+        loader=FileSystemLoader(contents.project / TEMPLATES),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        finalize=_escaped if page.endswith(".typ") else None,
+    )
+    environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
+    environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
+    return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
+
+
+def _escaped(value: object) -> object:
+    """A value whose signs are no markup of Typst."""
+    return MARKUP.sub(lambda sign: "\\" + "\\".join(sign[0]), str(value))

@@ -1,0 +1,30 @@
+"""Imports point one way (`[tool.importlinter]` in pyproject.toml), and those that wait are light."""
+
+import tomllib
+
+import pytest
+from importlinter.cli import lint_imports
+
+from replication.running.layers import LAYERS
+from tests.conftest import ROOT, loaded_with
+
+# Each takes a tenth of a second or more to import: who waits for it needs it.
+HEAVY = {"cv2", "jinja2", "matplotlib", "mujoco", "numba", "numpy", "pandas", "pinocchio", "rerun"}
+HEAVY |= {"scipy.optimize", "scipy.spatial", "scipy.stats", "sklearn", "snakemake"}
+
+
+def test_imports_point_one_way(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert lint_imports(no_cache=True) == 0
+
+
+def test_a_job_runs_again_if_the_code_below_it_changes():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    contracts = {its["name"]: its for its in project["tool"]["importlinter"]["contracts"]}
+    order = contracts["The replication, from pages down to the study"]["layers"]
+    assert [*LAYERS] == ["recalib", *(f"replication.{layer}" for layer in reversed(order[1:]))]
+
+
+@pytest.mark.parametrize("name", ["recalib", "recalib.laboratory.command_line"])
+def test_what_is_imported_first_waits_for_nothing(name):
+    assert loaded_with(f"import {name}", HEAVY) == set()
