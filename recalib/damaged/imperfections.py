@@ -83,37 +83,51 @@ class Imperfection:
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> "CoreSchema":
-        from pydantic_core import core_schema
+        from pydantic_core import PydanticCustomError, core_schema
 
         if cls is not Imperfection:
             schema: CoreSchema = handler(source)
             return schema
+
+        def known(value: Any) -> Any:
+            if _kind_of(value) is None:
+                forms = listed(_forms(value), "or")
+                raise PydanticCustomError("kind", f"one of {forms}")
+            return value
+
         for module in iter_modules(recalib.damaged.__path__):
             import_module(f"recalib.damaged.{module.name}")  # its kinds are known from then on
-        kinds = sorted({*cls.kinds.values()}, key=lambda kind: kind.__name__)
-        return core_schema.tagged_union_schema(
-            {kind.__name__: handler.generate_schema(kind) for kind in kinds},
-            _kind_of,
-            custom_error_type="kind",
-            custom_error_message=f"one of {listed(map(_form, kinds), 'or')}",
-        )
+        choices = {kind.__name__: handler.generate_schema(kind) for kind in _kinds()}
+        union = core_schema.tagged_union_schema(choices, _kind_of)
+        return core_schema.no_info_before_validator_function(known, union)
+
+
+def _kinds() -> list[type[Imperfection]]:
+    return sorted({*Imperfection.kinds.values()}, key=lambda kind: kind.__name__)
 
 
 def _kind_of(value: Any) -> str | None:
     """The kind that a value is or, by the first of its keys that is a word or nearly, means."""
-    if not isinstance(value, Mapping):
-        return type(value).__name__
     kinds = Imperfection.kinds
+    if isinstance(value, Imperfection):
+        return type(value).__name__
+    if not isinstance(value, Mapping):
+        return None
     exact = next((key for key in value if key in kinds), None)
     meant = exact or next(filter(None, (nearest(str(key), kinds) for key in value)), None)
     return kinds[meant].__name__ if meant else None
 
 
-def _form(kind: type[Imperfection]) -> str:
-    """The keys of a kind as they are written, without those that have a default unless all have."""
-    keys = [field.name for field in fields(kind)]
-    needed = [field.name for field in fields(kind) if field.default is MISSING]
-    return f"{{{', '.join(needed or keys)}}}"
+def _forms(value: Any) -> list[str]:
+    """The keys that kinds need, those with a key of this value if there are such kinds."""
+    keys = {kind: [field.name for field in fields(kind)] for kind in _kinds()}
+    given = {*value} if isinstance(value, Mapping) else set()
+    alike = [kind for kind, its in keys.items() if given.intersection(its)]
+    needed = {
+        kind: [field.name for field in fields(kind) if field.default is MISSING] or keys[kind]
+        for kind in alike or keys
+    }
+    return [f"{{{', '.join(its)}}}" for its in needed.values()]
 
 
 def _notes(hint: Any) -> Iterator[Any]:

@@ -24,7 +24,7 @@ MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 n
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _meanings, _amounts, _evidence):
+    for kind in (_robot, _names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
@@ -36,12 +36,18 @@ def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
     return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}
 
 
+def _robot(study: Study) -> Iterator[Mistake]:
+    """A robot that does not exist: which learners there are follows from its workspace."""
+    if study.robot not in study.robots:
+        yield unknown(("robot",), study.robot, study.robots)
+
+
 def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     papers = list(study.every_learner)
     found: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
-        ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
+        ({("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
         (_places(("campaign", "factors", "robot"), study.campaign.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
