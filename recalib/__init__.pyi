@@ -1,5 +1,7 @@
 """The public names, each with its home; `recalib/__init__.py` reads them here."""
 
+from recalib.damaged.bending import LinkBend as LinkBend
+from recalib.damaged.bending import LinkTwist as LinkTwist
 from recalib.damaged.damage import BaseShift as BaseShift
 from recalib.damaged.damage import DamagedArm as DamagedArm
 from recalib.damaged.damage import EncoderShift as EncoderShift

@@ -6,21 +6,18 @@ These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Self, get_args
+from typing import Literal, Self, get_args
 
 import numpy as np
+import pinocchio as pin
+from scipy.spatial.transform import Rotation
 
-from recalib.damaged.words import Described, said, words
+from recalib.damaged.imperfections import Imperfection, Joint, Link
 from recalib.errors import InvalidSetting, UnknownName
-from recalib.files.quantities import ANGLE, LENGTH
-
-# Pinocchio and SciPy take a second, and whoever only reads a configuration needs neither of them:
-# they are imported where an arm is made.
-if TYPE_CHECKING:
-    from recalib.nominal.chain import Chain
-    from recalib.nominal.kinematics import Arm
-    from recalib.nominal.robots import Robot
-
+from recalib.files.bounded import Amount, Length, SignedTurn
+from recalib.nominal.chain import Chain
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.robots import Robot, link_end
 
 Along = Literal["line", "axis"]  # in which a link is shortened
 
@@ -38,7 +35,7 @@ class DamagedArm:
             that hold the arm against gravity there: what each adds to these angles.
     """
 
-    arm: "Arm"
+    arm: Arm
     offsets: np.ndarray
     deflections: list[Callable[[np.ndarray, np.ndarray], np.ndarray]] = field(default_factory=list)
 
@@ -51,13 +48,11 @@ class DamagedArm:
         return self.chain.forward(self._deflected(angles)[None])[0]
 
     @cached_property
-    def chain(self) -> "Chain":
+    def chain(self) -> Chain:
         """Its kinematics, at angles that encoders report if nothing gives way.
 
         Once all damages are done.
         """
-        from recalib.nominal.chain import Chain
-
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
@@ -80,10 +75,10 @@ class DamagedArm:
 
 
 @dataclass(frozen=True)
-class Damage(Described):
-    """Anything that can happen to an arm. A new one is a class like these, listed in `kinds`."""
+class Damage(Imperfection):
+    """Anything that can happen to an arm. A new kind is a class in a module of this package."""
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         """Do it to the damaged arm; `robot` is the nominal one, which stays as it is.
 
         Raises UnknownName (link, joint) and InvalidSetting (more than the robot can lose).
@@ -93,91 +88,77 @@ class Damage(Described):
     def scaled(self, factor: float) -> Self:
         """This damage, `factor` times as large."""
         grown = {}
-        for name, word in words(type(self)).items():
+        for name in self.amounts():
             value = getattr(self, name)
-            if word.grows:
-                several = isinstance(value, tuple)
-                grown[name] = tuple(x * factor for x in value) if several else value * factor
+            several = isinstance(value, tuple)
+            grown[name] = tuple(x * factor for x in value) if several else value * factor
         return replace(self, **grown)
 
 
 @dataclass(frozen=True)
-class BaseShift(Damage):
+class BaseShift(Damage, words=("translate", "rotate")):
     """The whole robot moved in the world, which the controller does not notice."""
 
-    translation: tuple[float, float, float] = said(
-        "translate",
-        "Of the whole robot along the base's x, y and z.",
-        LENGTH,
-        signed=True,
-        default=(0.0, 0.0, 0.0),
-    )
-    rotation: tuple[float, float, float] = said(
-        "rotate",
-        "Of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx.",
-        ANGLE,
-        signed=True,
-        default=(0.0, 0.0, 0.0),
-    )
+    translate: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    """Of the whole robot along the base's x, y and z."""
+    rotate: tuple[SignedTurn, SignedTurn, SignedTurn] = (0.0, 0.0, 0.0)
+    """Of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx."""
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        import pinocchio as pin
-        from scipy.spatial.transform import Rotation
-
-        turn = Rotation.from_euler("xyz", self.rotation).as_matrix()
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
+        turn = Rotation.from_euler("xyz", self.rotate).as_matrix()
         placements = damaged.arm.model.jointPlacements
-        placements[1] = pin.SE3(turn, np.array(self.translation)) * placements[1]
+        placements[1] = pin.SE3(turn, np.array(self.translate)) * placements[1]
 
 
 @dataclass(frozen=True)
-class LinkShortening(Damage):
+class LinkShortening(Damage, words=("shorten",)):
     """A link shortened between its joints (the last: joint and tool)."""
 
-    link: str = said("link", "A link of the robot.")
-    length: float = said("shorten", "Length taken off.", LENGTH)
-    along: Along = said(  # noqa: RUF009  # that makes a field
-        "along",
-        "The straight line between its joints, or the axis of its frame along which it is longest.",
-        default="line",
-    )
+    link: Link
+    shorten: Amount
+    """Length taken off."""
+    along: Along = "line"
+    """The straight line between its joints, or the axis of its frame along which it is longest."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.along not in get_args(Along):
             raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        from recalib.nominal.robots import link_end
-
-        if self.link not in robot.links:
-            raise UnknownName(f"link of {robot.name}", self.link, robot.links)
-        end = link_end(damaged.arm.model, damaged.arm.tool, robot.links[self.link])
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
+        end = end_of(robot, self.link, damaged).translation
         longest = np.abs(end).argmax()
         part = end if self.along == "line" else end[longest : longest + 1]
         whole = np.linalg.norm(part)
-        if self.length >= whole:
+        if self.shorten >= whole:
             valid = f"from 0 to below {whole * 100:.2f} cm, its length"
-            raise InvalidSetting(f"shorten of {self.link}", f"{self.length * 100:g} cm", valid)
-        part *= 1 - self.length / whole
+            raise InvalidSetting(f"shorten of {self.link}", f"{self.shorten * 100:g} cm", valid)
+        part *= 1 - self.shorten / whole
 
 
 @dataclass(frozen=True)
-class EncoderShift(Damage):
+class EncoderShift(Damage, words=("encoder", "shift")):
     """An encoder that reports an angle with a constant error."""
 
-    joint: str = said("encoder", "A joint of the robot.")
-    angle: float = said(
-        "shift",
-        "Angle by which the joint stands beyond what its encoder reports.",
-        ANGLE,
-        signed=True,
-    )
+    encoder: Joint
+    shift: SignedTurn
+    """Angle by which the joint stands beyond what its encoder reports."""
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        damaged.offsets[joint_index(robot, self.joint)] += self.angle
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
+        damaged.offsets[joint_index(robot, self.encoder)] += self.shift
 
 
-def joint_index(robot: "Robot", joint: str) -> int:
+def end_of(robot: Robot, link: str, damaged: DamagedArm) -> pin.SE3:
+    """Where a link ends in the frame of the joint that moves it; changing it changes the arm.
+
+    Raises UnknownName.
+    """
+    if link not in robot.links:
+        raise UnknownName(f"link of {robot.name}", link, robot.links)
+    return link_end(damaged.arm.model, damaged.arm.tool, robot.links[link])
+
+
+def joint_index(robot: Robot, joint: str) -> int:
     """Which joint of the robot has this name. Raises UnknownName: none, or one that slides."""
     turning = [
         name for name, slides in zip(robot.joints, robot.arm.slides, strict=True) if not slides
@@ -187,7 +168,7 @@ def joint_index(robot: "Robot", joint: str) -> int:
     return robot.joints.index(joint)
 
 
-def apply(robot: "Robot", damages: Iterable[Damage]) -> DamagedArm:
+def apply(robot: Robot, damages: Iterable[Damage]) -> DamagedArm:
     """The arm of the nominal robot with the damages done to it, one after the other.
 
     Raises what they raise: see `Damage.apply`.

@@ -5,54 +5,54 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from recalib.damaged.words import Described, said
+from recalib.damaged.imperfections import Imperfection
 from recalib.errors import InvalidSetting
-from recalib.files.quantities import ANGLE, LENGTH
+from recalib.files import bounded
 
 
 @dataclass(frozen=True)
-class Noise(Described):
+class Noise(Imperfection, words=("position_noise", "orientation_noise")):
     """Standard deviations of each measurement of a pose."""
 
-    under = "noise"
-    position: float = said("position", "Along each axis.", LENGTH)
-    orientation: float = said("orientation", "About each axis.", ANGLE)
+    position_noise: bounded.Noise = 0.0
+    """Along each axis."""
+    orientation_noise: bounded.NoiseOfTurn = 0.0
+    """About each axis."""
 
 
 @dataclass(frozen=True)
-class Repeatability(Described):
+class Repeatability(Imperfection, words=("repeatability",)):
     """An arm that does not stop where it should."""
 
-    angle: float = said(
-        "repeatability", "Standard deviation of the angle at which each joint stops.", ANGLE
-    )
+    repeatability: bounded.NoiseOfTurn = 0.0
+    """Standard deviation of the angle at which each joint stops."""
 
 
 @dataclass(frozen=True)
-class Outliers(Described):
-    """Measurements that are grossly wrong, in a random direction. Raises InvalidSetting."""
+class Outliers(Imperfection, words=("outlier_share", "outlier_size")):
+    """Measurements that are grossly wrong, in a random direction."""
 
-    under = "outliers"
-    share: float = said("share", "Of all measurements.")
-    size: float = said("size", "By how much they miss the true position.", LENGTH)
+    outlier_share: bounded.Share = 0.0
+    """Of all measurements."""
+    outlier_size: bounded.Amount = 0.0
+    """By how much they miss the true position."""
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.share > 1:
-            raise InvalidSetting("Outliers.share", self.share, "from 0 to 1")
+
+Disturbance = Noise | Repeatability | Outliers
 
 
 @dataclass(frozen=True)
 class Disturbances:
     """Random errors of a move and of its measurement; none unless given."""
 
-    noise: Noise = Noise(0.0, 0.0)
-    repeatability: Repeatability = Repeatability(0.0)
-    outliers: Outliers = Outliers(0.0, 0.0)
+    noise: Noise = Noise()
+    repeatability: Repeatability = Repeatability()
+    outliers: Outliers = Outliers()
 
     @classmethod
-    def of(cls, parts: Iterable[Noise | Repeatability | Outliers]) -> "Disturbances":
+    def of(cls, parts: Iterable[Disturbance]) -> "Disturbances":
         """Those that are among the parts. Raises InvalidSetting: two of a kind."""
         by_name: dict[str, Any] = {}
         for part in parts:
@@ -71,7 +71,7 @@ class Disturbances:
             generators: one for each run.
             shape: how many moves and joints.
         """
-        return self.repeatability.angle * np.stack(
+        return self.repeatability.repeatability * np.stack(
             [generator.standard_normal(shape) for generator in generators]
         )
 
@@ -81,8 +81,6 @@ class Disturbances:
         Args:
             generators: one for each run.
         """
-        from scipy.spatial.transform import Rotation
-
         moves = poses.shape[1]
         # Every number is drawn, also where its size is zero: runs that differ in one size share
         # all other numbers.
@@ -90,10 +88,11 @@ class Disturbances:
             (rng.standard_normal((3, moves, 3)), rng.uniform(size=(moves, 1))) for rng in generators
         ]
         shift, turn, direction = np.stack([normal for normal, _ in draws], axis=1)
-        is_outlier = np.stack([uniform for _, uniform in draws]) < self.outliers.share
-        gross = self.outliers.size * direction / np.linalg.norm(direction, axis=-1, keepdims=True)
+        is_outlier = np.stack([uniform for _, uniform in draws]) < self.outliers.outlier_share
+        direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+        gross = self.outliers.outlier_size * direction
         measured = poses.copy()
-        measured[..., :3, 3] += self.noise.position * shift + np.where(is_outlier, gross, 0.0)
-        turns = Rotation.from_rotvec(self.noise.orientation * turn.reshape(-1, 3)).as_matrix()
+        measured[..., :3, 3] += self.noise.position_noise * shift + np.where(is_outlier, gross, 0.0)
+        turns = Rotation.from_rotvec(self.noise.orientation_noise * turn.reshape(-1, 3)).as_matrix()
         measured[..., :3, :3] = turns.reshape(measured[..., :3, :3].shape) @ poses[..., :3, :3]
         return measured

@@ -6,28 +6,26 @@ another and with the damages of `recalib.damaged.damage` through its `apply`.
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from recalib.damaged.damage import Damage, DamagedArm, joint_index
-from recalib.damaged.words import said
-from recalib.files.quantities import ANGLE, COMPLIANCE
-
-if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
+from recalib.damaged.imperfections import Joint
+from recalib.files.bounded import Compliance, Direction, Turn
+from recalib.nominal.robots import Robot
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
 # vertical axis, no load.
 NO_LOAD = 1e-6
 
 
+@dataclass(frozen=True)
 class Deflection(Damage):
     """A joint that stands off by an angle of its own angle and of the torque that it holds."""
 
-    joint: str
+    joint: Joint
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
         damaged.deflections.append(partial(self._deflections, joint_index(robot, self.joint)))
 
     def _deflections(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
@@ -41,32 +39,31 @@ class Deflection(Damage):
 
 
 @dataclass(frozen=True)
-class EccentricGear(Deflection):
-    """A gear out of centre: its joint is wrong by amplitude * sin(angle + phase)."""
+class EccentricGear(Deflection, words=("eccentricity",)):
+    """A gear out of centre: its joint is wrong by eccentricity * sin(angle + phase)."""
 
-    joint: str = said("gear", "A joint of the robot.")
-    amplitude: float = said(
-        "eccentricity", "Amplitude of its error, which goes as the sine of its angle.", ANGLE
-    )
-    phase: float = said("phase", "Of that sine.", ANGLE, signed=True, grows=False, default=0.0)
+    eccentricity: Turn
+    """Amplitude of its error, which goes as the sine of its angle."""
+    phase: Direction = 0.0
+    """Of that sine."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
-        return self.amplitude * np.sin(angles + self.phase)
+        return self.eccentricity * np.sin(angles + self.phase)
 
 
 @dataclass(frozen=True)
-class Sag(Deflection):
+class Sag(Deflection, words=("compliance",)):
     """A joint that gives way to gravity in proportion to the torque that it holds."""
 
-    joint: str = said("sag", "A joint of the robot.")
-    compliance: float = said("compliance", "By how much it gives way to gravity.", COMPLIANCE)
+    compliance: Compliance
+    """By how much it gives way to gravity."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         return -self.compliance * torques
 
 
 @dataclass(frozen=True)
-class Backlash(Deflection):
+class Backlash(Deflection, words=("gap",)):
     """A gap in a gear: gravity pushes the joint to one side, by half the gap.
 
     Gravity decides rather than the last motion, so that the achieved pose is a function of the
@@ -74,8 +71,8 @@ class Backlash(Deflection):
     load (a vertical axis) rests in the middle.
     """
 
-    joint: str = said("backlash", "A joint of the robot.")
-    gap: float = said("gap", "From one side of the gear's gap to the other.", ANGLE)
+    gap: Turn
+    """From one side of the gear's gap to the other."""
 
     def deflection(self, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         loaded = np.abs(torques) > NO_LOAD

@@ -64,16 +64,17 @@ def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
     )
 
 
-def link_end(model: pin.Model, tool: str, joint: int) -> np.ndarray:
-    """Where the link after `joint` ends, (3,) in m in that joint's frame: a writable view."""
+def link_end(model: pin.Model, tool: str, joint: int) -> pin.SE3:
+    """Where the link after `joint` ends in its frame [m]; to change it is to change the model."""
     if joint < model.njoints - 1:
-        return model.jointPlacements[joint + 1].translation
-    return model.frames[tool_frame(model, tool)].placement.translation
+        return model.jointPlacements[joint + 1]
+    return model.frames[tool_frame(model, tool)].placement
 
 
 def _lengthen(arm: Arm, beyond: float) -> None:
     """Move the tool's frame outwards along the last joint's axis: its own axes differ by URDF."""
-    end, axis = link_end(arm.model, arm.tool, arm.model.njoints - 1), arm.axes[-1]
+    end = link_end(arm.model, arm.tool, arm.model.njoints - 1).translation
+    axis = arm.axes[-1]
     end += math.copysign(beyond, end @ axis) * axis
 
 

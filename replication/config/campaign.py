@@ -6,6 +6,7 @@ reference study.
 
 from typing import Literal
 
+from recalib.files.bounded import Size, Turn
 from replication.config.part import Part
 from replication.config.units import (
     Count,
@@ -15,10 +16,8 @@ from replication.config.units import (
     Scale,
     Seed,
     Several,
-    Size,
     SomeDistinct,
     Times,
-    Turn,
 )
 
 

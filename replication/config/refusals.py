@@ -40,9 +40,9 @@ def refusals(error: ValidationError, whole: Any) -> list[Mistake]:
         name = str(last)
         path, schema = find(parents if last == KEY else refusal["loc"])
         match refusal["type"]:
-            case "extra_forbidden" if name[:1].isdigit():
+            case "extra_forbidden" | "unexpected_keyword_argument" if name[:1].isdigit():
                 found[path] = Mistake(path, ": a comma ended the number before; expected: a point")
-            case "extra_forbidden":
+            case "extra_forbidden" | "unexpected_keyword_argument":
                 valid = keys(find(parents)[1])
                 meant.add((*path[:-1], nearest(name, valid)))
                 found[path] = Mistake(path, f": unknown key; {instead(name, valid)}")

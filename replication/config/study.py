@@ -12,13 +12,12 @@ from typing import Annotated, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from recalib.files.bounded import Amount, Angle, Range, Side, Size, Turn
 from replication.config.campaign import Campaign, Ranges
 from replication.config.damages import Entry
 from replication.config.part import Part
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.config.units import (
-    Amount,
-    Angle,
     Checksum,
     Count,
     Distinct,
@@ -27,19 +26,15 @@ from replication.config.units import (
     Name,
     Number,
     Ordered,
-    Range,
     Scale,
     Seed,
     SeriesName,
     Several,
-    Side,
-    Size,
     SomeDistinct,
     StudyName,
     Switch,
     Text,
     Times,
-    Turn,
     Url,
 )
 
@@ -58,7 +53,7 @@ class WorkspaceSettings(Part):
 
     def scale_to(self, other: Self) -> float:
         """How large this one is, where the other is 1: the cube root of the ratio of volumes."""
-        return round((math.prod(self.position) / math.prod(other.position)) ** (1 / 3), 4)
+        return round(math.cbrt(math.prod(self.position) / math.prod(other.position)), 4)
 
 
 class RobotSettings(Part):

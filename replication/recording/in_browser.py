@@ -37,9 +37,9 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
     for damage in damages_among(resolved.damages):
         match damage:
             case LinkShortening():
-                amounts[damage.link] = damage.length
+                amounts[damage.link] = damage.shorten
             case EncoderShift():
-                amounts[damage.joint] = damage.angle
+                amounts[damage.encoder] = damage.shift
     rules = rules_of(study.every_learner[IMPROVED])
     described = {
         "robot": _described(robot, links),

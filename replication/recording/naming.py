@@ -2,8 +2,10 @@
 
 from typing import Any
 
-from recalib.damaged.damage import LinkShortening
+from recalib.damaged.damage import EncoderShift, LinkShortening
 from replication.config.damages import Entry, describe
+
+PARTS = "link", "joint", "encoder"  # keys of what a damage is at
 
 
 def link_of(entry: Entry) -> str:
@@ -13,7 +15,7 @@ def link_of(entry: Entry) -> str:
 
 def joint_of(entry: Entry) -> str:
     """The joint that a damage is at; empty if it is at none."""
-    return getattr(entry, "joint", "")
+    return getattr(entry, "joint", "") or getattr(entry, "encoder", "")
 
 
 def name(part: str) -> str:
@@ -23,18 +25,16 @@ def name(part: str) -> str:
 
 def in_words(entry: Entry) -> str:
     """A damage or disturbance: where it is, what it is, and by how much."""
-    words = describe(entry)
-    if not (part := link_of(entry) or joint_of(entry)):
-        return _joined(words)
-    (key, _), (_, value), *details = words.items()
-    amount = f"{value} short" if isinstance(entry, LinkShortening) else f"{key} {value}"
-    return f"{name(part)}: {', '.join(filter(None, [amount, _joined(dict(details))]))}"
+    words = {key: _value(value) for key, value in describe(entry).items() if key not in PARTS}
+    said = [f"{key.replace('_', ' ')} {value}" for key, value in words.items()]
+    match entry:
+        case LinkShortening():
+            said[0] = f"{words['shorten']} short"
+        case EncoderShift():
+            said[0] = f"encoder {words['shift']}"
+    part = link_of(entry) or joint_of(entry)
+    return f"{name(part)}: {', '.join(said)}" if part else ", ".join(said)
 
 
-def _joined(words: Any) -> str:
-    match words:
-        case dict():
-            return ", ".join(f"{key} {_joined(value)}" for key, value in words.items())
-        case list():
-            return ", ".join(words)
-    return str(words)
+def _value(value: Any) -> str:
+    return ", ".join(value) if isinstance(value, list) else str(value)

@@ -100,11 +100,8 @@ def layers_of(source: Source, known: Sequence[Path]) -> list[Placed]:
             raise _refused(like, unlike((LIKE,), stood, f"one of {listed(valid, 'and')}"))
     own = {"name": Path(str(its.place[0])).stem, "expected": None}
     said = {key: value for key, value in its.content.items() if key != LIKE}
-    return [
-        *layers_of(other, [*valid.values()]),
-        from_mapping(own, its.place[:1]),
-        Placed(said, its.place),
-    ]
+    said = from_mapping(own, its.place[:1]).content | said
+    return [*layers_of(other, [*valid.values()]), Placed(said, its.place)]
 
 
 def _refused(value: Placed, mistake: Mistake) -> InvalidConfiguration:

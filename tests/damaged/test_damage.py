@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib.damaged.bending import LinkBend
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
-from recalib.damaged.kinds import DAMAGES, DISTURBANCES
-from recalib.damaged.nongeometric import EccentricGear
-from recalib.damaged.words import words
+from recalib.damaged.imperfections import Imperfection
+from recalib.damaged.nongeometric import Backlash, EccentricGear
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.robots import link_end
 
@@ -21,12 +21,12 @@ def test_the_whole_robot_moved_moves_every_pose(robot):
     shift = np.eye(4)
     shift[:3, :3] = Rotation.from_euler("xyz", [0.1, -0.2, 0.3]).as_matrix()
     shift[:3, 3] = 0.01, -0.02, 0.03
-    damaged = apply(robot, [BaseShift(translation=(0.01, -0.02, 0.03), rotation=(0.1, -0.2, 0.3))])
+    damaged = apply(robot, [BaseShift(translate=(0.01, -0.02, 0.03), rotate=(0.1, -0.2, 0.3))])
     assert np.allclose(damaged.forward(ANGLES), shift @ robot.arm.forward(ANGLES))
 
 
 def test_base_shifts_follow_each_other(robot):
-    damages = [BaseShift(rotation=(0, 0, np.pi / 2)), BaseShift(translation=(1, 0, 0))]
+    damages = [BaseShift(rotate=(0, 0, np.pi / 2)), BaseShift(translate=(1, 0, 0))]
     moved = apply(robot, damages).forward(ANGLES)[:, :3, 3]
     turned = apply(robot, damages[:1]).forward(ANGLES)[:, :3, 3]
     assert np.allclose(moved - turned, [1, 0, 0])
@@ -59,7 +59,8 @@ def test_a_link_loses_its_length_and_nothing_else_changes(robot, link, whole):
 )
 def test_a_link_may_lose_its_length_along_an_axis(robot, link, before, after):
     damaged = apply(robot, [LinkShortening(link, 0.04, "axis")])
-    ends = [link_end(arm.model, "tool0", robot.links[link]) for arm in (robot.arm, damaged.arm)]
+    arms = robot.arm, damaged.arm
+    ends = [link_end(arm.model, "tool0", robot.links[link]).translation for arm in arms]
     assert np.allclose(ends, [before, after])
     with pytest.raises(
         InvalidSetting, match=r"61\.2 cm.*; expected: from 0 to below (61.20|9.22) cm"
@@ -98,6 +99,7 @@ def test_unknown_names_are_refused_with_the_known_ones(robot, damage):
     [
         (BaseShift((1.0, 2.0, 0.0)), BaseShift((2.0, 4.0, 0.0))),
         (EccentricGear("elbow_joint", 0.1, 0.3), EccentricGear("elbow_joint", 0.2, 0.3)),
+        (LinkBend("forearm_link", 0.1, 0.3), LinkBend("forearm_link", 0.2, 0.3)),
     ],
 )
 def test_a_damage_twice_as_large_has_twice_its_amounts(damage, twice):
@@ -105,25 +107,23 @@ def test_a_damage_twice_as_large_has_twice_its_amounts(damage, twice):
     assert damage.scaled(1) == damage
 
 
-def test_every_damage_has_words_of_its_own():
-    said = [word.key for kind in DAMAGES for word in words(kind).values()]
-    assert len(set(said)) == len(said)
+def test_no_two_kinds_have_the_same_words():
+    with pytest.raises(TypeError, match="Dent: LinkBend has bend, too"):
+
+        class Dent(Imperfection, words=("bend",)):
+            """A kind that a reader would take for a bent link."""
 
 
-def test_what_may_be_negative_and_what_grows_with_a_damage():
-    all_words = {
-        word.key: word for kind in (*DAMAGES, *DISTURBANCES) for word in words(kind).values()
-    }
-    signed = {key for key, word in all_words.items() if word.signed}
-    constant = {key for key, word in all_words.items() if not word.grows}
-    assert signed == {"translate", "rotate", "shift", "phase"}
-    names = {"link", "along", "encoder", "gear", "sag", "backlash", "phase", "share"}
-    assert constant == names
-
-
-@pytest.mark.parametrize("amount", [np.nan, np.inf, -np.inf])
-def test_what_may_be_negative_must_be_finite(amount):
-    with pytest.raises(InvalidSetting, match=r"EncoderShift\.angle is .*; expected: finite$"):
+@pytest.mark.parametrize("amount", [np.nan, np.inf, -np.inf, 3.2, -3.2])
+def test_angles_beyond_half_a_turn_are_refused(amount):
+    with pytest.raises(InvalidSetting, match=r"EncoderShift\.shift is .*: an angle from"):
         EncoderShift("elbow_joint", amount)
-    with pytest.raises(InvalidSetting, match=r"BaseShift\.rotation is .*; expected: finite$"):
-        BaseShift(rotation=(0.0, 0.0, amount))
+    with pytest.raises(InvalidSetting, match=r"BaseShift\.rotate is .* -180 to 180 deg, in rad$"):
+        BaseShift(rotate=(0.0, 0.0, amount))
+
+
+def test_amounts_of_each_kind_have_bounds_of_their_own():
+    with pytest.raises(InvalidSetting, match=r"shorten is -0\.01; .* from 0 to 100 m, in m"):
+        LinkShortening("forearm_link", -0.01)
+    with pytest.raises(InvalidSetting, match=r"gap is 3\.2; expected: an angle from 0 to 180 deg"):
+        Backlash("elbow_joint", 3.2)

@@ -119,11 +119,11 @@ def test_what_a_run_meets_is_of_its_own_generator_alone(controller, damaged, com
 @pytest.mark.parametrize(
     ("kind", "sizes", "message"),
     [
-        (Noise, (-1e-4, 0.0), "Noise.position is -0.0001; expected: a finite number from 0 on"),
-        (Noise, (0.0, np.nan), "Noise.orientation is nan"),
-        (Repeatability, (np.inf,), "Repeatability.angle is inf"),
-        (Outliers, (1.1, 0.05), "Outliers.share is 1.1; expected: from 0 to 1"),
-        (Outliers, (0.1, -0.05), "Outliers.size is -0.05"),
+        (Noise, (-1e-4, 0.0), "position_noise is -0.0001; expected: a length from 0 to 10 cm"),
+        (Noise, (0.0, np.nan), "Noise.orientation_noise is nan"),
+        (Repeatability, (np.inf,), "Repeatability.repeatability is inf"),
+        (Outliers, (1.1, 0.05), "outlier_share is 1.1; expected: a number from 0 to 1"),
+        (Outliers, (0.1, -0.05), "Outliers.outlier_size is -0.05"),
     ],
 )
 def test_impossible_sizes_are_refused_by_name(kind, sizes, message):

@@ -13,7 +13,7 @@ def commands() -> np.ndarray:
 
 
 def test_a_robot_for_each_run_does_what_it_does_alone(controller, damaged, commands):
-    moved = apply(controller.robot, [BaseShift(translation=(0.01, 0.0, 0.02))])
+    moved = apply(controller.robot, [BaseShift(translate=(0.01, 0.0, 0.02))])
     together = Plant(controller, [damaged, moved]).execute(commands)
     for run, arm in enumerate((damaged, moved)):
         alone = Plant(controller, arm).execute(commands[[run]])

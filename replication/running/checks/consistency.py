@@ -5,15 +5,14 @@ What depends on a robot's geometry is in `replication.running.checks.geometry`.
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
 from typing import TypeVar
 
 import numpy as np
 
 from recalib.damaged.damage import BaseShift, Damage
-from recalib.damaged.kinds import DISTURBANCES
-from recalib.damaged.words import words
 from replication.config.damages import Assigned, Entry, describe
-from replication.config.messages import KeyPath, Mistake, unknown, unlike
+from replication.config.messages import KeyPath, Mistake, shown, unknown, unlike
 from replication.config.study import Study
 from replication.config.switches import IMPROVED, RITTER, SWITCHES
 from replication.training.competitors import MOVES, peers
@@ -25,7 +24,7 @@ MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 n
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _meanings, _amounts, _evidence):
+    for kind in (_robot, _names, _meanings, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
@@ -37,12 +36,18 @@ def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
     return {(*path, str(name) if by_key else index): name for index, name in enumerate(names)}
 
 
+def _robot(study: Study) -> Iterator[Mistake]:
+    """A robot that does not exist: which learners there are follows from its workspace."""
+    if study.robot not in study.robots:
+        yield unknown(("robot",), study.robot, study.robots)
+
+
 def _names(study: Study) -> Iterator[Mistake]:
     """Names that do not exist, or that mean two things."""
     plan, benchmark, real = study.experiments, study.benchmark, study.real
     papers = list(study.every_learner)
     found: tuple[tuple[dict[KeyPath, str], Iterable[str]], ...] = (
-        ({("robot",): study.robot, ("real", "robot"): real.robot}, study.robots),
+        ({("real", "robot"): real.robot}, study.robots),
         (_places(("experiments", "robots"), plan.robots), study.robots),
         (_places(("campaign", "factors", "robot"), study.campaign.factors.robot), study.robots),
         ({("scenario",): study.scenario}, study.scenarios),
@@ -97,9 +102,8 @@ def _amounts(study: Study) -> Iterator[Mistake]:
         subjects = list(map(_subject, entries))
         for index, (entry, subject) in enumerate(zip(entries, subjects, strict=True)):
             if subject in subjects[:index]:
-                (key, value), *_ = describe(entry).items()
-                what = f"{key} {value}" if isinstance(value, str) else key
-                yield Mistake(("scenarios", name, index), f": {what} again; expected: once")
+                fault = f" is {shown(describe(entry))} again; expected: once"
+                yield Mistake(("scenarios", name, index), fault)
 
 
 def _budgets(study: Study) -> Iterator[Mistake]:
@@ -131,20 +135,17 @@ def _scales(study: Study) -> Iterator[Mistake]:
 
 def _subject(entry: Entry) -> object:
     """What an entry is about, without by how much; the robot may be moved again and again."""
-    if isinstance(entry, Assigned | BaseShift):
+    if isinstance(entry, BaseShift):
         return entry
-    if isinstance(entry, DISTURBANCES):
-        return type(entry)
-    said = words(type(entry)).items()
-    return type(entry), *(getattr(entry, name) for name, word in said if not word.grows)
+    names = [field.name for field in fields(entry) if field.name not in entry.amounts()]
+    return type(entry), *(getattr(entry, name) for name in names)
 
 
 def _damages(entry: Entry) -> bool:
     """Whether the robot differs by it."""
     if not isinstance(entry, Damage):
         return isinstance(entry, Assigned)
-    said = words(type(entry)).items()
-    return any(np.any(getattr(entry, name)) for name, word in said if word.grows)
+    return any(np.any(getattr(entry, name)) for name in entry.amounts())
 
 
 def _evidence(study: Study) -> Iterator[Mistake]:

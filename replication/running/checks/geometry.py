@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 
 from recalib.damaged.damage import Damage, apply
-from recalib.damaged.words import words
 from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnfitWorkspace, UnknownName
 from recalib.files.quantities import LENGTH
 from recalib.nominal.chain import TOLERANCE
@@ -107,8 +106,7 @@ def _of_scenario(study: Study, scenario: str, robot: Robot) -> Iterator[Mistake]
             lacking[(*path, next(iter(said)))] = error
             continue
         done.append(entry)
-        amounts = {word.key for word in words(type(entry)).values() if word.grows}
-        amount = next(key for key in said if key in amounts)
+        amount = next(key for key in entry.amounts() if key in said)
         if error:
             yield unlike((*path, amount), said[amount], error.valid)
             break
@@ -164,7 +162,7 @@ def _of_assignment(robot: Robot, study: Study) -> Iterator[Mistake]:
             yield Mistake(("paper_damage", key), fault, (other,))
     arm, most = robot.arm, max(damage.shorten)
     ends = {link: link_end(arm.model, arm.tool, robot.links[link]) for link in links}
-    lengths = {link: np.linalg.norm(end) for link, end in ends.items()}
+    lengths = {link: np.linalg.norm(end.translation) for link, end in ends.items()}
     if short := [f"{link} {100 * its:.2f} cm" for link, its in lengths.items() if most >= its]:
         path = "paper_damage", "shorten", damage.shorten.index(most)
         valid = f"less than links of the {robot.name} have: {listed(short, 'and')}"

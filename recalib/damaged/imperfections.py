@@ -1,0 +1,137 @@
+"""By what a real arm may differ from its model: damages, and what disturbs moves and measurements.
+
+The fields of a class are the keys of a configuration: {link: forearm_link, shorten: 4 cm}.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_type_hints
+
+import recalib.damaged
+from recalib.files.bounded import Bounded
+from recalib.spelling import listed, nearest
+
+if TYPE_CHECKING:
+    from pydantic_core import CoreSchema
+
+
+@dataclass(frozen=True)
+class Named:
+    """The note of a name: what it names, for editors and messages."""
+
+    meaning: str
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {**handler(schema), "description": self.meaning}
+
+
+Link = Annotated[str, Named("A link of the robot.")]
+Joint = Annotated[str, Named("A joint of the robot.")]
+
+
+@dataclass(frozen=True)
+class Imperfection:
+    """Base of frozen dataclasses: a new kind is one more class. Amounts are in SI units.
+
+    As the type of a part of a configuration it is read as the kind whose keys are there.
+
+    Attributes:
+        kinds: every kind, by each of its words.
+
+    Raises InvalidSetting for an amount beyond the bounds of its type.
+    """
+
+    kinds: ClassVar[dict[str, type["Imperfection"]]] = {}
+    __pydantic_config__: ClassVar[dict[str, Any]] = {
+        "extra": "forbid",
+        "use_attribute_docstrings": True,
+    }
+
+    def __init_subclass__(cls, words: Iterable[str] = ()) -> None:
+        """Args: words: fields that tell this kind from all others; none: it is a base of kinds."""
+        super().__init_subclass__()
+        for word in words:
+            if word in cls.kinds:
+                raise TypeError(f"{cls.__name__}: {cls.kinds[word].__name__} has {word}, too")
+            cls.kinds[word] = cls
+
+    def __post_init__(self) -> None:
+        for name, bounds in self.bounds().items():
+            value = getattr(self, name)
+            for amount in value if isinstance(value, tuple) else (value,):
+                bounds.check(f"{type(self).__name__}.{name}", amount)
+
+    @classmethod
+    @cache
+    def bounds(cls) -> Mapping[str, Bounded]:
+        """Of each field that holds a quantity, or three of them."""
+        hints = get_type_hints(cls, include_extras=True)
+        return {
+            field.name: note
+            for field in fields(cls)
+            for note in _notes(hints[field.name])
+            if isinstance(note, Bounded)
+        }
+
+    @classmethod
+    def amounts(cls) -> list[str]:
+        """The fields that say how large it is."""
+        return [name for name, bounds in cls.bounds().items() if not bounds.direction]
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> "CoreSchema":
+        from pydantic_core import PydanticCustomError, core_schema
+
+        if cls is not Imperfection:
+            schema: CoreSchema = handler(source)
+            return schema
+
+        def known(value: Any) -> Any:
+            if _kind_of(value) is None:
+                forms = listed(_forms(value), "or")
+                raise PydanticCustomError("kind", f"one of {forms}")
+            return value
+
+        for module in iter_modules(recalib.damaged.__path__):
+            import_module(f"recalib.damaged.{module.name}")  # its kinds are known from then on
+        choices = {kind.__name__: handler.generate_schema(kind) for kind in _kinds()}
+        union = core_schema.tagged_union_schema(choices, _kind_of)
+        return core_schema.no_info_before_validator_function(known, union)
+
+
+def _kinds() -> list[type[Imperfection]]:
+    return sorted({*Imperfection.kinds.values()}, key=lambda kind: kind.__name__)
+
+
+def _kind_of(value: Any) -> str | None:
+    """The kind that a value is or, by the first of its keys that is a word or nearly, means."""
+    kinds = Imperfection.kinds
+    if isinstance(value, Imperfection):
+        return type(value).__name__
+    if not isinstance(value, Mapping):
+        return None
+    exact = next((key for key in value if key in kinds), None)
+    meant = exact or next(filter(None, (nearest(str(key), kinds) for key in value)), None)
+    return kinds[meant].__name__ if meant else None
+
+
+def _forms(value: Any) -> list[str]:
+    """The keys that kinds need, those with a key of this value if there are such kinds."""
+    keys = {kind: [field.name for field in fields(kind)] for kind in _kinds()}
+    given = {*value} if isinstance(value, Mapping) else set()
+    alike = [kind for kind, its in keys.items() if given.intersection(its)]
+    needed = {
+        kind: [field.name for field in fields(kind) if field.default is MISSING] or keys[kind]
+        for kind in alike or keys
+    }
+    return [f"{{{', '.join(its)}}}" for its in needed.values()]
+
+
+def _notes(hint: Any) -> Iterator[Any]:
+    """What is noted of a type, or of the first part of a tuple."""
+    yield from getattr(hint, "__metadata__", ())
+    for part in getattr(hint, "__args__", ())[:1]:
+        yield from getattr(part, "__metadata__", ())

@@ -1,0 +1,82 @@
+"""A collision bends and twists a link: where the rest of the arm then is."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from recalib.damaged.bending import LinkBend, LinkTwist
+from recalib.damaged.damage import apply
+from recalib.errors import InvalidSetting, UnknownName
+from recalib.nominal.robots import link_end, load_robot
+
+LINKS = ["upper_arm_link", "forearm_link", "wrist_3_link"]  # across two axes; along x; the tool
+
+
+def ends(robot, damage) -> tuple[np.ndarray, np.ndarray]:
+    """Where the link of a damage ends in its frame (4, 4): as built, and damaged."""
+    arms = robot.arm, apply(robot, [damage]).arm
+    built, damaged = (
+        link_end(arm.model, "tool0", robot.links[damage.link]).homogeneous for arm in arms
+    )
+    return built, damaged
+
+
+def angle(one, other) -> float:
+    """Between two directions [rad]."""
+    return np.arccos(one @ other / np.linalg.norm(one) / np.linalg.norm(other))
+
+
+@pytest.mark.parametrize("link", LINKS)
+def test_halves_of_a_bent_link_are_at_an_angle(robot, link):
+    built, bent = ends(robot, LinkBend(link, 0.2))
+    half = built[:3, 3] / 2
+    outer = bent[:3, 3] - half
+    assert np.linalg.norm(outer) == pytest.approx(np.linalg.norm(half)), "it is as long as before"
+    assert angle(outer, half) == pytest.approx(0.2)
+    turn = bent[:3, :3] @ built[:3, :3].T  # the next joint goes with the outer half
+    np.testing.assert_allclose(turn @ half, outer, atol=1e-12)
+    assert Rotation.from_matrix(turn).magnitude() == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize("link", LINKS)
+def test_a_link_bends_towards_an_axis_of_its_frame_or_any_angle_from_there(robot, link):
+    built, _ = ends(robot, LinkBend(link, 0.0))
+    line = built[:3, 3] / np.linalg.norm(built[:3, 3])
+    across = np.eye(3)[np.abs(line).round(6).argmin()]
+    sideways = across - (across @ line) * line
+    for towards in (0.0, 0.4, -2.0, np.pi):
+        _, bent = ends(robot, LinkBend(link, 0.1, towards))
+        moved = bent[:3, 3] - built[:3, 3]
+        moved -= (moved @ line) * line
+        expected = Rotation.from_rotvec(towards * line).apply(sideways)
+        assert angle(moved, expected) == pytest.approx(0, abs=1e-6)
+    opposite = [ends(robot, LinkBend(link, *its))[1] for its in ((0.1, np.pi), (-0.1, 0.0))]
+    np.testing.assert_allclose(*opposite, atol=1e-12)
+
+
+@pytest.mark.parametrize("link", LINKS)
+def test_a_twisted_link_turns_what_follows_about_its_line(robot, link):
+    built, twisted = ends(robot, LinkTwist(link, -0.3))
+    assert np.array_equal(twisted[:3, 3], built[:3, 3])
+    turn = Rotation.from_matrix(twisted[:3, :3] @ built[:3, :3].T).as_rotvec()
+    np.testing.assert_allclose(turn, -0.3 * built[:3, 3] / np.linalg.norm(built[:3, 3]), atol=1e-12)
+
+
+def test_a_bent_forearm_moves_the_tool_as_far_as_it_is_away(robot):
+    """To the first order by the bend times the distance of the tool from the middle of the link."""
+    bend, angles = 1e-4, np.random.default_rng(3).uniform(-1, 1, (20, 6))
+    bent = apply(robot, [LinkBend("forearm_link", bend)]).forward(angles)
+    moved = np.linalg.norm((bent - robot.arm.forward(angles))[:, :3, 3], axis=1)
+    farthest = 0.5723 / 2 + 0.1639 + 0.1157 + 0.0922  # half of the forearm, then the wrist
+    assert (moved > 0).all() and (moved < 1.01 * bend * farthest).all()
+
+
+def test_what_cannot_bend_is_refused(robot):
+    with pytest.raises(UnknownName, match="did you mean forearm_link"):
+        apply(robot, [LinkBend("forarm_link", 0.1)])
+    angles = 0.1, -0.8, 0.1, -2.0, 0.1, 1.3, 0.8
+    home = {f"panda_joint{number}": angle for number, angle in enumerate(angles, 1)}
+    panda = load_robot("panda.urdf", "panda_link8", home, (0.2,) * 3, (0.2,) * 3)
+    for damage in (LinkBend("panda_link1", 0.1), LinkTwist("panda_link1", 0.1)):
+        with pytest.raises(InvalidSetting, match="'panda_link1'; expected: a link with a length"):
+            apply(panda, [damage])

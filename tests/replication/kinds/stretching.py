@@ -1,0 +1,23 @@
+"""A kind of damage that the project does not know: a link that became longer."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.damaged.damage import Damage, DamagedArm, end_of
+from recalib.damaged.imperfections import Link
+from recalib.files.bounded import Amount
+from recalib.nominal.robots import Robot
+
+
+@dataclass(frozen=True)
+class LinkStretch(Damage, words=("stretch",)):
+    """A link stretched along the line between its joints."""
+
+    link: Link
+    stretch: Amount
+    """Length added."""
+
+    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
+        end = end_of(robot, self.link, damaged).translation
+        end *= 1 + self.stretch / np.linalg.norm(end)
