@@ -24,7 +24,7 @@ LEARNERS = "improved", "ritter"
 ITERATIONS, TESTS = 40, 30
 NOISE = Noise(0.0002, 0.0003)
 DAMAGES = (
-    BaseShift(translation=(0.01, 0.0, -0.02)),
+    BaseShift(translate=(0.01, 0.0, -0.02)),
     LinkShortening("forearm_link", 0.04),
     EncoderShift("elbow_joint", np.radians(-4)),
     Sag("shoulder_lift_joint", 0.0002),
