@@ -20,12 +20,12 @@ from replication.scenarios.nominal import Nominal, nominal
 from replication.scenarios.plants import nominal_robot
 
 
-def design(study: Study) -> list[dict]:
+def design(study: Study) -> list[dict[str, Any]]:
     """The rows of the table. Raises RecalibError: robots refuse too many.
 
     Rows of the sequence that a robot refuses are left out, and said so.
     """
-    drawn: list[dict] = []
+    drawn: list[dict[str, Any]] = []
     for row in rows(study.campaign):
         try:
             drawn.append(draw(study, len(drawn), row).as_row())

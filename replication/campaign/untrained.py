@@ -34,7 +34,7 @@ def untrained(study: Study, design: Path) -> pd.DataFrame:
         arm = apply(controller.robot, damages_among(setup.damage))
         worst = coupling(controller, arm, desired).quantile(POSES)
         ways = ways_in(its, setup.levels, study)
-        drawn, error = damages_among(ways[random.integers(len(ways))]), setup.levels["error"]
+        drawn, error = damages_among(ways[int(random.integers(len(ways)))]), setup.levels["error"]
         tests = controller.robot.workspace.sample(random, study.paper_damage.poses)
         errors = initial_errors(controller, drawn, tests, error) / (scale, 1)
         rows.append(

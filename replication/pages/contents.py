@@ -200,8 +200,9 @@ class Contents:
         return alternatives(self.study.campaign.factors, self.choices)
 
     def factor(self, name: str) -> str:
-        """What a factor of the campaign is."""
-        return str(Factors.model_fields[name].description).rstrip(".").lower()
+        """What a factor of the campaign is, within a sentence."""
+        text = str(Factors.model_fields[name].description).rstrip(".")
+        return text[0].lower() + text[1:]
 
     @cached_property
     def deviations(self) -> Deviations:

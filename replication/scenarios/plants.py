@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from recalib.damaged.damage import DamagedArm, apply
 from recalib.damaged.plant import Plant
@@ -41,7 +41,7 @@ class Resolved(Frozen):
     scenario: str
     robot: str
     damages: tuple[Entry, ...]
-    workspace: dict[str, list]
+    workspace: dict[str, list[Any]]
     initial_position_error_cm: float
     initial_orientation_error_deg: float
     nominal: Nominal

@@ -26,11 +26,11 @@ class Timed:
         self._learner, self.seconds = learner, 0.0
         self.command = learner.command
 
-    def learn(self, desired: np.ndarray, execute, fraction: float) -> None:
+    def learn(self, desired: np.ndarray, execute: interfaces.Execute, fraction: float) -> None:
         """As the learner's own."""
         moving = 0.0
 
-        def timed(commands):
+        def timed(commands: np.ndarray) -> interfaces.Outcome:
             nonlocal moving
             start = time.perf_counter()
             outcome = execute(commands)

@@ -12,7 +12,7 @@ from recalib.errors import InvalidSetting
 from recalib.nominal.robots import Robot
 from recalib.numerics.randomness import generator
 from replication.config.study import Study
-from replication.scenarios.assignments import Ways
+from replication.scenarios.assignments import Assignment, Ways
 from replication.scenarios.nominal import nominal
 from replication.scenarios.plants import nominal_controller
 from replication.training.measured import ERRORS
@@ -25,7 +25,7 @@ def scaled_arm(robot: Robot, damages: Sequence[Damage], scale: float) -> Damaged
     return apply(robot, [damage.scaled(scale) for damage in damages])
 
 
-def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> Iterator[tuple]:
+def feasible(robot: Robot, ways: Ways, order: Sequence[int], scale: float) -> Iterator[Assignment]:
     """Of the assignments in this order, the damages of those for which links are long enough."""
     for index in order:
         try:

@@ -7,7 +7,7 @@ refuses the other. Streams get their names here alone.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, unique
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -86,7 +86,7 @@ class _Poses:
     desired: np.ndarray
     tests: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if np.isin(self.tests[..., 0], self.desired[..., 0]).any():
             raise ValueError(f"{self.name}: test poses are among those to learn from")
 
@@ -111,7 +111,7 @@ def train_on(
     learner: Learner,
     poses: SearchPoses | ResultPoses,
     measure_at: Sequence[int],
-    **how,
+    **how: Any,
 ) -> History:
     """As `recalib.loop.training.train`."""
     return train(plant, learner, poses.desired, poses.tests, measure_at, **how)
@@ -122,7 +122,7 @@ def train_for_results(
     learner: Learner,
     poses: SearchPoses | ResultPoses,
     measure_at: Sequence[int],
-    **how,
+    **how: Any,
 ) -> History:
     """As `train_on`. Raises TypeError: the poses are those of a search."""
     return train_on(plant, learner, ResultPoses.only(poses), measure_at, **how)

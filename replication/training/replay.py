@@ -7,6 +7,7 @@ import pandas as pd
 
 from recalib.files.archives import flat
 from recalib.learners.hierarchical import HierarchicalLearner
+from recalib.loop.interfaces import Outcome
 from replication.scenarios.plants import Resolved
 from replication.training.poses import Stream
 
@@ -21,14 +22,14 @@ def replay(
     """
     plant = resolved.plant(resolved.controller(), seed, [0])
     desired = Stream.REPLAY.draw(seed, [0], iterations, tests=0).desired
-    table = {}
+    table: dict[bytes, Outcome] = {}
 
-    def by_robot(commands):
+    def by_robot(commands: np.ndarray) -> Outcome:
         """Ask the robot, and write down what it did."""
         table[commands.tobytes()] = plant.execute(commands)
         return table[commands.tobytes()]
 
-    def by_table(commands):
+    def by_table(commands: np.ndarray) -> Outcome:
         """Look it up; a command that was never sent is an error."""
         return table[commands.tobytes()]
 

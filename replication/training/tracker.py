@@ -8,6 +8,7 @@ import urllib.request
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -38,11 +39,11 @@ class TrackerMeasurements:
     def __len__(self) -> int:
         return len(self.angles)
 
-    def __getitem__(self, rows) -> "TrackerMeasurements":
+    def __getitem__(self, rows: Any) -> "TrackerMeasurements":
         return TrackerMeasurements(self.angles[rows], self.nominal[rows], self.measured[rows])
 
 
-def read_whole_description(path: str | PathLike) -> Description:
+def read_whole_description(path: str | PathLike[str]) -> Description:
     """The description of such tables at `path`.
 
     Raises InvalidFile, also where it says not where the instrument stands or the target sits.
@@ -53,7 +54,7 @@ def read_whole_description(path: str | PathLike) -> Description:
     return description
 
 
-def read_of(arm: Arm, path: str | PathLike, description: Description) -> TrackerMeasurements:
+def read_of(arm: Arm, path: str | PathLike[str], description: Description) -> TrackerMeasurements:
     """The measurements in the table at `path`, of this arm and no other.
 
     Args:

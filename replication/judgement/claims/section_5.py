@@ -1,5 +1,7 @@
 """Section 5: what to propagate to neighbouring cells."""
 
+from collections.abc import Callable
+
 import pandas as pd
 
 from replication.config.switches import IMPROVED, RITTER
@@ -26,7 +28,7 @@ def integral_ratios(table: pd.DataFrame) -> pd.Series:
     return balls.median()[balls.count() == balls.size()]
 
 
-def nearer(kind: str):
+def nearer(kind: str) -> Callable[[Statement, Evidence], Finding]:
     """How to judge the paper's condition for what is propagated: theta or jacobian."""
 
     def judge(statement: Statement, evidence: Evidence) -> Finding:

@@ -1,5 +1,6 @@
 """Sections 1 and 7: the experiments."""
 
+from collections.abc import Callable
 from itertools import product
 
 import numpy as np
@@ -71,7 +72,7 @@ def initial_error(statement: Statement, evidence: Evidence) -> Finding:
     return statement.finding(of_all(*verdicts), *numbers, note=note)
 
 
-def speed_up(iterations: int):
+def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
     """How to judge the factor of 70: by where one more study would find its own."""
     goal = Remaining(IMPROVED, iterations)
     ways = {
