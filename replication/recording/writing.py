@@ -73,13 +73,13 @@ def record(
         files = histories[number * len(names) :][: len(names)]
         tables = [recorded_history(study, path) for path in files]
         resolved, seed = Resolved.read(file), typical_seed(tables[0])
-        watched = _watched(study, resolved, tuned, seed)
+        watched = watch_all(study, resolved, tuned, seed)
         for name, path, table in zip(names, files, tables, strict=True):
             _compare(path, watched[name], table[table["seed"] == seed])
         write_recording(rrd, resolved, watched, published_errors(study, resolved.scenario))
 
 
-def _watched(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[str, Watched]:
+def watch_all(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[str, Watched]:
     """The trainings of all learners with a seed."""
     iterations, controller = recorded_iterations(study), resolved.controller()
     learners: dict[str, tuple[Learner, Sequence[int]]] = {

@@ -11,12 +11,10 @@ from recalib.nominal.poses import position_error
 from recalib.station.engine import mujoco
 from recalib.station.physics import PhysicsStation
 from replication.training.poses import Stream
-from replication.training.settings import build_tuned
-from replication.training.trainings import rules
-from tests.station.paper_live import CONDITIONS, FIGURE, NOISY, ROOT, scenario, study
+from tests.station.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tuned
 
 FILM, SIZE = FIGURE.with_suffix(".webp"), (640, 480)
-LEARNER, SHOWN, GOALS = "improved_200", (0, 5, 20, 200), 3
+LEARNER, SHOWN, GOALS = "improved", (0, 5, 20, 200), 3
 EVERY, LINGER, PACE = 12, 12, 60  # steps from a picture to the next; pictures at a goal; ms of each
 RED, GREEN = [0.84, 0.37, 0, 1], [0, 0.62, 0.45, 0.5]
 
@@ -70,9 +68,8 @@ def main() -> None:
     workspace = controller.robot.workspace
     station = Filmed(damaged, its.gears)
     plant = Plant(controller, station, NOISY, [np.random.default_rng(0)])
-    sample = ROOT / "workflow" / "search" / f"{LEARNER}.csv"
-    learner = build_tuned(rules(study(), LEARNER), sample, [1])
-    poses = Stream.SCENARIO.draw(study().seed, [0], 200, GOALS, scenario=its.scenario)
+    learner = tuned().learner(LEARNER, SHOWN[-1], 1)
+    poses = Stream.SCENARIO.draw(study().seed, [0], SHOWN[-1], GOALS, scenario=its.scenario)
     goals = workspace.to_poses(poses.tests[0])
     for iteration in range(SHOWN[-1] + 1):
         if iteration in SHOWN:

@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 
-from recalib.damaged.damage import DamagedArm, apply
+from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances, Noise
 from recalib.damaged.plant import Plant
 from recalib.identification.calibration import calibrate
@@ -33,24 +33,20 @@ from recalib.station.physics import Gears, PhysicsStation
 from recalib.vision.boards import printable
 from recalib.vision.detection import find_corners
 from recalib.vision.views import board_pose
-from replication.config.damages import damages_among
+from replication.campaign.setups import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES
 from replication.plots.style import STYLE, logarithmic, save, title
-from replication.scenarios.assignments import assign
-from replication.scenarios.nominal import nominal
-from replication.scenarios.plants import nominal_controller
-from replication.running.studies import read_studies
+from replication.scenarios.resolving import resolve
 from replication.training.competitors import label_of, make_peer
 from replication.training.poses import Stream
-from replication.training.settings import build_tuned
-from replication.training.trainings import rules
+from replication.training.tuned import Tuned
 
 HERE, ROOT = Path(__file__).parent, Path(__file__).parents[2]
 KEPT = ROOT / "results" / "live_paper"
 PAGE, FIGURE = ROOT / "docs" / "live_paper.md", ROOT / "figures" / "live_paper.png"
 SEEDS, TESTS, NOISE = 5, 200, Noise(2e-4, np.radians(0.02))  # m, rad
-MAPS, TODAY = ("improved_200", "ritter_200"), ("geometric", "hybrid")
+MAPS, TODAY = ("improved", "ritter"), ("geometric", "hybrid")
 ITERATIONS = {MAPS: range(0, 201, 10), TODAY: (0, 5, 10, 20, 30, 50, 100)}
 SHOWN = {MAPS: (0, 10, 50, 100, 200), TODAY: (0, 10, 20, 30, 100)}
 BOARD = printable("charuco", 7, 5, 0.05)
@@ -88,11 +84,11 @@ CONDITIONS = {
     "physics": Condition(Gears(SOFT)),
     "physics, rough": Condition(Gears(SOFT, **ROUGH)),
     "physics, other masses": Condition(Gears(SOFT), TODAY, other_masses=True),
-    "physics, by pictures": Condition(Gears(SOFT), ("improved_200", "hybrid"), pictures=True),
+    "physics, by pictures": Condition(Gears(SOFT), ("improved", "hybrid"), pictures=True),
     "kinematics, no noise": Condition(**SILENT),
     "physics, no noise": Condition(Gears(SOFT), beside="kinematics, no noise", **SILENT),
-    "moved, kinematics": Condition(None, ("improved_200",), scenario=MOVED),
-    "moved, physics": Condition(Gears(SOFT), ("improved_200",), "moved, kinematics", MOVED),
+    "moved, kinematics": Condition(None, ("improved",), scenario=MOVED),
+    "moved, physics": Condition(Gears(SOFT), ("improved",), "moved, kinematics", MOVED),
 }
 CALIBRATED = "physics", "physics, rough", "physics, other masses"
 UNSURE = 0.2  # standard deviation of the logarithm of each link's mass, of the arm with others
@@ -108,23 +104,20 @@ TITLES = {MAPS: "The paper's maps", TODAY: "Today's identification"}
 @cache
 def study() -> Study:
     """That of the replication."""
-    root, studies = read_studies(ROOT, [], {}, asking=False)
-    return studies[root]
+    return study_of(ROOT, asking=False)
 
 
 @cache
 def scenario(name: str) -> tuple[Controller, DamagedArm]:
     """The controller of the study's robot, and its arm with the damage of a scenario."""
-    its, damages = nominal(study(), study().robot), study().scenarios[name]
-    if name == study().scenario:
-        damages = assign(its, study().paper_damage, study().seed)[1].damages
-    controller = nominal_controller(its)
-    return controller, apply(controller.robot, damages_among(damages))
+    (resolved,), _ = resolve(study(), study().robot, [name])
+    controller = resolved.controller()
+    return controller, resolved.arm(controller.robot)
 
 
-def short(learner: str) -> str:
-    """Its name without the number of its iterations."""
-    return learner.removesuffix("_200")
+def tuned() -> Tuned:
+    """The settings of the study's learners."""
+    return Tuned(study(), [ROOT / OUTCOMES])
 
 
 def weighed(damaged: DamagedArm, seed: int) -> DamagedArm:
@@ -171,13 +164,13 @@ def plant(its: Condition, seed: int) -> Plant:
 
 
 def trained(its: Condition, name: str, seed: int) -> History:
-    """A learner's training with the poses, and the search's winner, of a seed of the study."""
+    """A learner's training with the poses of a seed of the study."""
     names = MAPS if name in MAPS else TODAY
-    if names == MAPS:
-        sample = ROOT / "workflow" / "search" / f"{name}.csv"
-        learner = build_tuned(rules(study(), name), sample, [seed + 1])
-    else:
-        learner = make_peer(name, 1, scenario(its.scenario)[0].robot)
+    learner = (
+        tuned().learner(name, ITERATIONS[MAPS][-1], 1)
+        if names == MAPS
+        else make_peer(name, 1, scenario(its.scenario)[0].robot)
+    )
     when, words = ITERATIONS[names], {"scenario": its.scenario}
     poses = Stream.SCENARIO.draw(study().seed, [seed], when[-1], TESTS, **words)
     return train(plant(its, seed), learner, poses.desired, poses.tests, when)
@@ -237,7 +230,7 @@ def drawn(curves: pd.DataFrame) -> None:
         for axes, error in zip(column, ERRORS, strict=True):
             for learner, (condition, dashes) in product(learners, LINES.items()):
                 rows = curves[(curves.learner == learner) & (curves.condition == condition)]
-                errors, style = rows.groupby("iteration")[error], STYLES[short(learner)]
+                errors, style = rows.groupby("iteration")[error], STYLES[learner]
                 name = f"{style.label}, {condition}"
                 width = 3.5 if learner == "geometric" else 1.5  # seen where the hybrid lies on it
                 axes.plot(errors.mean(), dashes, color=style.color, linewidth=width, label=name)
@@ -246,7 +239,7 @@ def drawn(curves: pd.DataFrame) -> None:
             logarithmic(axes.yaxis, 0.003, 0.01, 0.03, 0.1, 0.3, 1, 3, 10)
         best = learners[0] if learners == MAPS else learners[-1]
         ratio = _mean_ratio(curves, best)
-        name = f"{label_of(short(best))} ends\nat {_short(ratio)} times the error of kinematics"
+        name = f"{label_of(best)} ends\nat {_short(ratio)} times the error of kinematics"
         column[0].set_title(f"{TITLES[learners]}: {name}")
         column[1].legend(fontsize=8)
         column[1].set_xlabel(f"iterations, of {'two moves' if learners == MAPS else 'one move'}")
@@ -274,12 +267,12 @@ def context(curves: pd.DataFrame, draws: pd.DataFrame, droops: pd.DataFrame) -> 
                 cells[-1] = "; ".join(
                     _spread(own[own.iteration == when[-1]][its]) for its in ERRORS
                 )
-                rows.append([label_of(short(learner)), condition, *cells])
+                rows.append([label_of(learner), condition, *cells])
         tables[TITLES[learners]] = {"when": when, "rows": rows}
         for learner, (condition, its) in product(learners, CONDITIONS.items()):
             if learner in its.learners and its.gears is not None:
                 own, beside = (_ends(curves, learner, name) for name in (condition, its.beside))
-                name = label_of(short(learner)), condition
+                name = label_of(learner), condition
                 ratios[name] = [_spread(ratio) for _, ratio in (own / beside).items()]
     bars = {
         condition: [_spread(rows[name]) for name in ("droop", "before", "geometry", "after")]

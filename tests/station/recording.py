@@ -6,22 +6,17 @@ them; where the tool lands is where the physics takes it.
     python -m tests.station.recording
 """
 
-import os
 from collections.abc import Sequence
 
 from recalib.damaged.plant import Plant
-from recalib.loop.interfaces import Learner
 from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
 from recalib.station.physics import PhysicsStation
-from replication.recording.writing import write_recording
-from replication.scenarios.assignments import assign
-from replication.scenarios.nominal import nominal
-from replication.scenarios.plants import Resolved, resolve
-from replication.training.competitors import make_peer
-from replication.training.recordings import Recording, recording
-from replication.training.settings import build_tuned
-from tests.station.paper_live import CONDITIONS, KEPT, ROOT, short, study
+from replication.recording.recorded import published_errors
+from replication.recording.writing import watch_learners, write_recording
+from replication.scenarios.plants import Resolved
+from replication.scenarios.resolving import resolve
+from tests.station.paper_live import CONDITIONS, KEPT, study, tuned
 
 SEED = 0
 
@@ -29,39 +24,25 @@ SEED = 0
 class InPhysics(Resolved):
     """A scenario whose robot moves as its dynamics let it."""
 
-    def plant(
-        self, controller: Controller, seed: int, runs: Sequence[int], stream: str = ""
-    ) -> Plant:
+    def plant(self, controller: Controller, seed: int, runs: Sequence[int]) -> Plant:
         its = CONDITIONS["physics"]
-        rngs = [generator(seed, stream or self.scenario, run, "disturbances") for run in runs]
-        return Plant(
-            controller, PhysicsStation(self.arm(controller.robot), its.gears), its.noise, rngs
-        )
+        rngs = [generator(seed, self.scenario, run, "disturbances") for run in runs]
+        moving = PhysicsStation(self.arm(controller.robot), its.gears)
+        return Plant(controller, moving, its.noise, rngs)
 
 
-def prepared() -> tuple[Recording, InPhysics, dict[str, Learner]]:
-    """What is recorded, of which arm, and the learners, which have learned nothing yet."""
-    job, its = recording(study(), study().scenario), nominal(study(), study().robot)
-    damages = assign(its, study().paper_damage, study().seed)[1].damages
-    resolved = resolve(job.scenario, its, damages, job.measuring.tests, study().seed)
-    arm = InPhysics(**dict(resolved))
-    learners = {
-        name: build_tuned(
-            rules, ROOT / "workflow" / "search" / f"{short(name)}_200.csv", [SEED + 1]
-        )
-        if rules
-        else make_peer(name, 1, arm.controller().robot)
-        for name, rules in job.learners.items()
-    }
-    return job, arm, learners
+def arm() -> InPhysics:
+    """The study's own scenario."""
+    (resolved,), _ = resolve(study(), study().robot, [study().scenario])
+    return InPhysics(**dict(resolved))
 
 
 def main() -> None:
     """Train the study's recorded learners on it, and write what one would have seen."""
-    os.chdir(ROOT)  # captions are files of the project
     KEPT.mkdir(parents=True, exist_ok=True)
-    job, arm, learners = prepared()
-    write_recording(KEPT / "live_paper.rrd", job, arm, learners, {}, SEED)
+    watched = watch_learners(study(), arm(), tuned(), SEED)
+    published = published_errors(study(), study().scenario)
+    write_recording(KEPT / "live_paper.rrd", arm(), watched, published)
 
 
 if __name__ == "__main__":
