@@ -99,7 +99,7 @@ BY_HAND = {
     "git status --short": "of the reader's own checkout",
     "snakemake --profile profiles/slurm universes": "an hour on a cluster; see make slurm",
     "python -m replication.config.schema": "a test compares what it has written",
-    "python -m replication.pages.deviations": "a test compares what it prints",
+    "python -m replication.judgement.deviations": "a test compares what it prints",
     "python -m tests.station.bars": "whole tables of calibrations",
     "python -m tests.station.film": "a film that was looked at",
     "python -m tests.station.paper_live": "15 minutes",
