@@ -22,7 +22,7 @@ from tests.conftest import changed
 SEED, ITERATIONS, TESTS = 7, 40, 30
 MEASURE_AT = range(0, ITERATIONS + 1, 4)
 DAMAGES = (
-    BaseShift(translation=(0.01, 0.0, -0.02)),
+    BaseShift(translate=(0.01, 0.0, -0.02)),
     LinkShortening("forearm_link", 0.04),
     EncoderShift("elbow_joint", np.radians(-4)),
     Sag("shoulder_lift_joint", 0.0002),
