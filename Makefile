@@ -142,7 +142,7 @@ view: setup ## open a recording; make view SCENARIO=links or STUDY=ur3 opens ano
 web: setup ## show recordings in a browser, also from a server; SCENARIO and STUDY as for make view
 	$(NO_SUCH)
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
-	.venv/bin/python -m replication.running.watch $(RESULTS) --port $(PORT)
+	.venv/bin/python -m replication.recording.watch $(RESULTS) --port $(PORT)
 
 notebook: setup ## damage an arm with sliders, in a browser; installs marimo, which is not pinned
 	$(PIP) --no-build-isolation --editable .[notebook]

@@ -5,6 +5,7 @@ They show no result, so no run draws them.
 
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, to_rgb
@@ -20,7 +21,7 @@ from recalib.learners.schedules import (
     fall,
 )
 from replication.plots.palette import BOTH, FAILS, INK, NEUTRAL, STYLES, styles_of
-from replication.plots.style import STYLE, plt, save, title
+from replication.plots.style import STYLE, WIDTH, legend_below, save
 
 LEARNED = STYLES["improved"].color  # what the improved map makes
 
@@ -89,7 +90,7 @@ def really(pose: np.ndarray) -> np.ndarray:
 
 def fake_pose() -> Figure:
     """Where an arm goes that is sent to the desired pose, and to the fake one."""
-    figure, panels = plt.subplots(1, 3, figsize=(10.5, 2.8))
+    figure, panels = plt.subplots(1, 3, figsize=(WIDTH, 1.3))
     fake = np.round(root(lambda pose: really(pose)[-1] - DESIRED, DESIRED).x, 9)
     for axes in panels:
         blank(axes, 2.35, 1.15)
@@ -99,37 +100,28 @@ def fake_pose() -> Figure:
     _arm(panels[1], really(DESIRED), INK)
     _arm(panels[2], planar_arm(believed(fake), NOMINAL), "0.8")
     _arm(panels[2], really(fake), INK)
-    _point(panels[2], fake, "fake pose", LEARNED, "D", (-26, -20))
+    _point(panels[2], fake, "fake pose", LEARNED, "D", (-20, -14))
     _miss(panels[1], really(DESIRED)[-1])
-    texts = (
-        "healthy: it goes where it is sent",
-        "damaged: it misses",
-        "damaged, sent to a fake pose: it hits",
-    )
+    texts = "healthy:\nhits", "damaged:\nmisses", "sent to a fake\npose: hits"
     for axes, text in zip(panels, texts, strict=True):
-        _point(axes, DESIRED, "desired pose", NEUTRAL, "*", (7, 6))
-        axes.set_title(text, fontweight="normal", loc="center")
-    title(
-        figure,
-        "The controller is not touched: only the pose that it is sent changes",
-        "black: the real arm; grey: the arm that the controller believes in",
-    )
+        _point(axes, DESIRED, "desired", NEUTRAL, "*", (5, 4))
+        axes.set_title(text, fontweight="normal", loc="left")
     return figure
 
 
 def _arm(axes: Axes, joints: np.ndarray, color: str) -> None:
-    style = {"color": color, "linewidth": 5, "solid_capstyle": "round", "marker": "o"}
-    axes.plot(*(joints + BASE).T, markersize=9, markerfacecolor="white", **style)
+    style = {"color": color, "linewidth": 3, "solid_capstyle": "round", "marker": "o"}
+    axes.plot(*(joints + BASE).T, markersize=5, markerfacecolor="white", **style)
 
 
 def _point(axes: Axes, at: np.ndarray, name: str, color: str, marker: str, offset) -> None:
     at = at + BASE
-    axes.scatter(*at, s=110, marker=marker, color=color, zorder=4)
-    axes.annotate(name, at, offset, textcoords="offset points", color=color, fontsize=10)
+    axes.scatter(*at, s=45, marker=marker, color=color, zorder=4)
+    axes.annotate(name, at, offset, textcoords="offset points", color=color)
 
 
 def _miss(axes: Axes, tip: np.ndarray) -> None:
-    axes.plot(*np.stack([tip + BASE, DESIRED + BASE]).T, color=FAILS, linestyle=":", linewidth=2)
+    axes.plot(*np.stack([tip + BASE, DESIRED + BASE]).T, color=FAILS, linestyle=":", linewidth=1.5)
 
 
 NETS = Nets((3, 3, 1), (3, 3, 1), "boxes", (1.0,) * 6)  # one layer of each net
@@ -138,16 +130,9 @@ WIDE = 0.9  # of all neighbourhoods, in workspace coordinates: which is wider is
 
 def method() -> Figure:
     """What happens in an iteration, and how the cells lie in the workspace."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 5), width_ratios=[1.15, 1])
-    _cycle(left)
-    _nets(right)
-    title(
-        figure,
-        "The map learns which fake pose to send, from where the arm went",
-        "the darker a cell, the more of the change it learns;"
-        " each of the four neighbourhoods has its own width.\n"
-        "A second, corrected move teaches each cell how commands must change with poses",
-    )
+    figure, (above, below) = plt.subplots(2, 1, figsize=(WIDTH, 6), height_ratios=[1.1, 1])
+    _cycle(above)
+    _nets(below)
     return figure
 
 
@@ -163,18 +148,17 @@ def _cycle(axes: Axes) -> None:
     arrow(axes, (2.55, 8), (3.95, 8))
     arrow(axes, (7.2, 7.8), (8.9, 6.05), bend=-0.25)
     arrow(axes, (8.85, 5.2), (8.75, 3.8))
-    arrow(axes, (8.5, 2.6), (7.35, 1.1), bend=-0.2)
-    arrow(axes, (4.65, 1), (2.75, 1))
+    arrow(axes, (8.5, 2.6), (7.6, 1.2), bend=-0.2)
+    arrow(axes, (4.35, 1), (2.95, 1))
     arrow(axes, (1.9, 1.6), (1.9, 3.8))
     arrow(axes, (1.75, 7.4), (1.85, 5.0))
     arrow(axes, (2.65, 4.4), (5.3, 7.4), FAILS, bend=0.2, width=2.5)
     axes.text(
-        4.55,
-        4.55,
+        4.35,
+        4.6,
         "corrects the cell,\nand its neighbours\nby the same change",
         color=FAILS,
         va="center",
-        fontsize=10,
     )
 
 
@@ -195,11 +179,11 @@ def _nets(axes: Axes) -> None:
             points = np.array([x, y]) + 1.7 * cells[:, :2]
             style = {"c": shades(np.round(g, 3)), "edgecolors": INK, "linewidths": 0.8}
             axes.scatter(*points.T, s=200, zorder=3, **style)
-            axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top", fontsize=12)
+            axes.text(x, y - 1.75, f"neighbourhood {sign}", ha="center", va="top")
 
 
 CELLS = regular_grid((9,))[:, 0]
-WINNER, WIDTH = 6, 0.6  # of the neighbourhood, in workspace coordinates
+WINNER, SIGMA = 6, 0.6  # of the neighbourhood, in workspace coordinates
 
 
 def wanted(poses: np.ndarray) -> np.ndarray:
@@ -209,37 +193,31 @@ def wanted(poses: np.ndarray) -> np.ndarray:
 
 def increments() -> Figure:
     """Equations (4) and (7) at work in one dimension, after a single correction."""
-    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10.5, 4.4))
-    learns = np.exp(-0.5 * ((CELLS - CELLS[WINNER]) / WIDTH) ** 2)
+    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 3.3))
+    learns = np.exp(-0.5 * ((CELLS - CELLS[WINNER]) / SIGMA) ** 2)
     learned = wanted(CELLS[WINNER])  # the winner's new command
     values = CELLS + learns * (learned - CELLS)  # (4)
     changes = CELLS + learns * (learned - CELLS[WINNER])  # (7)
-    texts = ("Ritter: all move towards its new value", "improved: all move by its change")
+    texts = ("Ritter: all move\ntowards its new value", "improved: all move\nby its change")
     for axes, after, style, text in zip(
         panels, (values, changes), styles_of(["ritter", "improved"]).values(), texts, strict=True
     ):
         axes.plot(CELLS, CELLS, color="0.6", label="before the damage")
         axes.plot(CELLS, wanted(CELLS), color=INK, linestyle=(0, (5, 2)), label="what is right now")
         axes.vlines(CELLS, CELLS, after, color=style.color, linewidth=1, alpha=0.6)
-        axes.scatter(CELLS, after, color=style.color, zorder=3, label="cells after one correction")
+        axes.scatter(CELLS, after, color=style.color, zorder=3, label="cells, corrected once")
         axes.annotate(
             "corrected here",
             (CELLS[WINNER], learned),
-            (-10, 38),
+            (-14, 22),
             textcoords="offset points",
             ha="right",
             arrowprops={"arrowstyle": "-|>", "color": INK, "shrinkB": 5},
         )
         axes.set(xlabel="desired pose", ylim=(-1.15, 1.75))
         axes.set_title(text, fontweight="normal")
-        axes.legend(loc="lower right", fontsize=10)
     panels[0].set_ylabel("command")
-    title(
-        figure,
-        "A shared change brings every cell nearer to what is right, a shared value does not",
-        "one dimension, nine cells, one wide neighbourhood; the damage is slight, so that what is"
-        " right now looks like what was right before",
-    )
+    legend_below(figure, panels[1], 2)
     return figure
 
 
@@ -253,7 +231,7 @@ NAMES = {"ritter": "Ritter: exponential", "improved": "improved: equal visits"}
 
 def schedule() -> Figure:
     """Equation (10) at work, far from the border of the workspace."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10.5, 4.4))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(WIDTH, 2.9))
     done = np.linspace(0, 1, 1001)
     for name, style in styles_of(POWERS).items():
         widths = fall(START, END, done, POWERS[name])
@@ -261,18 +239,9 @@ def schedule() -> Figure:
         iterations = ITERATIONS * STEP / np.abs(np.gradient(widths, done))  # spent at each width
         visits = iterations * expected_learning(widths, DIMENSIONS, VOLUME)
         right.plot(widths, visits, label=NAMES[name], **style.line())
-    left.set(xlabel="iterations", ylabel="width of the neighbourhood", ylim=(0, None))
-    left.set_title("wide at first, narrow in the end", fontweight="normal")
-    left.legend(fontsize=10)
-    right.set(xlabel="width of the neighbourhood", ylabel=f"visits of a cell for {STEP:g} of width")
-    right.set_ylim(bottom=0)
-    right.set_title("how often are cells visited meanwhile?", fontweight="normal")
-    title(
-        figure,
-        "For equal visits, the narrower a neighbourhood is, the more slowly it shrinks",
-        f"from {START:g} to {END:g} half-ranges of the workspace in {ITERATIONS} iterations;"
-        " a cell that learns half of a correction counts as half a visit",
-    )
+    left.set(xlabel="iterations", ylabel="width of a neighbourhood", ylim=(0, None))
+    right.set(xlabel="width", ylabel=f"visits of a cell for {STEP:g} of width", ylim=(0, None))
+    legend_below(figure, left, 2)
     return figure
 
 

@@ -3,7 +3,6 @@
 Words are those of YAML 1.2: `yes`, dates and 1:30 are text.
 """
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -11,7 +10,10 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-import yaml
+from ruamel.yaml import YAML
+from ruamel.yaml.comments import CommentedMap, CommentedSeq
+from ruamel.yaml.constructor import RoundTripConstructor
+from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
 from replication.config.messages import InvalidConfiguration, KeyPath
 
@@ -74,15 +76,15 @@ def from_mapping(data: Any, place: Place = (COMMAND_LINE,)) -> Placed:
     return Placed(content, place)
 
 
-def from_file(path: str | PathLike) -> Placed:
+def from_file(path: str | PathLike[str]) -> Placed:
     """Values of a YAML file. Raises InvalidConfiguration."""
     whole, here = Path(path).absolute(), Path.cwd()
     name = fspath(whole.relative_to(here) if whole.is_relative_to(here) else path)
     try:
         return _parsed(name, Path(path).read_text(encoding="utf-8-sig"))
-    except yaml.MarkedYAMLError as error:
+    except MarkedYAMLError as error:
         raise InvalidConfiguration([_unreadable(name, error)]) from None
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, UnicodeDecodeError, YAMLError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
         raise InvalidConfiguration([f"{name}: {reason}"]) from None
     except RecursionError:
@@ -92,83 +94,75 @@ def from_file(path: str | PathLike) -> Placed:
 
 @cache  # several studies begin with one file
 def _parsed(name: str, text: str) -> Placed:
-    loader, start = _Loader(text), (name, 1, 1)
-    loader.name = name
-    node = loader.get_single_node()
-    value = loader.value(node, start) if node else Placed(None, start)
+    reader = YAML()  # of YAML 1.2; it refuses a key that stands twice
+    reader.Constructor = _Constructor
+    start = (name, 1, 1)
+    value = _with_places(reader.load(text), start)
     if not isinstance(value.content, dict) or not value.content:
         problem = f"{shown(start)}: no configuration; expected: keys with their values"
         raise InvalidConfiguration([problem])
     return value
 
 
-def _unreadable(name: str, error: yaml.MarkedYAMLError) -> str:
-    """PyYAML's reason in a sentence."""
+class _Constructor(RoundTripConstructor):
+    """Ruamel's, for which a date is text."""
+
+
+_Constructor.add_constructor(
+    "tag:yaml.org,2002:timestamp", lambda reader, node: reader.construct_scalar(node)
+)
+
+
+def _with_places(value: Any, place: Place) -> Placed:
+    """What ruamel read, with the places that it keeps beside."""
+    content: Any
+    match value:
+        case CommentedMap():
+            content = {}
+            for key, part in value.items():
+                if not isinstance(key, str):
+                    raise InvalidConfiguration([f"{shown(place)}: {key!r} is a key; expected: text"])
+                content[key] = _with_places(part, _of_key(value, key, place))
+        case CommentedSeq():
+            content = [
+                _with_places(part, _from(place, *value.lc.item(index)))
+                for index, part in enumerate(value)
+            ]
+        case bool() | None:
+            content = value
+        case int():
+            content = int(value)
+        case float():
+            content = float(value)
+        case str():
+            content = str(value)
+        case _:
+            raise InvalidConfiguration([f"{shown(place)}: a tag; expected: a value without one"])
+    return Placed(content, place)
+
+
+def _of_key(mapping: CommentedMap, key: str, place: Place) -> Place:
+    """Where a key stands, itself or in what is merged by <<."""
+    if key in mapping.lc.data:
+        return _from(place, *mapping.lc.key(key))
+    for merged in mapping.merge.value:
+        if key in merged:
+            return _of_key(merged, key, place)
+    return place
+
+
+def _from(place: Place, line: int, column: int) -> Place:
+    return place[0], line + 1, column + 1
+
+
+def _unreadable(name: str, error: MarkedYAMLError) -> str:
+    """Ruamel's reason in a sentence."""
     begun = f" in what begins in line {error.context_mark.line + 1}" if error.context_mark else ""
-    return f"{shown(_place(name, error.problem_mark))}: no YAML: {error.problem}{begun}"
-
-
-def _place(name: str, mark: yaml.Mark) -> Place:
-    return name, mark.line + 1, mark.column + 1
+    mark = error.problem_mark
+    problem = str(error.problem).strip()
+    return f"{shown((name, mark.line + 1, mark.column + 1))}: no YAML: {problem}{begun}"
 
 
 def shown(place: Place) -> str:
     """A place as compilers write it."""
     return ":".join(map(str, place))
-
-
-class _Loader(yaml.SafeLoader):
-    """PyYAML's, with the words of YAML 1.2."""
-
-    yaml_implicit_resolvers: dict = {}  # noqa: RUF012 as PyYAML declares it
-
-    def value(self, node: yaml.Node, place: Place) -> Placed:
-        """What a node says."""
-        known = self.DEFAULT_SCALAR_TAG, self.resolve(type(node), node.value, (True, False))
-        if node.tag not in known:
-            _refuse(f"the tag {node.tag}", node)
-        content: Any
-        match node:
-            case yaml.MappingNode():
-                content = self._mapping(node)
-            case yaml.SequenceNode():
-                content = [
-                    self.value(part, _place(self.name, part.start_mark)) for part in node.value
-                ]
-            case _:
-                content = self.construct_object(node)
-        return Placed(content, place)
-
-    def _mapping(self, node: yaml.MappingNode) -> dict[str, Placed]:
-        lines: dict[str, int] = {}
-        for key, _ in node.value:
-            if not isinstance(key, yaml.ScalarNode):
-                _refuse("a key that is no text", key)
-            if key.value in lines:
-                _refuse(f"{key.value} stands twice, first in line {lines[key.value]}", key)
-            lines[key.value] = key.start_mark.line + 1
-        self.flatten_mapping(node)  # puts in what is merged by <<
-        return {
-            key.value: self.value(part, _place(self.name, key.start_mark))
-            for key, part in node.value
-        }
-
-
-def _refuse(problem: str, node: yaml.Node) -> None:
-    raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
-
-
-for kind, pattern, first in (
-    ("merge", "<<", "<"),
-    ("bool", "true|True|TRUE|false|False|FALSE", "tTfF"),
-    ("null", "~|null|Null|NULL|", ["~", "n", "N", ""]),
-    ("int", r"[-+]?[0-9]{1,18}", "-+0123456789"),
-    (
-        "float",
-        r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)",
-        "-+0123456789.",
-    ),
-):
-    _Loader.add_implicit_resolver(f"tag:yaml.org,2002:{kind}", re.compile(f"^({pattern})$"), first)
-# YAML 1.2 has no octal numbers with a leading zero: 010 is ten, and 08 is eight.
-_Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))

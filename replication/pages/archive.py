@@ -1,8 +1,8 @@
 """The archive: code, results, recordings and article in one file that says what they are.
 
-`python -m workflow.archive results/archive.zip` packs what git knows and the results of the shipped
-study, as an RO-Crate: for each result it says which job made it, from what, and when. The same
-results give the same bytes.
+`python -m replication.pages.archive results/archive.zip` packs the committed files and the results
+of the shipped study as an RO-Crate: each result has the job that made it, its inputs and its times.
+The same results give the same bytes.
 """
 
 import base64
@@ -12,7 +12,7 @@ import mimetypes
 import subprocess
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -25,8 +25,10 @@ from rocrate.rocrate import ROCrate
 
 import recalib
 from recalib.files.storage import whole
+from replication.config import shipped
+from replication.judgement.findings import Finding, Number, read_findings
 
-RESULTS, PUBLISHED = Path("results"), Path("published")  # here, and in the archive
+RESULTS, PUBLISHED = Path(shipped.RESULTS), Path("published")  # here, and in the archive
 NOTES = Path(".snakemake/metadata")  # what Snakemake knows of each file that it made
 CHOSEN = (
     "summary.csv",
@@ -35,12 +37,11 @@ CHOSEN = (
     "SHA256SUMS",
     "check.txt",
     "article.pdf",
-    "report.html",
     "figures/*",
     "mapping/*",
     "ensemble/*",
-    "runs/*/*.parquet",
-    "scenarios/*",
+    "robots/*/*.json",
+    "runs/*/*/*.parquet",
     "recordings/*.rrd",
 )
 REPEATABLE = {".csv", ".json", ".parquet", ".svg"}  # whose bytes follow from the code
@@ -74,58 +75,50 @@ def checksums() -> str:
     )
 
 
-def notes() -> Iterator[tuple[Path, Mapping]]:
+def notes() -> Iterator[tuple[Path, Mapping[str, Any]]]:
     """Each file that Snakemake made, and how."""
     for path in sorted(NOTES.iterdir()):
         name = base64.b64decode(path.name).decode()
         yield Path(name), json.loads(path.read_text(encoding="utf-8"))
 
 
-def claims_as_linked_data(claims: list[Mapping], paper: Mapping) -> dict[str, Any]:
-    """Each judged claim as a review of a sentence of the paper, in the words of schema.org."""
+def as_linked_data(findings: Iterable[Finding], paper: Mapping[str, Any]) -> dict[str, Any]:
+    """Each finding as a review of a sentence of the paper, in the words of schema.org."""
     article = {"@type": "ScholarlyArticle", "name": paper["title"]}
     return {
         "@context": "https://schema.org",
         "@graph": [
             {
                 "@type": "ClaimReview",
-                "@id": f"#{claim['id']}",
-                "claimReviewed": claim["statement"],
+                "@id": f"#{finding.id}",
+                "claimReviewed": finding.claim,
                 "itemReviewed": {
                     "@type": "Claim",
-                    "text": claim["quotation"],
-                    "appearance": article | {"pagination": f"section {claim['section']}"},
+                    "text": finding.statement,
+                    "appearance": article | {"pagination": f"section {finding.section}"},
                 },
-                "reviewAspect": claim["criterion"],
-                "reviewRating": {"@type": "Rating", "alternateName": claim["verdict"]},
-                "additionalProperty": [*_numbers(claim)],
+                "reviewAspect": finding.criterion,
+                "reviewRating": {"@type": "Rating", "alternateName": str(finding.verdict)},
+                "additionalProperty": [_property(number) for number in finding.estimates],
             }
-            for claim in claims
+            for finding in findings
         ],
     }
 
 
-def _numbers(claim: Mapping) -> Iterator[dict[str, Any]]:
-    for name, value in claim["measured"].items():
-        number = {"@type": "PropertyValue", "name": name, "value": value}
-        if name in claim["interval"]:
-            low, high = claim["interval"][name]
-            number |= {"minValue": low, "maxValue": high}
-        yield number
-    if "mean" in claim["universes"]:
-        low, high = claim["universes"]["mean_interval"]
-        name, mean = "mean over the alternative setups", claim["universes"]["mean"]
-        yield {"@type": "PropertyValue", "name": name, "value": mean} | {
-            "minValue": low,
-            "maxValue": high,
-        }
+def _property(number: Number) -> dict[str, Any]:
+    name = f"{number.name} ({number.system})"
+    found = {"@type": "PropertyValue", "name": name, "value": number.value}
+    if number.interval:
+        found |= dict(zip(("minValue", "maxValue"), number.interval, strict=True))
+    return found
 
 
 def _moment(seconds: float) -> str:
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")
 
 
-def crate(citation: Mapping) -> ROCrate:
+def crate(citation: Mapping[str, Any]) -> ROCrate:
     """What the archive says of itself: the workflow, the files, and the run that made them."""
     its = ROCrate(version="1.1")  # the one on which the profiles of runs are built
     its.name = citation["title"]
@@ -168,7 +161,12 @@ def crate(citation: Mapping) -> ROCrate:
     return its
 
 
-def _add_run(its: ROCrate, workflow, results: Mapping[Path, Path], authors: list) -> None:
+def _add_run(
+    its: ROCrate,
+    workflow: ComputationalWorkflow,
+    results: Mapping[Path, Path],
+    authors: list[Person],
+) -> None:
     """An action for the whole run, and one for each job whose results are kept."""
     noted = [(path, note) for path, note in notes() if path in results and note["endtime"]]
     whole_run = {"@type": "CreateAction", "name": "A run of the workflow", "instrument": workflow}
@@ -203,8 +201,8 @@ def _add_run(its: ROCrate, workflow, results: Mapping[Path, Path], authors: list
 def pack(archive: Path) -> None:
     """Write the archive."""
     citation = yaml.safe_load(Path("CITATION.cff").read_text(encoding="utf-8"))
-    claims = json.loads((RESULTS / "claims.json").read_text(encoding="utf-8"))
-    linked = claims_as_linked_data(claims, citation["references"][0])
+    findings = read_findings(RESULTS / "claims.json").values()
+    linked = as_linked_data(findings, citation["references"][0])
     for name, text in (
         ("claims.jsonld", json.dumps(linked, indent=1) + "\n"),
         ("SHA256SUMS", checksums()),

@@ -1,7 +1,7 @@
 """What the pages of a study show: results as objects, from which templates choose."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -23,6 +23,7 @@ from replication.judgement.verdicts import Verdict
 from replication.pages.choices import Choice, alternatives, read_choices
 from replication.pages.formats import estimate, interval, percent, short
 from replication.pages.guidance import Benchmark
+from replication.plots.figures import Figure
 from replication.training.competitors import label_of
 from replication.training.measured import ERRORS, KINDS, UNITS
 
@@ -92,12 +93,14 @@ class Contents:
     """Everything that a template can show; it is computed when a page asks for it.
 
     Args:
-        figures: files of figures. A page shows those that it knows.
+        figures: files of figures that a page may show.
         project: the folder of the project.
     """
 
-    def __init__(self, study: Study, figures: Mapping[str, Path], project: Path = Path()):
-        self.study, self.figures, self.project = study, figures, project
+    def __init__(self, study: Study, figures: Iterable[Path] = (), project: Path = Path()):
+        self.study, self.project = study, project
+        drawn = {path.stem for path in figures}
+        self.figures = [figure for figure in Figure if figure.file in drawn]
         self.evidence = Evidence(study, project)
         self.root = root_of(study.name)
 

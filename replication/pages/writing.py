@@ -11,6 +11,7 @@ from replication.config.shipped import SHIPPED
 from replication.config.study import Study
 from replication.pages import formats, guidance
 from replication.pages.contents import Contents
+from replication.plots.figures import Figure
 
 TEMPLATES = "workflow/templates"
 OUTCOME = "outcome.txt"  # what a run prints when it ends
@@ -36,7 +37,7 @@ def write(
         figures: of the study; a page shows those that it knows.
         project: the folder of the project.
     """
-    contents = Contents(study, {path.stem: path for path in figures}, project)
+    contents = Contents(study, figures, project)
     for path in pages:
         text = render(path.name, contents)
         with whole(path) as temporary:
@@ -54,6 +55,7 @@ def render(page: str, contents: Contents) -> str:
         finalize=_escaped if page.endswith(".typ") else None,
     )
     environment.globals |= {name: its for name, its in vars(formats).items() if callable(its)}
+    environment.globals["Figure"] = Figure
     environment.globals |= {"on_real_arm": guidance.on_real_arm, "ends": guidance.ends_on_twin}
     return environment.get_template(f"{page}.j2").render(results=contents, study=contents.study)
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
+import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,7 +15,7 @@ from replication.judgement.evidence import Evidence
 from replication.judgement.findings import Finding
 from replication.judgement.verdicts import Verdict
 from replication.plots.palette import BORDER, HOLDS, NEUTRAL
-from replication.plots.style import MARK, WIDTH, logarithmic, name_rows, plt
+from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_rows, spread
 
 ROW = 0.28  # inches
 TICKS = 0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100
@@ -67,11 +68,13 @@ class Row(NamedTuple):
 
 def rows(evidence: Evidence) -> list[Row]:
     """All claims that setups decide by errors, in the paper's order."""
-    findings, outcomes = evidence.findings(), evidence.outcomes()
+    findings = evidence.findings()
     return [
-        Row(its, findings[its.statement.id], np.exp(its.estimand.values(outcomes).model().numbers))
+        Row(its, findings[its.statement.id], np.exp(its.values(evidence).model().numbers))
         for its in claims(evidence.study)
-        if isinstance(its, OfSetups) and not isinstance(its.estimand, Crossing)
+        if isinstance(its, OfSetups)
+        and not isinstance(its.estimand, Crossing)
+        and its.statement.id in findings
     ]
 
 
@@ -96,10 +99,7 @@ def _draw(axes: Axes, its: list[Row]) -> None:
     for height, row in zip(heights, its, strict=True):
         _draw_row(axes, height, row, (low, high))
     name_rows(axes, heights, [LABELS[row.claim.statement.id] for row in its])
-    beside = axes.secondary_yaxis("right")
-    beside.set_yticks(heights, [row.result for row in its])
-    beside.tick_params(length=0)
-    beside.spines["right"].set_visible(False)
+    beside = name_right(axes, heights, [row.result for row in its])
     for label, row in zip(beside.get_yticklabels(), its, strict=True):
         if row.finding.verdict in (Verdict.SUPPORTED, Verdict.CONTRADICTED):
             label.set_fontweight("bold")
@@ -125,7 +125,7 @@ def _draw_row(axes: Axes, height: float, row: Row, ends: tuple[float, float]) ->
     if comparison.same:
         same = np.exp([comparison.limit - comparison.same, comparison.limit + comparison.same])
         axes.vlines(same, *around, linestyle=(0, (1, 1)), **BORDER)
-    upper = height + 0.14 + 0.3 * (np.arange(len(row.numbers)) * 0.618 % 1 - 0.5)
+    upper = height + 0.14 + spread(len(row.numbers))
     axes.scatter(row.numbers, upper, s=12, marker=".", color="0.35", lw=0)
     lower = height - 0.26
     axes.hlines(lower, *(number.predictive_interval or ()), color=NEUTRAL, linewidth=0.8)

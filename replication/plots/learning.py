@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.evidence import Evidence
-from replication.plots.palette import BOTH, GREY, STYLES, ErrorStyle, Training, styles_of_trainings
+from replication.plots.palette import BOTH, GREY, ErrorStyle, Training, styles_of_trainings
 from replication.plots.style import (
     BAND,
     MARK,
@@ -21,7 +22,6 @@ from replication.plots.style import (
     logarithmic,
     name_rows,
     note,
-    plt,
     with_intervals,
     words,
 )

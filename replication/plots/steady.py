@@ -7,12 +7,18 @@ borders are moved to where no rounded number, half or quarter lies, so that only
 there. Noise of 1e-9 of a value then moves one in some 100,000 of them.
 """
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.collections import Collection
 from matplotlib.figure import Figure
 from matplotlib.scale import LogScale, LogTransform, register_scale
 from matplotlib.text import Annotation
+from matplotlib.transforms import Transform
+from numpy.typing import ArrayLike
 
 LOG = "rounded log"  # the scale of logarithmic axes
 DIGITS = 4  # that are seen
@@ -22,7 +28,7 @@ BORDER = 0.4567  # where values begin to be rounded up, less than one half
 class _RoundedLogTransform(LogTransform):
     """Logarithms to nine decimals: their last digits depend on the processor."""
 
-    def transform_non_affine(self, values):
+    def transform_non_affine(self, values: ArrayLike) -> np.ndarray:
         return np.round(np.asarray(super().transform_non_affine(values)), 9)
 
 
@@ -31,10 +37,10 @@ class RoundedLogScale(LogScale):
 
     name = LOG
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
 
-    def get_transform(self):
+    def get_transform(self) -> LogTransform:
         return _RoundedLogTransform(10)
 
 
@@ -46,7 +52,7 @@ def _power_of_ten(value: float) -> int:
     return int(f"{value:e}".split("e")[1]) if np.isfinite(value) else 0
 
 
-def rounded(values, scale: float | None = None) -> np.ndarray:
+def rounded(values: ArrayLike, scale: float | None = None) -> np.ndarray:
     """The values to `DIGITS` digits of each by itself, or to so many below `scale` for all."""
     values = np.array(values, dtype=float)
     if scale is None:
@@ -57,7 +63,7 @@ def rounded(values, scale: float | None = None) -> np.ndarray:
     return np.floor(values / steps + BORDER) * steps
 
 
-def _round_on(axis: Axis, values) -> np.ndarray:
+def _round_on(axis: Axis, values: ArrayLike) -> np.ndarray:
     if axis.get_scale() == LOG:
         return rounded(values)
     low, high = axis.get_view_interval()
@@ -67,10 +73,7 @@ def _round_on(axis: Axis, values) -> np.ndarray:
 def steady(figure: Figure) -> None:
     """Round all that is drawn in the axes of a figure, and their limits."""
     for axes in figure.axes:
-        scales = axes.xaxis, axes.yaxis
-
-        def both(points, scales=scales) -> np.ndarray:
-            return np.stack([_round_on(axis, points[:, i]) for i, axis in enumerate(scales)], 1)
+        both = partial(_round_points, axes)
 
         limits = axes.get_xlim(), axes.get_ylim()
         for line in axes.lines:
@@ -84,9 +87,16 @@ def steady(figure: Figure) -> None:
         axes.set_ylim(*_round_on(axes.yaxis, limits[1]))
 
 
-def _round_collection(collection: Collection, data, both) -> None:
+def _round_points(axes: Axes, points: np.ndarray) -> np.ndarray:
+    scales = axes.xaxis, axes.yaxis
+    return np.stack([_round_on(axis, points[:, i]) for i, axis in enumerate(scales)], 1)
+
+
+def _round_collection(
+    collection: Collection, data: Transform, both: Callable[[np.ndarray], np.ndarray]
+) -> None:
     if collection.get_offset_transform() is data:
         collection.set_offsets(both(np.asarray(collection.get_offsets())))
         return
     for path in collection.get_paths():
-        path.vertices = both(path.vertices)
+        path.vertices = both(np.asarray(path.vertices))

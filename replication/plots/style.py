@@ -13,14 +13,16 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axes._secondary_axes import SecondaryAxis
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator, StrMethodFormatter
 from numpy.typing import ArrayLike
 
 from recalib.files.storage import whole
-from replication.plots.palette import BORDER, GREY, Style
+from replication.plots.palette import Style
 from replication.plots.steady import LOG, steady
 
 WIDTH = 5.0  # inches
@@ -55,6 +57,7 @@ STYLE: Any = {
     "svg.fonttype": "none",
 }
 BAND = (5, 95)  # percent of the runs
+GOLDEN = 0.618  # its multiples fill [0, 1] evenly, modulo 1
 MARK = 28  # points squared, of a sign
 
 
@@ -89,6 +92,20 @@ def name_rows(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> None:
     axes.grid(axis="y", visible=False)
 
 
+def name_right(axes: Axes, heights: ArrayLike, names: Iterable[str]) -> SecondaryAxis:
+    """Words to the right of what stands in rows at these heights; returns their axes."""
+    beside = axes.secondary_yaxis("right")
+    beside.set_yticks(heights, list(names))
+    beside.tick_params(length=0)
+    beside.spines["right"].set_visible(False)
+    return beside
+
+
+def spread(count: int) -> np.ndarray:
+    """Heights (count,) about 0 at which points of a row hide one another less."""
+    return 0.3 * (np.arange(count) * GOLDEN % 1 - 0.5)
+
+
 def band(axes: Axes, places: ArrayLike, ends: Sequence[ArrayLike], color: str) -> None:
     """What lies between the lower and the upper end, paler than its line."""
     low, high = ends
@@ -109,31 +126,11 @@ def with_intervals(
     axes.scatter(values, rows, s=MARK, label=label, zorder=3, **style.signs())
 
 
-def note(axes: Axes, text: str, at: tuple, points: tuple[float, float], **font) -> None:
+def note(
+    axes: Axes, text: str, at: tuple[float, float], points: tuple[float, float], **font: Any
+) -> None:
     """Words, so many points to the right of a place in the data and above it."""
     axes.annotate(text, at, points, textcoords="offset points", **font)
-
-
-def line_across(axes: Axes, text: str, x: float | None = None, y: float | None = None) -> None:
-    """A line that parts one side of the axes from the other, and what it is.
-
-    An upright one at x, or a level one at y.
-    """
-    upright = x is not None
-    if x is not None:
-        axes.axvline(x, **BORDER)
-    elif y is not None:
-        axes.axhline(y, **BORDER)
-    note(
-        axes,
-        text,
-        (x, 1) if upright else (1, y),
-        (0, 2) if upright else (-2, 2),
-        xycoords=("data", "axes fraction") if upright else ("axes fraction", "data"),
-        ha="center" if upright else "right",
-        va="bottom",
-        color=GREY,
-    )
 
 
 def legend_below(figure: Figure, axes: Axes, columns: int) -> None:

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -54,7 +55,7 @@ def script(study: Study, scenario: Path, settings: Sequence[Path], history: Path
     return f"// Written by the pipeline: seed {seed}.\nconst STUDY = {json.dumps(described)};\n"
 
 
-def _described(robot: Robot, links: tuple[str, ...]) -> dict[str, list]:
+def _described(robot: Robot, links: tuple[str, ...]) -> dict[str, list[Any]]:
     """Its kinematics, and each of these links with the placement at its end."""
     placements = Chain.of(robot.arm).placements
     return {

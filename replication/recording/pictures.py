@@ -33,7 +33,7 @@ FRAME, LAST = 100, 2000  # milliseconds
 class _Patient:
     """A viewer's client that asks again on a busy machine: rerun's own gives up after 15 s."""
 
-    def __init__(self, process: subprocess.Popen, client: ViewerClient):
+    def __init__(self, process: subprocess.Popen[bytes], client: ViewerClient):
         self._process, self._client = process, client
 
     def __getattr__(self, method: str) -> Callable[..., Any]:
@@ -41,15 +41,11 @@ class _Patient:
         return lambda *its, **named: answer(self._process, partial(ask, *its, **named))
 
 
-def picture(recording: Path, before: Path, after: Path, film: Path) -> None:
-    """Take the pictures of a recording: the arm before and after its recalibration, and a film.
-
-    Needs and raises what `take_pictures` does.
-    """
+def before_and_after(recording: Path, before: Path, after: Path) -> None:
+    """Pictures of the arm before and after its recalibration; see `take_pictures`."""
     first, last = ends(recording)
     # the last frame of learning: its number is one of iterations, and the arm rests there, too
     take_pictures(recording, {before: BEFORE, after: first + last})
-    take_film(recording, film)
 
 
 def take_pictures(

@@ -13,7 +13,7 @@ from replication.training.benchmark import compete
 from replication.training.competitors import homes_of, label_of, make_peer, needs_of, peers
 from replication.training.real_arm import remaining_errors
 from replication.training.tracker import TrackerMeasurements
-from workflow.scripts.call import write
+from replication.running.outputs import write
 
 
 class Pure(PolynomialLearner):

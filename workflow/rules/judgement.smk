@@ -40,7 +40,7 @@ rule findings:
     resources:
         **room(mem_mb=2000, runtime=20),
     params:
-        **calls("judgement.claims.judge"),
+        **calls("judgement.claims.findings_of"),
     message:
         "Judge every claim of the paper"
     script:

@@ -2,7 +2,7 @@
 
 from replication.config.switches import IMPROVED
 from replication.pages.writing import OUTCOME, pages_of
-from replication.plots.drawing import figures_of
+from replication.plots.figures import figures_of
 from replication.recording.recorded import recorded_learners, recorded_places
 
 FIGURES = [
@@ -120,7 +120,7 @@ rule publish:
         f"{RESULTS}/logs/publish.log",
     localrule: True
     params:
-        **calls("running.publishing.publish"),
+        **calls("pages.publishing.publish"),
     message:
         "Publish figures and pages"
     script:

@@ -15,7 +15,7 @@ from replication.judgement.claims import (
 )
 from replication.judgement.claims.claim import Claim
 from replication.judgement.evidence import Evidence, NotMeasured
-from replication.judgement.findings import Finding
+from replication.judgement.findings import Finding, written
 
 
 def claims(study: Study) -> list[Claim]:
@@ -40,3 +40,8 @@ def judge(evidence: Evidence) -> tuple[Finding, ...]:
         except NotMeasured:
             continue
     return tuple(found)
+
+
+def findings_of(study: Study) -> bytes:
+    """The text of the file of a study's findings."""
+    return written(judge(Evidence(study)))

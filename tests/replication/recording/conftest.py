@@ -1,4 +1,7 @@
-"""A recording of two learners, and what it takes to make another one."""
+"""A small study with recordings of two scenarios, made as the workflow makes them."""
+
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -8,100 +11,112 @@ from rerun.chunk import RrdReader
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise
 from recalib.damaged.nongeometric import Sag
-from recalib.learners.hierarchical import HierarchicalLearner
-from recalib.learners.rules import IMPROVED, Rules
-from recalib.learners.schedules import Schedule
-from replication.config.study import Measuring
+from replication.config.study import Study
 from replication.recording.phases import CLOCK
-from replication.recording.writing import write_recording
-from replication.scenarios.plants import resolve
-from replication.training.poses import Stream, train_for_results
-from replication.training.recordings import Recording
-from tests.conftest import changed
+from replication.recording.recorded import recorded_learners, recorded_places
+from replication.recording.writing import record
+from replication.scenarios.plants import Resolved
+from replication.scenarios.resolving import resolve
+from replication.training.train import train
 
-SEED, ITERATIONS, TESTS = 7, 40, 30
-MEASURE_AT = range(0, ITERATIONS + 1, 4)
+OWN, INTACT = "links_encoders", "intact"
+LEARNERS = "improved", "ritter"
+ITERATIONS, TESTS = 40, 30
+NOISE = Noise(0.0002, 0.0003)
 DAMAGES = (
     BaseShift(translate=(0.01, 0.0, -0.02)),
     LinkShortening("forearm_link", 0.04),
     EncoderShift("elbow_joint", np.radians(-4)),
     Sag("shoulder_lift_joint", 0.0002),
-    Noise(0.0002, 0.0003),
+    NOISE,
 )
+WIDTHS = {"position": (0.6, 1.4), "orientation": (0.7, 1.2), "pose": (0.2, 0.3)}
 
 
-def learner(name, runs=1):
-    if name == "improved":
-        widths = {"position": (0.6, 1.4), "orientation": (0.7, 1.2)}
-        return HierarchicalLearner(IMPROVED, Schedule(3.8, widths, 0.8, 0.4), runs=runs)
-    rules, widths = Rules(False, False, False, False), {"pose": (0.2, 0.3)}
-    return HierarchicalLearner(rules, Schedule(0.5, widths, 0.4, 0.1), runs=runs)
+class Files(NamedTuple):
+    """What `record` is given, and what it writes."""
 
-
-def learners(job):
-    return {name: learner(name) for name in job.learners}
-
-
-@pytest.fixture(scope="session")
-def job(study):
-    """A recording of two learners."""
-    return Recording(
-        scenario="links_encoders",
-        learners={
-            name: study.learners[name].model_copy(update={"iterations": ITERATIONS})
-            for name in ("improved", "ritter")
-        },
-        measuring=Measuring(
-            tests=TESTS, measure_every=4, measure_evenly=ITERATIONS, measurements=2
-        ),
-        seed=SEED,
-        published={"position_error_cm": 8.3, "orientation_error_deg": 4.7},
-        meshes_sha256="",
-    )
+    scenarios: list[Path]
+    settings: list[Path]
+    histories: list[Path]
+    recordings: list[Path]
 
 
 @pytest.fixture(scope="session")
-def resolved(plan):
-    """A scenario of these damages, on the study's robot or one changed."""
+def small(study) -> Study:
+    """The shipped study with two short trainings and damages of every kind."""
+    plan = {"scenarios": (OWN, INTACT), "robots": (), "own": {}, "switches": False, "ensemble": {}}
+    plan["learners"] = dict.fromkeys(LEARNERS, (ITERATIONS,))
+    changes = {
+        "experiments": study.experiments.model_copy(update=plan),
+        "scenarios": study.scenarios | {OWN: DAMAGES},
+        "training": study.training.model_copy(update={"seeds": 3, "tests": TESTS}),
+    }
+    return study.model_copy(update=changes)
 
-    def resolved(damages, **robot):
-        nominal = changed(plan.nominal("ur10"), **robot)
-        return resolve("links_encoders", nominal, damages, poses=2, seed=SEED)
 
-    return resolved
-
-
-def poses(runs=1):
-    """What is learned from, and what is tested on."""
-    return Stream.SCENARIO.draw(SEED, range(runs), ITERATIONS, TESTS, scenario="links_encoders")
+def trained(study: Study, root: Path) -> Files:
+    """Files of trainings of a study below a folder, of which nothing is recorded yet."""
+    settings = root / "settings.csv"
+    rows = [
+        {"setup": 0, "replicate": 0, "variant": name, "iterations": ITERATIONS}
+        | {
+            f"{part}_{net}": its[n]
+            for part, its in WIDTHS.items()
+            for n, net in ((0, "g_k"), (1, "g_kl"))
+        }
+        | {"initial_width": 3.8, "initial_rate": 0.8, "final_rate": 0.4}
+        for name in LEARNERS
+    ]
+    pd.DataFrame(rows).to_csv(settings, index=False)
+    files = Files([], [settings], [], [])
+    places, names = recorded_places(study), recorded_learners(study)
+    scenarios, _ = resolve(study, study.robot, [place.scenario for place in places])
+    for place, resolved in zip(places, scenarios, strict=True):
+        scenario = Path(place.scenario_file(str(root)))
+        histories = [Path(place.history_file(str(root), name)) for name in names]
+        for path in (scenario, histories[0]):
+            path.parent.mkdir(parents=True, exist_ok=True)
+        scenario.write_text(resolved.model_dump_json(), encoding="utf-8")
+        learned = [path.with_suffix(".npz") for path in histories]
+        train(study, *place, scenario, [settings], histories, learned)
+        files.scenarios.append(scenario)
+        files.histories.extend(histories)
+        files.recordings.append(root / "recordings" / f"{place.scenario}.rrd")
+    files.recordings[0].parent.mkdir()
+    return files
 
 
 @pytest.fixture(scope="session")
-def results(job, resolved):
-    """What an experiment without a recording measures of the learners in the first of two runs."""
-    its, measured = resolved(DAMAGES), {}
-    controller = its.controller()
-    for name in job.learners:
-        plant = its.plant(controller, SEED, range(2))
-        history = train_for_results(plant, learner(name, 2), poses(2), MEASURE_AT)
-        frame = pd.DataFrame(history.columns())
-        measured[name] = frame[frame["run"] == 0]
-    return measured
+def files(small, tmp_path_factory) -> Files:
+    """Those of the small study, with its recordings."""
+    its = trained(small, tmp_path_factory.mktemp("results"))
+    record(small, *its)
+    return its
 
 
 @pytest.fixture(scope="session")
-def recording(tmp_path_factory, job, resolved, results):
-    """The file, and what was watched."""
-    path = tmp_path_factory.mktemp("recordings") / "links_encoders.rrd"
-    return path, write_recording(path, job, resolved(DAMAGES), learners(job), results, 0)
+def recording(files) -> Path:
+    """That of the study's own scenario."""
+    return files.recordings[0]
+
+
+@pytest.fixture(scope="session")
+def resolved(files) -> Resolved:
+    """The study's own scenario."""
+    return Resolved.read(files.scenarios[0])
 
 
 @pytest.fixture(scope="session")
 def columns(recording):
     """A function that returns a column of an entity: its times, None if static, and its values."""
+    return reader(recording)
+
+
+def reader(recording: Path):
     batches = [
         (chunk.entity_path, chunk.to_record_batch())
-        for chunk in RrdReader(recording[0]).store().stream().to_chunks()
+        for chunk in RrdReader(recording).store().stream().to_chunks()
     ]
 
     def column(entity, component):

@@ -95,7 +95,7 @@ def test_distances_are_the_published_ones(one, other, distance):
 @pytest.mark.parametrize("seen", SEEN)
 def test_colours_that_mean_different_things_differ(seen):
     of_learners = {f"LEARNERS[{n}]": colour for n, colour in enumerate(colours.LEARNERS)}
-    assert of_learners.pop("LEARNERS[0]") == colours.BELIEVED
+    assert of_learners.pop("LEARNERS[0]") == colours.NOMINAL
     named = {name: its for name, its in vars(colours).items() if name.isupper()} | of_learners
     del named["LEARNERS"]
     assert len(named) == 9

@@ -6,6 +6,7 @@ import subprocess
 from dataclasses import replace
 from functools import partial
 from itertools import product
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -21,10 +22,11 @@ from recalib.loop.training import train
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import pose_errors
 from replication.recording.in_browser import script
+from replication.recording.recorded import typical_seed
+from replication.scenarios.plants import Resolved
 from replication.training.poses import Stream
-from replication.training.samples import winners
-from replication.training.trainings import measuring, rules
 from tests.conftest import ROOT
+from tests.replication.recording.conftest import ITERATIONS, OWN, TESTS, WIDTHS
 
 STUDY = ROOT / "docs" / "study.js"
 SCRIPTS = [f"workflow/site/try/{name}.js" for name in ("arm", "plant", "map", "experiment")]
@@ -37,10 +39,25 @@ close = partial(np.testing.assert_allclose, rtol=0, atol=1e-9)
 needs_node = pytest.mark.skipif(not shutil.which("node"), reason="needs Node: Debian's nodejs")
 
 
-def in_node(asked: str):
+@pytest.fixture(scope="module")
+def written(small, files, tmp_path_factory) -> Path:
+    """The script of the small study."""
+    path = tmp_path_factory.mktemp("page") / "study.js"
+    text = script(small, files.scenarios[0], files.settings, files.histories[0])
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def content(path: Path) -> SimpleNamespace:
+    """What stands in a script."""
+    text = path.read_text(encoding="utf-8")
+    return SimpleNamespace(**json.loads(text.partition("STUDY = ")[2].rstrip(";\n")))
+
+
+def in_node(written: Path, asked: str):
     """The value of an expression, with the study and all scripts but the page's there."""
     ran = subprocess.run(
-        ["node", "-e", NODE, "--", asked, str(STUDY), *SCRIPTS],
+        ["node", "-e", NODE, "--", asked, str(written), *SCRIPTS],
         cwd=ROOT,
         text=True,
         capture_output=True,
@@ -49,20 +66,13 @@ def in_node(asked: str):
     return json.loads(ran.stdout)
 
 
-@pytest.fixture(scope="module")
-def shipped() -> SimpleNamespace:
-    """What stands in the committed script."""
-    text = STUDY.read_text(encoding="utf-8")
-    return SimpleNamespace(**json.loads(text.partition("STUDY = ")[2].rstrip(";\n")))
-
-
 def damaged(robot, damage):
     short = [LinkShortening(*its) for its in zip(LINKS, damage, strict=False)]
     return apply(robot, [*short, *map(EncoderShift, robot.joints, damage[4:])])
 
 
 @needs_node
-def test_the_kinematics_are_those_of_the_library(robot, controller, shipped):
+def test_the_kinematics_are_those_of_the_library(robot, controller, written):
     plant = damaged(robot, LARGEST)
     asked = f"""(() => {{
       const {{ controller, tests }} = new Experiment(STUDY);
@@ -72,8 +82,8 @@ def test_the_kinematics_are_those_of_the_library(robot, controller, shipped):
         coordinates: workspace.toCoordinates(its.achieve(angles)),
         errors: errors(its.achieve(angles), pose) }}));
     }})()"""
-    found = pd.DataFrame(in_node(asked))
-    tests = np.array(shipped.tests)
+    found = pd.DataFrame(in_node(written, asked))
+    tests = np.array(content(written).tests)
     desired, angles = robot.workspace.to_poses(tests), controller.targets(tests[None]).angles[0]
     achieved = plant.forward(angles)
     close(np.stack(found["pose"]), desired[:, :3].reshape(-1, 12))
@@ -95,15 +105,15 @@ def narrow(robot, controller) -> Controller:
 
 @needs_node
 @pytest.mark.parametrize("name", ["as far as the sliders go", "beyond limits"])
-def test_every_measurement_of_a_training_is_that_of_the_library(name, request, shipped):
+def test_every_measurement_of_a_training_is_that_of_the_library(name, request):
     controller = request.getfixturevalue("narrow" if name == "beyond limits" else "controller")
     robot, limits = controller.robot, ("lower", "upper")
     bounds = json.dumps({its: getattr(robot, its).tolist() for its in limits})
     asked = f"Object.assign(STUDY.robot, {bounds}) && [...new Experiment(STUDY).train({LARGEST})]"
-    found = pd.DataFrame(in_node(asked))
-    plant = Plant(controller, damaged(robot, LARGEST))
-    learner = HierarchicalLearner(IMPROVED, Schedule(**shipped.schedule))
-    poses, measure_at = map(np.array, (shipped.desired, shipped.tests)), range(0, 201, 4)
+    found = pd.DataFrame(in_node(STUDY, asked))
+    plant, its = Plant(controller, damaged(robot, LARGEST)), content(STUDY)
+    learner = HierarchicalLearner(IMPROVED, Schedule(**its.schedule))
+    poses, measure_at = map(np.array, (its.desired, its.tests)), range(0, 201, 4)
     history = train(plant, learner, *poses, measure_at)
     assert len(found) == len(measure_at) == 51
     assert (history.refused[-1] > 0) == (name == "beyond limits")
@@ -112,43 +122,34 @@ def test_every_measurement_of_a_training_is_that_of_the_library(name, request, s
 
 
 @needs_node
-def test_an_identification_finds_the_damage_and_leaves_nothing():
+def test_an_identification_finds_the_damage_and_leaves_nothing(written):
     damages = LARGEST, [0.0] * 10, [0.01, 0.0, 0.02, 0.04, 0.0, -0.07, 0.0, 0.03, 0.0, 0.05]
     its = "new Experiment(STUDY)"
     asked = (f"[{its}.identify({damage}), {its}.identified({damage})]" for damage in damages)
-    found = in_node(f"[{', '.join(asked)}]")
+    found = in_node(written, f"[{', '.join(asked)}]")
     for damage, (identified, left) in zip(damages, found, strict=True):
         close(identified, damage)
         close([left["position"], left["orientation"]], 0)
 
 
-def test_what_is_written_is_the_recorded_run(plan, study, tmp_path):
-    """That of the first seed of the typical search: here, the third of three."""
-    table = pd.DataFrame({"search": [1, 1, 2, 2, 3, 3], "seed": range(6), "iteration": 200})
-    errors = [0.1, 0.1, 0.3, 0.3, 0.2, 0.2]
-    table = table.assign(position_error_cm=errors, orientation_error_deg=errors)
-    history, scenario = tmp_path / "improved.parquet", tmp_path / "scenario.json"
-    table.to_parquet(history)
-    entries = (
-        {"link": "wrist_1_link", "shorten": "1 cm"},
-        {"encoder": "elbow_joint", "shift": "2 deg"},
-    )
-    resolved = plan.resolved("intact").model_dump(mode="json") | {"damages": entries}
-    scenario.write_text(json.dumps(resolved), encoding="utf-8")
-    sample, learner = ROOT / "workflow" / "search" / "improved_200.csv", rules(study, "improved")
-    text = script(scenario, sample, history, learner, measuring(study), study.seed)
-    its = json.loads(text.partition("STUDY = ")[2].rstrip(";\n"))
-    assert its["run"] == 4
-    assert its["schedule"]["initial_width"] == winners(sample)[2]["initial_width"]
-    close(its["damage"], [0, 0, 0.01, 0, 0, 0, np.radians(2), 0, 0, 0])
-    poses = Stream.SCENARIO.draw(study.seed, [4], 200, 200, scenario="intact")
-    assert its["desired"] == poses.desired[0].tolist() and its["tests"] == poses.tests[0].tolist()
+def test_what_is_written_is_the_recorded_training(small, files, tmp_path):
+    entries = LinkShortening("wrist_1_link", 0.01), EncoderShift("elbow_joint", 0.02)
+    resolved = Resolved.read(files.scenarios[0]).model_copy(update={"damages": entries})
+    (tmp_path / "scenario.json").write_text(resolved.model_dump_json())
+    text = script(small, tmp_path / "scenario.json", files.settings, files.histories[0])
+    (tmp_path / "study.js").write_text(text)
+    its = content(tmp_path / "study.js")
+    close(its.damage, [0, 0, 0.01, 0, 0, 0, 0.02, 0, 0, 0])
+    assert its.iterations == ITERATIONS and its.schedule["initial_width"] == 3.8
+    assert its.schedule["final_widths"]["position"] == [*WIDTHS["position"]]
+    seed = typical_seed(pd.read_parquet(files.histories[0]))
+    poses = Stream.SCENARIO.draw(small.seed, [seed], ITERATIONS, TESTS, scenario=OWN)
+    assert its.desired == poses.desired[0].tolist() and its.tests == poses.tests[0].tolist()
 
 
-def test_what_is_shipped_is_of_the_study(study, robot, shipped):
-    poses = Stream.SCENARIO.draw(study.seed, [shipped.run], 200, 200, scenario=study.scenario)
-    assert shipped.desired == poses.desired[0].tolist() and shipped.tests == poses.tests[0].tolist()
-    best = winners(ROOT / "workflow" / "search" / "improved_200.csv")[shipped.run // 5]
-    assert shipped.schedule["final_rate"] == best["final_rate"]
+def test_what_is_shipped_is_of_the_study(study, robot):
+    shipped, seeds = content(STUDY), range(study.training.seeds)
+    poses = Stream.SCENARIO.draw(study.seed, seeds, 200, 200, scenario=study.scenario)
+    assert shipped.desired in poses.desired.tolist() and shipped.tests in poses.tests.tolist()
     assert [link for link, _ in shipped.robot["links"]] == [*LINKS]
     close(shipped.robot["home"], robot.home)

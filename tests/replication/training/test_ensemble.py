@@ -1,52 +1,55 @@
-"""Trainings on many robots, in chunks or all at once."""
+"""Trainings on many robots."""
 
-from functools import partial
-
+import numpy as np
 import pytest
 
+from replication.config.study import Series
 from replication.scenarios.assignments import Ways
 from replication.training.ensemble import feasible, train_draws
-from replication.training.joining import put_together
-from replication.training.trainings import rules
-from tests.conftest import ROOT
+from tests.replication.conftest import settings_of
 
-SCALES = 1.0, 3.0
+SERIES = {"others": Series(draws=3, scales=(1,)), "scaled": Series(draws=6, scales=(1.0, 3.0))}
 
 
 @pytest.fixture(scope="module")
-def train(study, plan):
-    damage = study.paper_damage
-    return partial(
-        train_draws,
-        sample=ROOT / "workflow" / "search" / "improved_200.csv",
-        nominal=plan.nominal("ur10"),
-        shorten=damage.shorten,
-        shift=damage.shift,
-        series="scaled",
-        scales=SCALES,
-        rules=rules(study, "improved").model_copy(update={"iterations": 5}),
-        tests=10,
-        seed=1,
+def few(study):
+    plan = study.experiments.model_copy(
+        update={"ensemble": {"improved": SERIES}, "iterations": 5, "switches": False}
     )
+    training = study.training.model_copy(update={"tests": 10})
+    return study.model_copy(update={"experiments": plan, "training": training})
 
 
-def test_each_robot_has_links_long_enough_for_the_largest_damage(train, study, plan, robot):
+@pytest.fixture(scope="module")
+def table(few, tmp_path_factory):
+    settings = settings_of(few, tmp_path_factory.mktemp("settings") / "outcomes.csv")
+    return train_draws(few, "improved", settings)
+
+
+def test_each_robot_of_a_series_has_all_scales_of_its_damage(table):
+    assert table[["series", "draw", "scale"]].to_numpy().tolist() == [
+        *[["others", draw, 1] for draw in range(3)],
+        *[["scaled", draw, scale] for draw in range(6) for scale in (1, 3)],
+    ]
+    scaled = table[table["series"] == "scaled"]
+    error = scaled["initial_position_error_cm"].to_numpy().reshape(-1, 2)
+    assert (error[:, 1] > 2 * error[:, 0]).all()
+
+
+def test_the_robots_of_two_series_are_others(table):
+    first = [its["initial_position_error_cm"].iloc[0] for _, its in table.groupby("series")]
+    assert not np.isclose(*first, rtol=1e-3)
+
+
+def test_learning_helps_each_of_them(table):
+    for error in ("position_error_cm", "orientation_error_deg"):
+        assert (table[f"final_{error}"] < table[f"initial_{error}"]).all()
+
+
+def test_links_are_long_enough_for_the_largest_damage_of_a_series(study, plan, robot):
     """Though the smallest leaves more of them to draw from."""
     damage = study.paper_damage
     ways = Ways(plan.nominal("ur10").robot.links, damage.shorten, robot.joints, damage.shift)
     some = range(0, len(ways), 40)
-    assert len([*feasible(robot, ways, some, min(SCALES))]) == len(some)
-    assert len([*feasible(robot, ways, some, max(SCALES))]) < len(some)
-    table = train(first=0, last=6)
-    assert table[["robot", "scale"]].to_numpy().tolist() == [
-        [n, by] for n in range(6) for by in SCALES
-    ]
-    error = table["initial_position_error_cm"].to_numpy().reshape(-1, 2)
-    assert (error[:, 1] > 2 * error[:, 0]).all()
-
-
-def test_in_chunks_it_is_as_all_at_once(train, tmp_path):
-    files = [tmp_path / f"{first}.parquet" for first in (0, 2)]
-    for file, last in zip(files, (2, 3), strict=True):
-        train(first=int(file.stem), last=last).to_parquet(file)
-    assert put_together(files).to_pandas().equals(train(first=0, last=3))
+    assert len([*feasible(robot, ways, some, 1.0)]) == len(some)
+    assert len([*feasible(robot, ways, some, 3.0)]) < len(some)

@@ -6,51 +6,45 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from recalib.damaged.damage import EncoderShift, LinkShortening, apply
-from recalib.damaged.plant import Plant
 from recalib.learners import kernels
 from recalib.learners import rules as learning_rules
-from replication.judgement.checks import check
-from replication.training.poses import Stream, train_for_results
-from replication.training.settings import build_tuned
-from replication.training.trainings import rules, training
-from replication.training.trainings import seeds as seeds_of
-from tests.conftest import ROOT
+from replication.judgement.checks import check, expect
+from replication.judgement.summary import summarise
+from replication.running.outputs import write
+from replication.scenarios.resolving import resolve
+from replication.training.train import train
+from tests.replication.conftest import settings_of
 
 
-def final_errors(study, controller, learner="improved"):
-    """The rows of the check for one learner on the paper's damage, trained here and now."""
-    damages = [
-        LinkShortening("forearm_link", 0.01),
-        LinkShortening("wrist_1_link", 0.01),
-        LinkShortening("wrist_2_link", 0.04),
-        EncoderShift("shoulder_pan_joint", np.radians(4)),
-        EncoderShift("shoulder_lift_joint", np.radians(-4)),
-        EncoderShift("wrist_3_joint", np.radians(3)),
-    ]
-    settings = rules(study, learner)
-    seeds = np.arange(seeds_of(study, learner))  # those of the bands
-    searches = 1 + seeds // study.training.seeds
-    sample = ROOT / "workflow" / "search" / f"{training(study, learner)}.csv"
-    counts = settings.iterations, study.training.tests
-    history = train_for_results(
-        Plant(controller, apply(controller.robot, damages)),
-        build_tuned(settings, sample, searches),
-        Stream.SCENARIO.draw(study.seed, seeds, *counts, scenario="links_encoders"),
-        [settings.iterations],
-    )
-    summary = pd.DataFrame(
-        {
-            "scenario": ["links_encoders"],
-            "learner": [learner],
-            "final_position_error_cm": 100 * history.position[:, -1, 0].mean(),
-            "final_orientation_error_deg": np.degrees(history.orientation[:, -1, 0]).mean(),
+@pytest.fixture(scope="module")
+def errors(study, tmp_path_factory):
+    """Trains both learners on the paper's damage, with a seed; gives the summary's table."""
+    folder = tmp_path_factory.mktemp("planted")
+    plan = study.experiments.model_copy(
+        update={
+            "scenarios": ("links_encoders",),
+            "learners": {"improved": (200,), "ritter": (200,)},
+            "robots": (),
+            "own": {},
+            "switches": False,
         }
     )
-    expected = pd.read_csv(ROOT / study.expected).query(
-        "scenario == 'links_encoders' and learner == @learner"
-    )
-    return check(summary, expected)
+    one = study.model_copy(update={"experiments": plan})
+    resolved, settings = folder / "resolved.json", settings_of(study, folder / "outcomes.csv")
+    write(resolved, resolve(study, study.robot, ["links_encoders"])[0][0])
+    files = [[folder / f"{name}.{kind}" for name in plan.learners] for kind in ("parquet", "npz")]
+
+    def trained(seed: int = study.seed) -> pd.DataFrame:
+        its = one.model_copy(update={"seed": seed})
+        train(its, study.robot, "links_encoders", resolved, settings, *files)
+        return summarise(its, files[0])
+
+    return trained
+
+
+@pytest.fixture(scope="module")
+def bands(errors):
+    return expect(errors())
 
 
 def random_winners():
@@ -85,17 +79,19 @@ PLANTED = {
 }
 
 
-@pytest.mark.parametrize("learner", ["improved", "ritter_200"])
-def test_without_an_error_the_check_is_green(study, controller, learner):
-    assert final_errors(study, controller, learner)["ok"].all()
+def test_without_an_error_the_check_is_green_with_other_seeds_too(study, errors, bands):
+    assert check(errors(), bands)["ok"].all()
+    assert check(errors(study.seed + 1), bands)["ok"].all()
 
 
-def test_an_error_planted_in_ritters_rules_turns_the_check_red(study, controller):
+def test_an_error_planted_in_ritters_rules_turns_the_check_red(errors, bands):
     with nothing_propagated("theta_star", "jacobian_star"):
-        assert not final_errors(study, controller, "ritter_200")["ok"].any()
+        table = check(errors(), bands)
+    assert not table.loc[table["learner"] == "ritter", "ok"].any()
 
 
 @pytest.mark.parametrize("error", PLANTED)
-def test_a_planted_error_turns_the_check_red(study, controller, error):
+def test_a_planted_error_turns_the_check_red(error, errors, bands):
     with PLANTED[error]():
-        assert not final_errors(study, controller)["ok"].all()
+        table = check(errors(), bands)
+    assert not table.loc[table["learner"] == "improved", "ok"].all()

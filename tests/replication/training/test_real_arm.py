@@ -2,7 +2,6 @@
 
 import hashlib
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -18,13 +17,9 @@ from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from replication.config.study import Source
 from replication.scenarios.plants import nominal_robot
 from replication.training.competitors import peers
-from replication.training.real_arm import (
-    learn_from_tables,
-    learn_on_twin,
-    remaining_errors,
-    with_tool_point,
-)
-from replication.training.tracker import fetch, read_of, read_whole_description
+from replication.training.real_arm import learn, remaining_errors, with_tool_point
+from replication.training.tracker import fetch, fetched, read_of, read_whole_description
+from replication.training.tuned import Tuned
 from tests.conftest import ROOT
 
 # As the manufacturer gives it: a and d [m] and twists of the Denavit-Hartenberg convention.
@@ -138,55 +133,55 @@ def test_what_is_tested_on_teaches_nothing(learner, recording, ur5):
     assert alone == pytest.approx(left[:1], abs=1e-9)
 
 
-def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(
-    table, plan, tmp_path, monkeypatch
-):
+@pytest.fixture
+def files(table, tmp_path):
+    """The tables, and what they do not say themselves."""
     fit, test = tmp_path / "fit.csv", tmp_path / "test.csv"
     table[:40].to_csv(fit, index=False)
     table[100:].to_csv(test, index=False)
-    description = ROOT / plan.study.real.description
-    learned = partial(learn_from_tables, fit, test, description, plan.nominal("ur5"))
-    found = learned("affine", (10, 40), 3, 1)
+    return fit, test, ROOT / "workflow/real/ur5.toml"
+
+
+def learned(study, files, learner, poses, subsets, settings=(), **changes):
+    real = study.real.model_copy(update={"poses": poses, "subsets": subsets} | changes)
+    its = study.model_copy(update={"real": real})
+    return learn(its, learner, *files, settings)
+
+
+def test_of_several_poses_there_are_subsets_and_of_all_of_them_one(study, files, monkeypatch):
+    found = learned(study, files, "affine", (10, 40), 3)
     assert found[["poses", "subset"]].to_numpy().tolist() == [[10, 0], [10, 1], [10, 2], [40, 0]]
-    assert found["position_error_mm"].nunique() == 4
+    assert found["position_error_mm"].nunique() == 4 and not found["twin"].any()
     # another number of poses draws other subsets, not more of the same
     taught = []
     monkeypatch.setattr(
         "replication.training.real_arm.remaining_errors",
         lambda _, robot, known, tests: taught.append({*known.angles[:, 0]}) or np.ones(1),
     )
-    learned("affine", (10, 20), 2, 1)
+    learned(study, files, "affine", (10, 20), 2)
     assert not any(few <= more for few in taught[:2] for more in taught[2:])
     monkeypatch.undo()
-    nothing = learned("uncorrected", (10, 40), 3, 1)
+    nothing = learned(study, files, "uncorrected", (10, 40), 3)
     assert nothing["position_error_mm"].nunique() == 1 and len(nothing) == 2
 
 
-def test_on_a_twin_each_subset_has_a_search_of_its_own(table, plan, tmp_path, monkeypatch):
-    fit, rules = tmp_path / "fit.csv", plan.study.every_learner["improved"]
-    table[:40].to_csv(fit, index=False)
-    searched = []
+def test_on_a_twin_a_learner_chooses_its_poses(study, files, settings, monkeypatch):
+    training = study.training.model_copy(update={"tests": 5})
+    its = study.model_copy(update={"training": training})
+    asked, learner = [], Tuned.learner
 
-    def uncorrected(_, sample, searches):
-        searched.append((sample, [*searches]))
-        return UncorrectedLearner()
+    def noted(self, *what):
+        asked.append(what)
+        return learner(self, *what)
 
-    monkeypatch.setattr("replication.training.real_arm.build_tuned", uncorrected)
-    found = learn_on_twin(
-        fit,
-        ROOT / plan.study.real.description,
-        tmp_path / "improved.csv",
-        plan.nominal("ur5"),
-        "improved",
-        rules.model_copy(update={"iterations": 4}),
-        (2, 4, 100),
-        subsets=3,
-        tests=5,
-        seed=1,
-    )
-    assert searched == [(tmp_path / "improved.csv", [1, 2, 3])]
-    assert found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
-    assert found["poses"].tolist() == [1, 2, 4] * 3  # this one moves once an iteration
+    monkeypatch.setattr(Tuned, "learner", noted)
+    twin = {"improved": 200}
+    found = learned(its, files, "improved", (2, 4, 1000), 3, settings, twin=twin)
+    assert asked == [("improved", 200, 3)]
+    assert found["twin"].all() and found["subset"].tolist() == [0, 0, 0, 1, 1, 1, 2, 2, 2]
+    assert found["poses"].tolist() == [2, 4, 400] * 3  # two moves an iteration
+    by_moves = found.groupby("poses")["position_error_mm"].mean()
+    assert by_moves[400] < by_moves[2]
 
 
 def test_tables_that_do_not_say_enough_are_refused(recording, ur5, tmp_path):
@@ -218,12 +213,21 @@ def test_one_pose_or_equal_ones_spoil_nothing(learner, recording, ur5):
 
 
 @pytest.mark.parametrize("digest", ["0" * 64, "f" * 64])
-def test_another_table_than_the_one_that_is_meant_is_refused(digest, tmp_path):
+def test_another_table_than_the_one_that_is_meant_is_refused(digest, study, tmp_path):
     given = tmp_path / "given.csv"
     given.write_text("a table")
     its = hashlib.sha256(given.read_bytes()).hexdigest()
-    fetch(Source(url="https://there", file=str(given), sha256=its), tmp_path / "own.csv")
-    assert (tmp_path / "own.csv").read_text() == "a table"
+    right, wrong = (
+        Source(url="https://there", file=str(given), sha256=sha256) for sha256 in (its, digest)
+    )
+    assert fetched(right) == b"a table"
+    data = study.real.data.model_copy(update={"fit": right, "test": wrong})
+    real = study.real.model_copy(update={"data": data})
     with pytest.raises(RecalibError, match=f"has SHA-256 {its}; expected {digest}"):
-        fetch(Source(url="https://there", file=str(given), sha256=digest), tmp_path / "no.csv")
-    assert not (tmp_path / "no.csv").exists()
+        fetch(study.model_copy(update={"real": real}))
+
+
+def test_a_table_out_of_reach_says_how_to_bring_one(tmp_path):
+    gone = str(tmp_path / "gone.csv")
+    with pytest.raises(RecalibError, match=r"gone.csv is out of reach .* can be named in real"):
+        fetched(Source(url="https://there", file=gone, sha256="0" * 64))

@@ -1,0 +1,76 @@
+"""Every change of what is registered has an entry, and the entry says what git says."""
+
+import subprocess
+import sys
+from datetime import UTC, datetime
+
+import pytest
+
+from replication.config.shipped import DEVIATIONS
+from replication.judgement.deviations import REMOVED, Change, Deviations
+from replication.judgement.registered import digests
+from tests.conftest import ROOT
+
+
+@pytest.fixture(scope="module")
+def told() -> Deviations:
+    return Deviations.read(ROOT)
+
+
+def changes(told: Deviations) -> list[Change]:
+    """All of them, in the order of time."""
+    earlier = [change for its in reversed(told.withdrawn) for change in its.changes]
+    return [*earlier, *told.deviations]
+
+
+def test_what_is_registered_is_as_the_last_entry_names_it(told, study):
+    changed = told.untold(digests(study, ROOT))
+    assert not changed, (
+        f"{', '.join(changed)}: not as {DEVIATIONS} names it last. Try: add an entry there, with"
+        " what `python -m replication.judgement.deviations` prints below `digests`"
+    )
+
+
+def test_an_entry_replaces_what_was_registered(told):
+    entry = told.deviations[0].model_copy(update={"digests": {"b": "2", "c": REMOVED}})
+    its = told.model_copy(
+        update={"registered": {"a": "1", "b": "1", "c": "1"}, "deviations": (entry,)}
+    )
+    assert its.untold({"a": "1", "b": "2"}) == {}
+    found = its.untold({"b": "1", "c": "1", "d": "1"})
+    assert found == {"b": "1", "c": "1", "d": "1", "a": REMOVED}
+
+
+def test_entries_are_in_the_order_of_time(told):
+    times = [change.when for change in changes(told)]
+    assert times == sorted(times)
+
+
+def test_entries_have_the_times_of_their_commits(told):
+    stated = {change.commit: change.when for change in changes(told)}
+    command = ["git", "show", "--no-patch", "--format=%ct", *stated]
+    ran = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    if ran.returncode:
+        pytest.skip("needs the project's history")
+    at = [datetime.fromtimestamp(int(its), UTC) for its in ran.stdout.split()]
+    assert [*stated.values()] == [f"{its:%Y-%m-%d %H:%M}" for its in at]
+
+
+def test_the_command_prints_what_an_entry_has_to_name(tmp_path):
+    """In a project in which the page of registration has changed."""
+    for folder in ("replication", "workflow", "docs"):
+        (tmp_path / folder).symlink_to(ROOT / folder)
+    (tmp_path / "config.yaml").write_bytes((ROOT / "config.yaml").read_bytes())
+    (tmp_path / "docs").unlink()
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "registration.md").write_text("other")
+    ran = subprocess.run(
+        [sys.executable, "-m", "replication.judgement.deviations"],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(ROOT)},
+        text=True,
+        capture_output=True,
+        check=True,
+    )
+    names = [line.split(":")[0].strip('"') for line in ran.stdout.splitlines()]
+    assert "docs/registration.md" in names

@@ -1,0 +1,160 @@
+"""The pages say what the findings say, also while the campaign is not complete."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from replication.config.reading import read_study
+from replication.judgement.claims.claim import FEWEST
+from replication.pages.contents import Contents
+from replication.pages.writing import OUTCOME, pages_of, render, write
+from replication.plots.figures import Figure
+from tests.conftest import ROOT
+
+FIGURES = [Path(f"{figure.file}.svg") for figure in Figure]
+ALL, SOME = 30, 5
+
+
+@pytest.fixture(scope="session")
+def complete(study, project) -> Contents:
+    return Contents(study, FIGURES, project(study, ALL))
+
+
+@pytest.fixture(scope="session")
+def partial(study, project) -> Contents:
+    return Contents(study, FIGURES, project(study, SOME))
+
+
+@pytest.fixture(scope="session")
+def begun(study, project) -> Contents:
+    """Fewer setups than have a mean."""
+    return Contents(study, FIGURES, project(study, FEWEST - 1))
+
+
+def rows(page: str, head: str) -> list[list[str]]:
+    """Cells of the table below a head."""
+    lines = page.split(f"\n{head}\n", 1)[1].splitlines()[1:]
+    table = lines[: next(i for i, line in enumerate(lines) if not line.startswith("|"))]
+    return [[cell.strip() for cell in line.strip("|").split(" | ")] for line in table]
+
+
+@pytest.mark.parametrize("contents", ["complete", "partial", "begun"])
+def test_the_readme_is_read_in_three_minutes(contents, request):
+    page = render("README.md", request.getfixturevalue(contents))
+    assert len(page.split()) <= 700
+    assert "\n\n\n" not in page
+
+
+def test_the_readme_has_eight_claims_with_number_and_verdict(complete):
+    table = rows(render("README.md", complete), "| The paper says | We find | Verdict |")
+    by_claim = {claim.statement.claim: claim for claim in complete.claims.values()}
+    assert len(table) == 8
+    for says, found, verdict in table:
+        assert verdict == by_claim[says].finding.verdict
+        assert by_claim[says].value in found
+
+
+def test_the_example_of_the_readme_finds_the_errors_that_it_made(complete, capsys):
+    (code,) = re.findall(r"```python\n(.*?)```", render("README.md", complete), re.DOTALL)
+    assert len(code.splitlines()) <= 12
+    names: dict = {}
+    exec(code, names)
+    calibration, true = names["calibration"], names["true"]
+    assert abs(calibration.forward(names["joints"]) - names["arm"].forward(true)).max() < 1e-4
+    assert "std err" in capsys.readouterr().out
+
+
+HEAD = "| claim | section | result | verdict |"
+
+
+def test_each_claim_has_a_row_and_its_reasons(complete):
+    page = render("findings.md", complete)
+    found = complete.evidence.findings()
+    table = rows(page, HEAD)
+    assert [cells[3] for cells in table] == [
+        found[name].verdict if name in found else "not measured" for name in complete.claims
+    ]
+    anchors = {
+        re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+        for heading in re.findall(r"^### (.+)$", page, re.MULTILINE)
+    }
+    assert {re.search(r"\(#(.+)\)", cells[0])[1] for cells in table} == anchors
+
+
+def test_the_reasons_of_a_claim_have_at_most_120_words(complete):
+    _, *reasons = render("findings.md", complete).split("\n### ")
+    assert max(len(text.split()) for text in reasons) <= 120
+
+
+def test_shares_of_an_error_are_in_percent_and_ratios_are_not(complete):
+    share, ratio = complete.claims["figure-1"], complete.claims["separate-maps"]
+    assert re.fullmatch(r"[\d.]+ % \([\d.]+ to [\d.]+ %\)", share.value)
+    assert re.fullmatch(r"[\d.]+ \([\d.]+ to [\d.]+\)", ratio.value)
+    slow = complete.claims["ritter-slow"]
+    start = slow.finding.estimates[1]  # with a random start, over the identity
+    assert "%" in slow.value and "%" not in slow.text(start)
+
+
+def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, begun):
+    assert f"**{SOME} of {ALL} registered setups" in render("findings.md", partial)
+    assert f"mean over the {SOME} setups measured so far" in render("README.md", partial)
+    page = render("findings.md", begun)
+    assert f"**{FEWEST - 1} of {ALL} registered setups" in page
+    assert f"Missing: the campaign, in at least {FEWEST} setups." in page
+    assert "Missing: `mapping/solutions.parquet`." in page
+    cells = {cells[0]: cells[2:] for cells in rows(page, HEAD)}
+    (found,) = (its for claim, its in cells.items() if "make both errors small" in claim)
+    assert found == ["not measured", "not measured"]
+
+
+def test_no_page_says_of_a_complete_campaign_that_it_is_not(complete):
+    pages = [render(page, complete) for page in ("README.md", "findings.md")]
+    assert not any("may change" in page for page in pages)
+
+
+@pytest.mark.parametrize("contents", ["complete", "begun"])
+def test_what_a_run_prints_fits_a_terminal(contents, request):
+    contents = request.getfixturevalue(contents)
+    text = render(OUTCOME, contents)
+    assert len(text.splitlines()) <= 20
+    assert "8.4 cm, 4.7 degrees" in text and "0.32 cm, 0.23 degrees" in text
+    for verdict, claims in contents.verdicts.items():
+        assert re.search(rf"^{len(claims)} claims? (is|are) {verdict}", text, re.MULTILINE)
+
+
+def test_a_study_of_ones_own_has_a_page_of_its_claims_without_the_campaign(project, tmp_path):
+    own = read_study(ROOT / "config.yaml", {"name": "mine", "experiments": {"evidence": False}})
+    assert pages_of(own) == [OUTCOME, "findings.md"]
+    write(own, [tmp_path / page for page in pages_of(own)], FIGURES[:1], project(own, 0))
+    page = (tmp_path / "findings.md").read_text(encoding="utf-8")
+    assert "belongs to the shipped study" in page and "../figures/figure1.png" in page
+    assert "results/studies/mine/pages/findings.md" in (tmp_path / OUTCOME).read_text()
+
+
+def test_pages_link_to_pages_and_figures_that_are_there(complete):
+    known = {*(path.name for path in (ROOT / "docs").glob("*.md")), *pages_of(complete.study)}
+    known |= {f"{path.stem}.png" for path in FIGURES} | {"CITATION.cff", "CONTRIBUTING.md"}
+    known |= {"arm.webp", "guidance.md", "real_arm.md", "reference.md"}
+    for page in ("README.md", "index.md", "findings.md", "choices.md", "deviations.md"):
+        links = re.findall(r"\]\(([^)#:]+)[^)]*\)", render(page, complete))
+        assert links and {Path(link).name for link in links} <= known
+
+
+def test_choices_are_those_of_the_configuration_with_their_reasons(complete):
+    page = render("choices.md", complete)
+    factors = yaml.safe_load((ROOT / "config.yaml").read_text())["campaign"]["factors"]
+    head = "| open in the paper | chosen | alternatives | what the paper says, and the readings |"
+    table = rows(page, head)
+    assert [cells[1] for cells in table] == [
+        str(levels[0]).replace("_", " ") for levels in factors.values()
+    ]
+    assert all(len(cells[3].split()) > 5 for cells in table)
+    assert all(all(cells) for cells in rows(page, "| key | value | reason |"))
+
+
+def test_a_template_of_typst_gets_results_without_markup(study, project, monkeypatch):
+    folder = project(study, 0)
+    (folder / "workflow" / "templates" / "it.typ.j2").write_text("{{ 'a_b #c' }} _d_")
+    assert render("it.typ", Contents(study, (), folder)) == r"a\_b \#c _d_"
