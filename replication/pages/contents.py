@@ -72,9 +72,12 @@ class Judged:
         """That number with its name."""
         return f"{_named(self.number.name)}: {self.value}" if self.number else NOT_MEASURED
 
-    def name(self, number: Number) -> str:
-        """What a number is, and of which algorithm."""
-        return f"{_named(number.name)} ({SYSTEMS.get(number.system, number.system)})"
+    def name(self, number: Number, before: Number | None = None) -> str:
+        """What a number is, and of which algorithm if it is another one than that before."""
+        name = _named(number.name)
+        if before and before.system == number.system:
+            return name
+        return f"{name} ({SYSTEMS.get(number.system, number.system)})"
 
     def text(self, number: Number) -> str:
         """A number with its interval."""

@@ -19,7 +19,7 @@ from replication.plots.style import MARK, WIDTH, logarithmic, name_right, name_r
 
 # By variant, from Ritter's map to the improved system. Colours of learners, whose names are here.
 STEPS: Mapping[str, Style] = {
-    RITTER: Style("#D3977E", "^", "-", "Ritter, half the cells"),
+    RITTER: Style("#757575", "^", "-", "Ritter, half the cells"),
     DOUBLE: Style(STYLES[RITTER].color, "P", "-", "Ritter, as many cells"),
     TWO_MAPS: Style("#661100", "X", "-", "two maps"),
     "two_maps_jacobian": Style("#CD87AD", "v", "-", "with Jacobian increments"),

@@ -1,167 +1,220 @@
-"""Figures: drawn from what they declare, for any study, and the same on every machine."""
+"""Figures show the numbers of the tables, and are the same on every machine."""
 
 import runpy
-from importlib import import_module
 
 import numpy as np
 import pytest
 
-from replication.pages.findings import figures as figures_of_findings
-from replication.plots.palette import BOTH, FAILS, HOLDS, OTHER, STYLES, UNKNOWN, styles_of
-from replication.plots.registry import FIGURES, draw, drawn
-from replication.plots.steady import LOG, rounded
-from replication.plots.style import STYLE, plt, save
+from replication.campaign.variants import DOUBLE
+from replication.config.switches import IMPROVED, RITTER
+from replication.judgement.claims import claims
+from replication.judgement.contrasts import Crossing, Remaining
+from replication.judgement.evidence import Evidence, NotMeasured
+from replication.plots import drawing, steady
+from replication.plots.contrasts import LABELS, rows
+from replication.plots.figures import APART, Figure, figures_of
+from replication.plots.learning import leading
+from replication.plots.palette import BOTH, STYLES, styles_of, styles_of_trainings
+from replication.plots.style import plt
 from tests.conftest import ROOT
-from tests.synthetic import NOISE, OF_SEARCHES, Synthetic, evidence_of, few_resamples, without_one
+from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
 
 
-def bytes_of(figure: str, evidence, folder) -> list[bytes]:
-    paths = [folder / f"{figure}{suffix}" for suffix in (".svg", ".png")]
-    with plt.rc_context(STYLE):
-        save(draw(figure, evidence), *paths)
-    return [path.read_bytes() for path in paths]
+def files(folder):
+    return [folder / f"{its.file}.{suffix}" for its in Figure for suffix in ("svg", "png")]
 
 
-@pytest.mark.slow
-@few_resamples()
-@pytest.mark.parametrize("figure", FIGURES)
-def test_noise_in_the_last_digits_changes_no_byte(figure, synthetic, disturbed, tmp_path):
-    evidence = (evidence_of(figure, results) for results in (synthetic, disturbed))
-    first, again = (bytes_of(figure, its, tmp_path) for its in evidence)
-    assert first == again and min(map(len, first)) > 5000
+def test_noise_in_the_last_digits_changes_no_byte(small, project, tmp_path, monkeypatch):
+    drawn = []
+    for number, change in enumerate((lambda table: table, disturbed)):
+        paths = files(tmp_path / str(number))
+        paths[0].parent.mkdir()
+        monkeypatch.chdir(project(change))
+        drawing.draw(small, paths)
+        drawn.append({path.name: path.read_bytes() for path in paths})
+    assert drawn[0] == drawn[1]
+    assert min(map(len, drawn[0].values())) > 5000, "no figure is empty"
 
 
-@pytest.mark.slow
 def test_the_committed_pictures_of_ideas_are_those_that_their_code_draws(tmp_path):
     runpy.run_path(str(ROOT / "figures" / "ideas.py"))["draw"](tmp_path)
     drawings = sorted(tmp_path.iterdir())
     assert len(drawings) == 8
-    assert all(
-        path.read_bytes() == (ROOT / "figures" / path.name).read_bytes() for path in drawings
-    )
+    for path in drawings:
+        assert path.read_bytes() == (ROOT / "figures" / path.name).read_bytes(), path.name
 
 
-@few_resamples()
-@pytest.mark.parametrize("figure", FIGURES)
-def test_a_figure_reads_what_it_declares_and_nothing_else(figure, synthetic, tmp_path):
-    evidence = evidence_of(figure, synthetic)
-    # of a table in pieces, those are read that are declared
-    whole = [
-        name for name in evidence.files if "/horizon_" not in name and "/outcomes_" not in name
+def line(axes, label):
+    (found,) = [its for its in axes.lines if its.get_label() == label]
+    return found.get_data()
+
+
+def test_figure_1_shows_the_means_of_the_seeds(figures, evidence):
+    history = leading(evidence.study).history(evidence)
+    for axes in figures[Figure.FIGURE_1].axes:
+        for error in BOTH:
+            iterations, errors = line(axes, error.kind)
+            means = history.groupby("iteration")[error.column].mean()
+            assert iterations[-1] == 200 and np.allclose(errors, means)
+
+
+def test_learners_are_named_with_their_iterations(figures, evidence):
+    (legend,) = figures[Figure.LEARNERS].legends
+    labels = [text.get_text() for text in legend.get_texts()]
+    assert labels == [
+        "improved, 200 iterations",
+        "Ritter, 200 iterations",
+        "Ritter, 10,000 iterations",
     ]
-    for name, less in without_one(evidence):
-        if name in whole[:3] or name in evidence.facts:
-            with pytest.raises(KeyError), plt.rc_context(STYLE):
-                draw(figure, less)
-            plt.close("all")
+    _, errors = line(figures[Figure.LEARNERS].axes[0], labels[0])
+    assert errors[-1] == pytest.approx(evidence.errors(IMPROVED, 200)[:, 0].mean())
 
 
-def smaller(study, learners, **update):
-    """The study with these learners on the paper's damage, and no evidence."""
-    plan = study.experiments.model_copy(
-        update={
-            "scenarios": ("links_encoders",),
-            "learners": learners,
-            "beside": (),
-            "switches": False,
-            "ladder": {},
-            "robots": (),
-            "ensemble": {},
-            "evidence": False,
-        }
-        | update
+def test_scenarios_show_every_place_before_and_after(figures, evidence):
+    position, _ = figures[Figure.SCENARIOS].axes
+    names = [label.get_text() for label in position.get_yticklabels()]
+    assert len(names) == 9 and names[-1] == "links and encoders,\non the Z1"
+    signs = {its.get_label(): its.get_offsets()[:, 0] for its in position.collections}
+    before, after = signs["before learning"], signs["improved, 200 iterations"]
+    history = evidence.history(IMPROVED, 200, "links_encoders", "z1")
+    errors = history.groupby("iteration")["position_error_cm"].mean()
+    assert (before[-1], after[-1]) == pytest.approx((errors.iloc[0], errors.iloc[-1]))
+
+
+def right_of(axes):
+    """The words to the right of rows."""
+    (beside,) = axes.child_axes
+    return [label.get_text() for label in beside.get_yticklabels()]
+
+
+def test_steps_say_how_many_iterations_were_planted(figures):
+    _, below = figures[Figure.STEPS].axes
+    shown = [float(text.split()[0].replace(",", "")) for text in right_of(below)]
+    assert shown[:-1] == pytest.approx([*NEEDED.values()], rel=0.05), "two digits, 1 % of luck"
+    assert right_of(below)[-2] == "200 (1×)"
+    assert shown[-1] == pytest.approx(NEEDED[DOUBLE], rel=0.15), "a mean over setups"
+
+
+def test_a_step_that_does_not_arrive_is_shown_as_a_bound(small, project, tmp_path):
+    def shortened(table):
+        return (
+            table
+            if "variant" not in table
+            else table[(table["variant"] != RITTER) | (table["iterations"] <= 1000)]
+        )
+
+    figure = drawing.FUNCTIONS["steps"](Evidence(small, project(shortened)))
+    assert right_of(figure.axes[1])[0] == "> 1,000 (5×)"
+    plt.close(figure)
+
+
+def test_contrasts_show_every_setup_and_what_was_found(figures, evidence):
+    shown, found = rows(evidence), evidence.findings()
+    assert {row.claim.statement.id for row in shown} == {*LABELS}
+    words = [text for axes in figures[Figure.CONTRASTS].axes for text in right_of(axes)]
+    theta = found["theta-increments"]
+    assert f"{theta.estimates[0].value:.2f} {theta.verdict}" in words
+    assert theta.estimates[0].value == pytest.approx(1 / 2.5, rel=0.1), "as planted"
+    dots = np.concatenate(
+        [
+            its.get_offsets()[:, 0]
+            for its in figures[Figure.CONTRASTS].axes[0].collections
+            if len(its.get_offsets()) == evidence.study.campaign.setups
+        ]
     )
-    return study.model_copy(update={"name": "small", "experiments": plan})
+    ratios = [row.numbers for row in shown if not row.is_share]
+    assert np.allclose(np.sort(dots), np.sort(np.concatenate(ratios)))
 
 
-@pytest.mark.parametrize(
-    ("learners", "update", "figures"),
-    [
-        (("improved", "ritter_200"), {}, ["figure1", "figure2", "figure3"]),
-        (("ritter",), {}, ["figure2", "figure3"]),
-        (
-            ("improved", "ritter_200"),
-            {"beside": ("ritter_double_200", "ritter_double")},
-            ["figure1", "figure2", "figure3", "figure4"],
-        ),
-    ],
-)
-@few_resamples()
-def test_a_study_draws_what_it_has_the_results_for(few, tmp_path, learners, update, figures):
-    its = smaller(few, learners, **update)
-    synthetic = Synthetic(tmp_path, its)
-    assert drawn(its, synthetic.request) == figures
-    for figure in figures:
-        bytes_of(figure, synthetic.evidence(FIGURES[figure].needs), tmp_path)
+def test_every_claim_that_setups_decide_by_errors_is_shown(small):
+    estimands = {its.statement.id: getattr(its, "estimand", None) for its in claims(small)}
+    by_errors = {name for name, its in estimands.items() if its and not isinstance(its, Crossing)}
+    assert by_errors == {*LABELS}
+    assert isinstance(estimands["figure-1"], Remaining)
 
 
-def test_a_learner_beside_has_a_row_of_its_own(few, tmp_path):
-    its = smaller(few, ("improved", "ritter_200"), beside=("ritter_double_200", "ritter_double"))
-    synthetic = Synthetic(tmp_path, its, {"ritter_double_200": 0.2})
-    with plt.rc_context(STYLE):
-        figure = draw("figure4", synthetic.evidence(FIGURES["figure4"].needs))
-    axes = figure.axes[0]
-    labels = [label.get_text() for label in axes.get_yticklabels()]
-    assert labels == ["ritter double 200,\nanother learner"], "10,000 iterations are not compared"
-    assert "rows of other learners: their error over that of" in axes.get_xlabel()
-    # four searches each: three standard errors of the ratio
-    ratios = [float(text.get_text()) for text in axes.texts if text.get_text()[0].isdigit()]
-    assert ratios == pytest.approx([2, 0.05], rel=3 * OF_SEARCHES * np.sqrt(2 / 4))
-    plt.close(figure)
+def test_the_damage_grows_by_the_scale(figures):
+    for axes, error in zip(figures[Figure.AMOUNTS].axes, BOTH, strict=True):
+        before, after = (its.get_ydata() for its in axes.lines)
+        assert after / before == pytest.approx([0.04] * 3), error.kind
 
 
-def test_another_study_s_first_figure_names_robot_and_damage(few, tmp_path):
-    synthetic = Synthetic(tmp_path, smaller(few, ("improved",)))
-    with plt.rc_context(STYLE):
-        figure = draw("figure1", synthetic.evidence(FIGURES["figure1"].needs))
-    assert "UR10, forearm_link 4 cm" in figure.get_suptitle()
-    plt.close(figure)
+def test_the_mapping_shows_the_assignment_that_is_used(figures, evidence):
+    initial, coupling, propagation, _ = figures[Figure.MAPPING].axes
+    used, published = (its.get_offsets() for its in initial.collections[1:])
+    assert used.tolist() == published.tolist() == [[8.3, 4.7]]
+    robots = evidence.levels()["robot"].iloc[: evidence.study.campaign.setups]
+    assert [its.get_text() for its in coupling.get_yticklabels()] == [
+        name.upper() for name in robots.unique()
+    ]
+    assert propagation.lines[0].get_ydata().tolist() == pytest.approx([0.002, 0.02, 0.2])
 
 
-def test_a_colour_means_one_thing_throughout():
-    """A learner, its kin of other iterations, an error, or a verdict."""
-    of_learners = {style.color for style in STYLES.values()}
-    others = [*(error.color for error in BOTH), HOLDS, FAILS]
-    others += [color for color, _ in (*OTHER.values(), *UNKNOWN)]
-    assert len({*others}) == len(others)
-    assert not {*others} & of_learners
-    assert len(of_learners) == len(STYLES)
+def test_the_benchmark_shows_two_scenarios(figures, evidence):
+    figure, table = figures[Figure.BENCHMARK], evidence.table("benchmark.csv")
+    assert [axes.get_title(loc="left") for axes in figure.axes] == [
+        "the paper's damage",
+        "gears and sag as well",
+    ]
+    own = table.query("scenario == 'links_encoders' and learner == 'improved'")
+    moves, errors = line(figure.axes[0], "improved")
+    assert np.allclose(moves, own["moves"]) and np.allclose(errors, own["position_error_cm"])
 
 
-def test_every_figure_has_a_drawing_and_a_text_in_the_report():
-    for figure, its in FIGURES.items():
-        assert callable(getattr(import_module(its.home), figure))
-        text = ROOT / "workflow" / "report" / f"{figure}.html"
-        assert text.exists() == (its.part in ("trainings", "evidence"))
-    assert set(figures_of_findings()) < set(FIGURES)
+def test_the_real_arm_shows_no_line_where_nothing_was_measured(figures, evidence):
+    (axes,) = figures[Figure.REAL_ARM].axes
+    table = evidence.table("real.csv").query("learner == 'improved'")
+    poses, errors = line(axes, "improved on a twin")
+    assert poses.tolist() == [5, 50], "a thousand are far away"
+    assert errors[0] == pytest.approx(table["position_error_mm"].iloc[0])
+
+
+def test_a_default_run_draws_what_a_study_has_results_for(small):
+    every = [its.file for its in Figure if its not in APART]
+    assert figures_of(small) == every and every[0] == "figure1"
+    other = small.model_copy(update={"name": "other"})
+    campaign = {Figure.STEPS.file, Figure.CONTRASTS.file}
+    assert figures_of(other) == [name for name in every if name not in campaign]
+    plan = small.experiments.model_copy(update={"evidence": False})
+    quick = other.model_copy(update={"experiments": plan})
+    trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
+    assert figures_of(quick) == [its.file for its in trained]
+
+
+def test_a_figure_without_its_results_says_what_is_lacking(small, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(NotMeasured, match="benchmark.csv"):
+        drawing.draw(small, [tmp_path / f"{Figure.BENCHMARK.file}.svg"])
+
+
+def test_a_study_without_the_improved_system_has_a_first_figure(small):
+    plan = small.experiments.model_copy(update={"learners": {"mine": (300, 50)}})
+    assert leading(small.model_copy(update={"experiments": plan}))[:2] == ("mine", 50)
+
+
+def test_captions_have_the_numbers_of_the_study(small):
+    for its in Figure:
+        assert "{" not in its.caption(small) and its.title.endswith(".")
+    assert "3 seeds" in Figure.FIGURE_1.caption(small)
+    assert [its.number for its in Figure] == [*range(1, 10)]
+    assert {its.value for its in Figure} == {*drawing.FUNCTIONS}
 
 
 def test_rounding_keeps_plain_numbers_and_moves_nothing_that_is_seen():
     values = np.array([0.0, 1, 3, 0.25, 1000, -7.5, 12345.0, 1.2345e-3])
-    assert np.allclose(rounded(values), values, rtol=1e-3)
-    assert rounded([0, 1, 3, 0.25, 1000]).tolist() == [0, 1, 3, 0.25, 1000]
+    assert np.allclose(steady.rounded(values), values, rtol=1e-3)
+    assert steady.rounded([0, 1, 3, 0.25, 1000]).tolist() == [0, 1, 3, 0.25, 1000]
     halves = np.array([0.12345, 2.5005, 10.015])
-    assert (rounded(halves) == rounded(halves * (1 + NOISE))).all()
-    assert (rounded(halves) == rounded(halves * (1 - NOISE))).all()
-    assert rounded([3e-11], 0.1).tolist() == [0], "what rounding leaves is nothing on this axis"
+    for sign in (1, -1):
+        near = steady.rounded(halves * (1 + sign * NOISE))
+        assert (steady.rounded(halves) == near).all()
+    assert steady.rounded([3e-11], 0.1).tolist() == [0], "nothing on this axis"
 
 
-def test_logarithms_of_an_axis_have_no_last_digits():
-    figure, axes = plt.subplots()
-    axes.set_xscale(LOG)
-    value = 0.1234567
-    near = np.nextafter(value, 1)
-    drawn_at = axes.transData.transform([(value, 0.5), (near, 0.5)])
-    assert drawn_at[0, 0] == drawn_at[1, 0]
-    plt.close(figure)
-
-
-def test_every_learner_looks_like_itself_and_unlike_the_others(study):
-    benchmark = styles_of(study.benchmark.learners)
-    assert set(study.benchmark.learners) == set(STYLES)
-    assert len({(style.color, style.marker) for style in benchmark.values()}) == len(benchmark)
-    defaults = styles_of(study.experiments.learners)
-    assert defaults["ritter"] is STYLES["ritter"] and defaults["ritter_200"].label == "Ritter"
-    assert len({style.color for style in defaults.values()}) == 3
-    unknown = styles_of(["improved", "mine", "another"])
-    assert unknown["mine"].label == "mine" and unknown["mine"].color != unknown["another"].color
+def test_every_learner_looks_like_itself_and_unlike_the_others(small):
+    shown = styles_of([*small.benchmark.papers, *small.benchmark.learners])
+    assert shown == STYLES
+    assert len({(style.color, style.marker) for style in shown.values()}) == len(shown)
+    trainings = styles_of_trainings([(RITTER, 200), (RITTER, 10_000), ("mine", 7)])
+    assert trainings[RITTER, 10_000].color == STYLES[RITTER].color
+    assert len({style.color for style in trainings.values()}) == 3

@@ -1,0 +1,198 @@
+"""Results of a small study, made up by formulas: all that figures are drawn from, in a second."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from replication.campaign.setups import DESIGN
+from replication.campaign.variants import DOUBLE, TWO_MAPS, variants
+from replication.config.reading import read_study
+from replication.config.shipped import CAMPAIGN, RESULTS
+from replication.config.study import Study
+from replication.config.switches import IMPROVED, RITTER
+from replication.judgement.claims import judge
+from replication.judgement.evidence import Evidence
+from replication.judgement.findings import written
+from replication.plots.drawing import FUNCTIONS
+from replication.plots.figures import Figure
+from replication.plots.style import STYLE, plt
+from replication.running.outputs import write
+from replication.training.measured import ERRORS, KINDS
+from replication.training.plan import places, throughout
+from tests.conftest import ROOT
+
+NEEDED = {  # iterations for the improved system's errors, in the reference study
+    RITTER: 9000,
+    DOUBLE: 14_000,
+    TWO_MAPS: 7000,
+    "two_maps_jacobian": 5000,
+    "two_maps_theta": 600,
+    "two_maps_increments": 300,
+    IMPROVED: 200,
+}
+LEFT = 0.04  # of the error, by the improved system
+WORSE = {"improved_theta_values": 2.5, "improved_rough": 1.9, "two_maps_for_position_wide": 1.5}
+INITIAL = np.array([8.4, 4.7])
+NOISE = 1e-9  # relative: more than machines differ by
+
+
+def outcomes(study: Study) -> pd.DataFrame:
+    """Errors fall with the iterations; those of other setups differ by some percent."""
+    rows, random = [], np.random.default_rng(44)
+    for setup in range(study.campaign.setups):
+        for replicate in range(2 if setup < 3 else 1):
+            for name, variant in variants(study).items():
+                its = (*variant.lengths, *variant.until_reached, *variant.at_home)
+                needed = NEEDED.get(name, 200 * WORSE.get(name, 1.0))
+                own = np.exp((setup > 0) * 0.1 * random.normal())
+                for iterations in sorted({*its}):
+                    luck = np.exp(0.01 * random.normal(size=2))
+                    shares = LEFT * own * needed / iterations * luck
+                    cells = {"setup": setup, "replicate": replicate, "variant": name, "settled": 1}
+                    named = zip((f"{kind}_share" for kind in KINDS), shares, strict=True)
+                    rows.append(cells | {"iterations": iterations} | dict(named))
+    return pd.DataFrame(rows)
+
+
+def history(iterations: list[int], seeds: int, learner: str) -> pd.DataFrame:
+    """Errors that fall as 1 / iteration, sooner if the learner is the improved one."""
+    soon, rows = 5 if learner == IMPROVED else 400, []
+    for seed in range(seeds):
+        for iteration in iterations:
+            errors = INITIAL * (1 + 0.05 * seed) / (1 + iteration / soon)
+            named = dict(zip(ERRORS, errors, strict=True))
+            rows.append(
+                {"iterations": iterations[-1], "seed": seed, "iteration": iteration} | named
+            )
+    return pd.DataFrame(rows)
+
+
+def ends(rows: pd.DataFrame, error: str) -> pd.DataFrame:
+    """With an interval of 10 % about an error."""
+    return rows.assign(**{f"{error}_low": 0.9 * rows[error], f"{error}_high": 1.1 * rows[error]})
+
+
+def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
+    """Every table with its path."""
+    random = np.random.default_rng(1)
+    for place, learners in places(study).items():
+        for learner, lengths in learners.items():
+            its = [
+                history(
+                    study.training.during(length)
+                    if throughout(study, place, learner, length)
+                    else [0, length],
+                    study.training.seeds,
+                    learner,
+                )
+                for length in lengths
+            ]
+            yield place.history_file(RESULTS, learner), pd.concat(its)
+    yield f"{CAMPAIGN}/outcomes.csv", outcomes(study)
+    own = random.uniform(0.02, 0.2, (study.campaign.setups, 2))
+    untrained = pd.DataFrame(own, columns=KINDS).assign(**dict(zip(ERRORS, INITIAL, strict=True)))
+    yield f"{CAMPAIGN}/untrained.csv", untrained.rename_axis("setup").reset_index()
+    assignments = pd.DataFrame(random.uniform(1, 12, (500, 2)), columns=ERRORS)
+    published = study.paper_damage.published
+    assignments.loc[7] = published.position_error_cm, published.orientation_error_deg
+    distance = (assignments - assignments.loc[7]).abs().max(axis=1)
+    yield f"{RESULTS}/assignments/{study.robot}.parquet", assignments.assign(distance=distance)
+    scales = np.repeat([0.1, 1.0, 3.0], 4)
+    ensemble = {"series": "scaled", "scale": scales}
+    for error, value in zip(ERRORS, INITIAL, strict=True):
+        errors = scales * value * np.tile([0.8, 1, 1.1, 1.3], 3)
+        ensemble |= {f"initial_{error}": errors, f"final_{error}": errors * LEFT}
+    yield f"{RESULTS}/ensemble/improved.parquet", pd.DataFrame(ensemble)
+    balls = pd.MultiIndex.from_product(
+        [["theta", "jacobian"], ["intact", "damaged"], [0.1, 1.0, 10.0], range(3)],
+        names=["kind", "start", "scale", "ball"],
+    )
+    propagation = balls.to_frame(index=False)
+    updated = np.clip(0.02 * propagation["scale"], 0, 0.9)
+    yield (
+        f"{RESULTS}/mapping/propagation.parquet",
+        propagation.assign(classic=1.0, updated=updated, to_original=updated, to_constant=1.0),
+    )
+    visits = pd.DataFrame({"distance": np.linspace(0, 1, 9), "width": 0.2, "error": 0.001})
+    yield (
+        f"{RESULTS}/mapping/visits.parquet",
+        visits.assign(ratio=np.minimum(1, 0.5 + visits["distance"])),
+    )
+    budgets = [1, 10, 100, 1000]
+    benchmark = pd.MultiIndex.from_product(
+        [study.benchmark.scenarios, [*study.benchmark.papers, *study.benchmark.learners], budgets],
+        names=["scenario", "learner", "moves"],
+    ).to_frame(index=False)
+    order = benchmark["learner"].factorize()[0]
+    benchmark = benchmark.assign(position_error_cm=8 / benchmark["moves"] ** (0.1 * order))
+    yield f"{RESULTS}/benchmark.csv", ends(benchmark, "position_error_cm")
+    real = pd.MultiIndex.from_product(
+        [[*study.real.learners, *study.real.twin], [5, 50, 1000]], names=["learner", "poses"]
+    ).to_frame(index=False)
+    order = real["learner"].factorize()[0]
+    real = real.assign(
+        twin=real["learner"].isin([*study.real.twin]),
+        position_error_mm=2.5 / real["poses"] ** (0.05 * order),
+    )
+    yield f"{RESULTS}/real.csv", ends(real, "position_error_mm")
+
+
+def disturbed(table: pd.DataFrame) -> pd.DataFrame:
+    """The table as another machine might compute it."""
+    numbers = table.select_dtypes("float").columns.difference(["scale", "width"])  # as configured
+    signs = np.random.default_rng(9).choice([-1, 1], (len(table), len(numbers)))
+    return table.assign(
+        **{
+            name: table[name] * (1 + NOISE * sign)
+            for name, sign in zip(numbers, signs.T, strict=True)
+        }
+    )
+
+
+@pytest.fixture(scope="module")
+def small() -> Study:
+    """The shipped study with fewer seeds, setups and poses."""
+    changes = {"training": {"seeds": 3}, "campaign": {"setups": 8}}
+    return read_study(ROOT / "config.yaml", changes)
+
+
+@pytest.fixture(scope="module")
+def project(small, tmp_path_factory) -> Callable[..., Path]:
+    """Makes a folder of results of the small study."""
+
+    def make(change: Callable[[pd.DataFrame], pd.DataFrame] = lambda table: table) -> Path:
+        folder = tmp_path_factory.mktemp("project")
+        for path, table in tables(small):
+            write_in(folder / path, change(table))
+        shutil.copy(ROOT / DESIGN, folder / DESIGN)
+        found = judge(Evidence(small, folder))
+        (folder / RESULTS / "claims.json").write_bytes(written(found))
+        return folder
+
+    return make
+
+
+def write_in(path: Path, table: pd.DataFrame) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write(path, table)
+
+
+@pytest.fixture(scope="module")
+def evidence(small, project) -> Evidence:
+    return Evidence(small, project())
+
+
+@pytest.fixture(scope="module")
+def figures(evidence):
+    """All, drawn and laid out."""
+    found = {}
+    with plt.rc_context(STYLE):
+        for its in Figure:
+            found[its] = FUNCTIONS[its.value](evidence)
+            found[its].draw_without_rendering()
+    yield found
+    plt.close("all")

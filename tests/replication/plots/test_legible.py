@@ -1,0 +1,125 @@
+"""How legible figures are: on a phone, in the article, and to the colour-blind."""
+
+import re
+from functools import cache
+from io import StringIO
+from itertools import combinations, pairwise
+from unittest import mock
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import to_rgb
+from matplotlib.text import Text
+
+from replication.plots.figures import Figure
+from replication.plots.palette import BOTH, FAILS, HOLDS, SHORTER, STYLES, UNKNOWN
+from replication.plots.steps import STEPS
+from replication.plots.style import plt
+from tests.replication.recording.test_colours import FEWEST, SEEN, ciede2000, lab, linear
+
+PHONE, LEAST = 360, 9  # pixels: as wide as a phone; the height of letters
+ARTICLE, SMALLEST = 15 / 2.54, 7  # inches wide; points
+MEANT = {style.color for style in (*STYLES.values(), *BOTH, *STEPS.values())} | {HOLDS, FAILS}
+MEANT |= {color for color, _ in (*SHORTER.values(), *UNKNOWN)}
+EVERY = pytest.mark.parametrize("name", Figure)
+
+
+@cache
+def texts(figure) -> list[Text]:
+    """Those that are drawn: of ticks beyond an axis there are labels, too."""
+    found, own = {}, Text.draw
+
+    def draws(text, renderer):
+        found[id(text)] = text
+        own(text, renderer)
+
+    with mock.patch.object(Text, "draw", draws):
+        figure.draw_without_rendering()
+    return [text for text in found.values() if text.get_visible() and text.get_text().strip()]
+
+
+@EVERY
+def test_letters_are_large_enough_on_a_phone_and_in_the_article(figures, name):
+    figure = figures[name]
+    small = min(text.get_fontsize() for text in texts(figure))
+    assert small * PHONE / (72 * figure.get_figwidth()) >= LEAST
+    assert small * ARTICLE / figure.get_figwidth() >= SMALLEST
+
+
+@EVERY
+def test_no_words_stand_on_others_or_leave_the_figure(figures, name):
+    figure = figures[name]
+    boxes = [(text.get_text(), text.get_window_extent()) for text in texts(figure)]
+    for (one, its), (other, another) in combinations(boxes, 2):
+        assert not its.padded(-2).overlaps(another.padded(-2)), (one, other)
+    for text, box in boxes:
+        inside = box.x0 >= -1 and box.x1 <= figure.bbox.x1 + 1 and box.y0 >= -1
+        assert inside and box.y1 <= figure.bbox.y1 + 1, text
+
+
+def traced(corners: np.ndarray) -> np.ndarray:
+    """Points (n, 2) on the way from corner to corner, a pixel or less apart."""
+    pieces = [np.linspace(*way, 2 + int(np.ptp(way, axis=0).max())) for way in pairwise(corners)]
+    return np.concatenate([corners, *pieces])
+
+
+def inked(axes) -> np.ndarray:
+    """Pixels (n, 2) of lines, bars and signs of the data."""
+    found = [np.empty((0, 2))]
+    for line in axes.lines:
+        corners = line.get_transform().transform(line.get_xydata())
+        found.append(traced(corners[np.isfinite(corners).all(axis=1)]))
+    for its in axes.collections:
+        if isinstance(its, LineCollection):
+            found += [traced(its.get_transform().transform(part)) for part in its.get_segments()]
+        elif isinstance(its, PathCollection) and not its.get_rasterized():
+            found.append(its.get_offset_transform().transform(its.get_offsets()))
+    points = np.concatenate(found)
+    box = axes.get_window_extent()
+    return points[((points >= box.min) & (points <= box.max)).all(axis=1)]
+
+
+@EVERY
+def test_no_words_stand_on_data(figures, name):
+    for axes in figures[name].axes:
+        points = inked(axes)
+        for text in set(texts(figures[name])) & set(axes.texts):
+            box = Text.get_window_extent(text).padded(-2)  # without the arrow of an annotation
+            on = (points > box.min) & (points < box.max)
+            assert not on.all(axis=1).any(), text.get_text()
+
+
+def test_legends_hide_no_data(figures):
+    for figure in figures.values():
+        for axes in figure.axes:
+            assert axes.get_legend() is None
+            for legend in figure.legends:
+                assert not legend.get_window_extent().overlaps(axes.get_window_extent())
+
+
+@pytest.fixture(scope="module")
+def colours(figures) -> dict[Figure, set[str]]:
+    """Those that stand in each figure's drawing."""
+    found = {}
+    for name, figure in figures.items():
+        drawing = StringIO()
+        figure.set_layout_engine("none")  # all is where it will be
+        with plt.rc_context({"svg.fonttype": "none"}):  # outlines of letters take seconds
+            figure.savefig(drawing, format="svg")
+        found[name] = {*re.findall(r"#[0-9a-f]{6}\b", drawing.getvalue())}
+    return found
+
+
+@pytest.mark.parametrize("seen", SEEN)
+def test_colours_of_a_figure_differ_to_everyone(colours, seen):
+    """As much as those of recordings."""
+    meant = {color.lower() for color in MEANT if color.startswith("#")}
+    assert all(used & meant for used in colours.values())
+    for name, used in colours.items():
+        shades = {
+            color: lab(SEEN[seen] @ linear(255 * np.array(to_rgb(color)))) for color in used & meant
+        }
+        shades["paper"] = lab(np.ones(3))
+        for one, other in combinations(shades, 2):
+            assert ciede2000(shades[one], shades[other]) >= FEWEST, (name, one, other)
