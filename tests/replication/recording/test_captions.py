@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from recalib.damaged.bending import LinkBend
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
 from recalib.damaged.disturbances import Noise
 from replication.recording.naming import in_words
@@ -26,8 +27,8 @@ def test_it_explains_the_arm_its_damage_and_what_came_of_it(columns):
     assert last.startswith("after recalibration: mean errors ")
     for part in (
         "a UR10",
-        "forearm: 4 cm short; elbow: encoder -4 deg; shoulder lift: sag 0.0002 rad/Nm",
-        "noise position 0.2 mm",
+        "forearm: 4 cm short; elbow: encoder -4 deg; shoulder lift: compliance 0.0002 rad/Nm",
+        "position noise 0.2 mm",
         "10 measurements of it, 100 times enlarged",
         "learns for 40 iterations (80 moves)",
         first.removeprefix("before recalibration: mean errors ") + " before",
@@ -56,8 +57,9 @@ def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(files):
         (LinkShortening("forearm_link", 0.04), "forearm: 4 cm short"),
         (LinkShortening("wrist_1_link", 0.01, "axis"), "wrist 1: 1 cm short, along axis"),
         (EncoderShift("wrist_2_joint", np.radians(-3)), "wrist 2: encoder -3 deg"),
+        (LinkBend("forearm_link", 0.1, 0.2), "forearm: bend 0.1 rad, towards 0.2 rad"),
         (BaseShift((0.01, 0, 0)), "translate 1 cm, 0 m, 0 m"),
-        (Noise(0.0003, 0.001), "noise position 0.3 mm, orientation 0.001 rad"),
+        (Noise(0.0003, 0.001), "position noise 0.3 mm, orientation noise 0.001 rad"),
     ],
 )
 def test_a_damage_is_told_in_the_words_of_the_configuration(entry, words):
