@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.comments import CommentedMap, CommentedSeq
+from ruamel.yaml.comments import CommentedKeyMap, CommentedKeySeq, CommentedMap, CommentedSeq
 from ruamel.yaml.constructor import RoundTripConstructor
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
+from ruamel.yaml.nodes import Node
 
 from replication.config.messages import InvalidConfiguration, KeyPath
 
@@ -87,6 +88,8 @@ def from_file(path: str | PathLike[str]) -> Placed:
     except (OSError, UnicodeDecodeError, YAMLError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text in UTF-8"
         raise InvalidConfiguration([f"{name}: {reason}"]) from None
+    except ValueError:
+        raise InvalidConfiguration([f"{name}: a value that is not what its tag says"]) from None
     except RecursionError:
         reason = "an anchor within itself, or too many brackets"
         raise InvalidConfiguration([f"{name}: {reason}"]) from None
@@ -105,7 +108,15 @@ def _parsed(name: str, text: str) -> Placed:
 
 
 class _Constructor(RoundTripConstructor):
-    """Ruamel's, for which a date is text."""
+    """Ruamel's, for which a date is text, and which names a key that stands twice."""
+
+    def check_mapping_key(
+        self, node: Node, key_node: Node, mapping: Mapping[Any, Any], key: Any, value: Any
+    ) -> bool:
+        """Raises MarkedYAMLError: the mapping has the key."""
+        if key in mapping:
+            raise MarkedYAMLError(problem=f"{key} stands twice", problem_mark=key_node.start_mark)
+        return True
 
 
 _Constructor.add_constructor(
@@ -120,9 +131,10 @@ def _with_places(value: Any, place: Place) -> Placed:
         case CommentedMap():
             content = {}
             for key, part in value.items():
-                if not isinstance(key, str):
-                    raise InvalidConfiguration([f"{shown(place)}: {key!r} is a key; expected: text"])
-                content[key] = _with_places(part, _of_key(value, key, place))
+                at = _of_key(value, key, place)
+                if isinstance(key, CommentedKeySeq | CommentedKeyMap):
+                    raise InvalidConfiguration([f"{shown(at)}: no YAML: a key that is no text"])
+                content[str(key)] = _with_places(part, at)
         case CommentedSeq():
             content = [
                 _with_places(part, _from(place, *value.lc.item(index)))
@@ -137,15 +149,15 @@ def _with_places(value: Any, place: Place) -> Placed:
         case str():
             content = str(value)
         case _:
-            raise InvalidConfiguration([f"{shown(place)}: a tag; expected: a value without one"])
+            raise InvalidConfiguration([f"{shown(place)}: no YAML: the tag {value.tag.value}"])
     return Placed(content, place)
 
 
 def _of_key(mapping: CommentedMap, key: str, place: Place) -> Place:
     """Where a key stands, itself or in what is merged by <<."""
-    if key in mapping.lc.data:
+    if key in (mapping.lc.data or ()):
         return _from(place, *mapping.lc.key(key))
-    for merged in mapping.merge.value:
+    for merged in mapping.merge.value or ():
         if key in merged:
             return _of_key(merged, key, place)
     return place

@@ -184,7 +184,7 @@ class Contents:
     @cached_property
     def assignments(self) -> int:
         """Assignments of the paper's damage to the study's robot that were tried."""
-        return len(self.evidence.table(f"assignments/{self.study.robot}.parquet"))
+        return len(self.evidence.assignments())
 
     @cached_property
     def choices(self) -> dict[str, Choice]:

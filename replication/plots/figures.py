@@ -74,10 +74,10 @@ CAPTIONS = {
         "Top: the error of the first variant over the error of the second. Bottom: the larger"
         " remaining share of both errors. Dots: setups; diamond: their mean, with its 95 % interval"
         " (thick line) and the interval for one more study (thin line). On the shaded side the"
-        " paper is right; between the dotted lines, errors differ by less than 10 %. Sections 4 and"
-        " 3 speak of Ritter's framework; the rows from theta on, of the improved system. Supernet /"
+        " paper is right; between the dotted lines, errors differ by less than 10 %. Seven rows"
+        " concern Ritter's framework (section 4), the next five the improved system. Supernet /"
         " subnets: fewer cells in the one / in the other. Drastic change: the advantage of"
-        " increments there / in the paper's damage. The first number is the mean."
+        " increments there / in the paper's damage. Numbers: the mean of the setups."
     ),
     Figure.LEARNERS: (
         "Mean errors over {study.training.tests} test poses against iterations of two moves each,"

@@ -132,7 +132,8 @@ def learners(evidence: Evidence) -> Figure:
 
 def scenarios(evidence: Evidence) -> Figure:
     """Both errors before and after learning in every scenario, and on every robot."""
-    trained, own = places(evidence.study), evidence.study.experiments.learners
+    own = evidence.study.experiments.learners
+    trained = [its for its, names in places(evidence.study).items() if own.keys() <= names.keys()]
     rows = np.arange(len(trained))[::-1]
     styles = styles_of_trainings((name, length) for name in own for length in own[name])
     figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH, 1.4 + 0.34 * len(rows)))
@@ -157,7 +158,7 @@ def scenarios(evidence: Evidence) -> Figure:
         axes.set_xlabel(f"{error.kind} [{error.unit}]")
         logarithmic(axes.xaxis, 0.001, 0.1, 10)
         axes.set_xlim(FLOOR / 1.5, 30)
-        name_rows(axes, rows, _names([*trained], evidence.study.robot))
+        name_rows(axes, rows, _names(trained, evidence.study.robot))
     legend_below(figure, panels[0], 2)
     return figure
 

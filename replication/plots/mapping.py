@@ -5,10 +5,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from replication.config.shipped import CAMPAIGN
 from replication.judgement.claims.section_4 import WEAK
 from replication.judgement.claims.section_5 import integral_ratios
 from replication.judgement.claims.section_6 import AWAY
-from replication.judgement.evidence import Evidence
+from replication.judgement.evidence import Evidence, NotMeasured
 from replication.plots.palette import BORDER, BOTH, DASHED, GREY, NEUTRAL, SOLID, Style
 from replication.plots.style import MARK, WIDTH, logarithmic, name_rows, note, spread
 from replication.scenarios.assignments import TIE
@@ -22,16 +23,21 @@ ASIDE = 0.22  # of a row: position above orientation commands
 def mapping(evidence: Evidence) -> Figure:
     """Initial errors by assignment; coupling; E_upd over E_clas; equation (10)."""
     figure, panels = plt.subplots(2, 2, figsize=(WIDTH, 4.6))
-    for axes, draw in zip(
-        panels.ravel(), (_assignments, _coupling, _propagation, _visits), strict=True
-    ):
-        draw(axes, evidence)
+    free = [*panels.ravel()]
+    for draw in (_assignments, _coupling, _propagation, _visits):
+        try:
+            draw(free[0], evidence)
+        except NotMeasured:  # the first two are not of every study
+            continue
+        free.pop(0)
+    for axes in free:
+        axes.remove()
     return figure
 
 
 def _assignments(axes: Axes, evidence: Evidence) -> None:
     """The initial errors of every assignment of the paper's damage to the study's robot."""
-    table = evidence.table(f"assignments/{evidence.study.robot}.parquet")
+    table = evidence.assignments()
     both = table[list(ERRORS)].to_numpy()
     axes.scatter(both[:, 0], both[:, 1], s=2, alpha=0.3, color="0.5", linewidths=0, rasterized=True)
     used = both[table["distance"].round(TIE).argmin()]
@@ -53,7 +59,7 @@ def _assignments(axes: Axes, evidence: Evidence) -> None:
 
 def _coupling(axes: Axes, evidence: Evidence) -> None:
     """In each setup, how much the other coordinates change commands, by robot."""
-    table = evidence.table("workflow/campaign/untrained.csv").set_index("setup")
+    table = evidence.table(f"{CAMPAIGN}/untrained.csv").set_index("setup")
     robots = evidence.levels()["robot"].reindex(table.index)
     names = [*robots.unique()]
     rows = robots.map(names.index).to_numpy()

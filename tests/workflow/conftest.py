@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from snakemake.api import SnakemakeApi
+from snakemake.settings.types import OutputSettings, Quietness, ResourceSettings
 
 from replication.running.studies import LOCK
 from tests.conftest import ROOT
@@ -28,6 +30,14 @@ class Killed(NamedTuple):
 
     project: Project
     done: dict[Path, int]
+
+
+@pytest.fixture(scope="session")
+def rules() -> list:
+    """The rules of the shipped study, as Snakemake reads them."""
+    with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
+        its = api.workflow(ResourceSettings(cores=1), snakefile=ROOT / "Snakefile", workdir=ROOT)
+        return list(its._workflow.rules)
 
 
 @pytest.fixture

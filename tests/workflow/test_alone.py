@@ -7,7 +7,7 @@ import pytest
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from workflow.alone import MARK, NOTES, check_known, check_writable, hold
+from replication.running.alone import MARK, NOTES, check_known, check_writable, hold
 
 
 def killed_while_writing(path):

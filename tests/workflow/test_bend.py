@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from replication.running.studies import read_studies
-from replication.training.trainings import Trainings
+from replication.running import readable
+from replication.running.studies import study_of
+from replication.training.plan import Place, places
 from tests.conftest import ROOT
 from tests.project import Project
-from workflow import readable
 
 PAGE = (ROOT / "docs" / "bend.md").read_text(encoding="utf-8")
 STUDY = re.search(r"```yaml\n(.*?)```", PAGE, re.DOTALL)[1]
@@ -31,11 +31,10 @@ def project(with_studies):
 
 def test_ten_lines_are_enough_for_another_robot_with_another_damage(project):
     assert len(STUDY.splitlines()) <= 10
-    main, found = read_studies(project, [project / "my_arm.yaml"], {})
-    mine = found[main]
-    assert (main, mine.robot, mine.scenario) == ("results/studies/my_arm", "ur5", "fall")
+    mine = study_of(project, [project / "my_arm.yaml"])
+    assert (mine.name, mine.robot, mine.scenario) == ("my_arm", "ur5", "fall")
     assert mine.expected is None, "bands belong to the study that has them"
-    assert Trainings(mine).scenarios() == ["fall"]
+    assert [*places(mine)] == [Place("ur5", "fall")]
 
 
 def test_the_page_names_every_study_to_begin_with():
@@ -48,12 +47,11 @@ def test_the_page_names_every_study_to_begin_with():
     ("command", "said"),
     [
         ("study STUDY=my_arm", "snakemake --cores 2 --configfile my_arm.yaml --quiet"),
-        ("study STUDY=my_arm", "--report results/studies/my_arm/report.html"),
         ("quick", "snakemake --cores 2 --configfile workflow/studies/quick.yaml --quiet"),
         ("view STUDY=my_arm", "127.0.0.1 --new results/studies/my_arm/recordings/fall.rrd"),
         ("web STUDY=my_arm", "watch results/studies/my_arm --port 9090"),
         (
-            "view SCENARIO=noise",
+            "view SCENARIO=links",
             "CI=true .venv/bin/rerun --bind 127.0.0.1 --new results/recordings",
         ),
     ],
@@ -80,7 +78,7 @@ def test_a_study_without_a_file_is_refused(project):
 def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeypatch):
     monkeypatch.chdir(project)
     Path("my_leg.yaml").write_text(text, encoding="utf-8")
-    assert "-m workflow.readable my_leg.yaml\n" in make(project, "study", "STUDY=my_leg").stdout
+    assert "-m replication.running.readable my_leg.yaml\n" in make(project, "study", "STUDY=my_leg").stdout
     with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(said)}"):
         readable.main("my_leg.yaml")
     readable.main("my_arm.yaml")

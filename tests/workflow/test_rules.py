@@ -5,7 +5,7 @@ from inspect import Parameter, signature
 from replication.config.study import Study
 from workflow.scripts.call import function_of
 
-TRACKED = {"function", "study", "code", "digits", "robots"}  # for Snakemake, or for the script
+TRACKED = {"function", "study", "code", "digits"}  # for Snakemake, or for the script
 
 
 def test_every_rule_fits_its_function(rules, study):

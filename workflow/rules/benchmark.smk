@@ -82,8 +82,7 @@ rule real_run:
 rule real_table:
     input:
         runs=[
-            f"{RESULTS}/real/{learner}.csv"
-            for learner in (*STUDY.real.learners, *STUDY.real.twin)
+            f"{RESULTS}/real/{learner}.csv" for learner in (*STUDY.real.learners, *STUDY.real.twin)
         ],
     output:
         f"{RESULTS}/real.csv",

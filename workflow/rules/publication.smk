@@ -1,14 +1,14 @@
 """What people see: figures, recordings, pages; and what the shipped study publishes of them."""
 
+from recalib.nominal.descriptions import find_urdf
+from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
 from replication.pages.writing import OUTCOME, pages_of
 from replication.plots.figures import figures_of
 from replication.recording.recorded import recorded_learners, recorded_places
 
 FIGURES = [
-    f"{RESULTS}/figures/{name}.{suffix}"
-    for name in figures_of(STUDY)
-    for suffix in ("svg", "png")
+    f"{RESULTS}/figures/{name}.{suffix}" for name in figures_of(STUDY) for suffix in ("svg", "png")
 ]
 PAGES = [f"{RESULTS}/pages/{page}" for page in pages_of(STUDY)]
 RECORDINGS = [f"{RESULTS}/recordings/{place.scenario}.rrd" for place in recorded_places(STUDY)]
@@ -39,6 +39,7 @@ rule recordings:
     input:
         scenarios=[place.scenario_file(RESULTS) for place in recorded_places(STUDY)],
         settings=SETTINGS,
+        meshes=[str(path) for path in mesh_files(find_urdf(STUDY.robots[STUDY.robot].urdf))],
         histories=[
             place.history_file(RESULTS, learner)
             for place in recorded_places(STUDY)

@@ -1,8 +1,8 @@
 """Scenarios, settings, trainings, and what is measured of the mapping."""
 
+from recalib.nominal.descriptions import find_urdf
 from replication.campaign.own import untuned
 from replication.campaign.setups import OUTCOMES
-from replication.scenarios.nominal import nominal
 from replication.training.plan import Place, places
 
 PLACES = places(STUDY)
@@ -18,6 +18,11 @@ wildcard_constraints:
 
 
 rule scenarios:
+    input:
+        [
+            str(find_urdf(STUDY.robots[robot].urdf))
+            for robot in dict.fromkeys(its.robot for its in PLACES)
+        ],
     output:
         resolved=[place.scenario_file(RESULTS) for place in PLACES],
         assignments=f"{RESULTS}/assignments/{STUDY.robot}.parquet",
@@ -27,7 +32,6 @@ rule scenarios:
         **room(mem_mb=2000, runtime=10),
     params:
         **calls("training.scenarios.write_scenarios"),
-        robots=[nominal(STUDY, robot).urdf_sha256 for robot, _ in PLACES],
     message:
         "Put the damages on the robots"
     script:
@@ -66,9 +70,9 @@ for place in PLACES:
             learned=[place.learned_file(RESULTS, learner) for learner in PLACES[place]],
         log:
             f"{RESULTS}/logs/train/{place.robot}.{place.scenario}.log",
+        priority: 10
         group:
             "trainings"
-        priority: 10
         resources:
             **room(mem_mb=2000, runtime=60),
         params:

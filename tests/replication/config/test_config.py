@@ -95,7 +95,6 @@ ENDLESS = "mine.yaml: an anchor within itself, or too many brackets"
         (None, "mine.yaml: No such file or directory"),
         (b"a: \xff\n", "mine.yaml: no text in UTF-8"),
         (b"a: \x07\n", "mine.yaml: no text in UTF-8"),
-        (b"a: &a [*a]\n", ENDLESS),
         pytest.param(b"a: " + b"[" * 9999, ENDLESS, id="brackets"),
         *((text, NOTHING) for text in (b"", b"# nothing\n", b"{}\n", b"---\n")),
     ],

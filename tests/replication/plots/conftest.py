@@ -21,6 +21,7 @@ from replication.plots.drawing import FUNCTIONS
 from replication.plots.figures import Figure
 from replication.plots.style import STYLE, plt
 from replication.running.outputs import write
+from replication.training.competitors import UNCORRECTED
 from replication.training.measured import ERRORS, KINDS
 from replication.training.plan import places, throughout
 from tests.conftest import ROOT
@@ -138,7 +139,10 @@ def tables(study: Study) -> Iterator[tuple[str, pd.DataFrame]]:
         twin=real["learner"].isin([*study.real.twin]),
         position_error_mm=2.5 / real["poses"] ** (0.05 * order),
     )
-    yield f"{RESULTS}/real.csv", ends(real, "position_error_mm")
+    real = ends(real, "position_error_mm")
+    once = real["learner"] == UNCORRECTED
+    real.loc[once, ["position_error_mm_low", "position_error_mm_high"]] = np.nan
+    yield f"{RESULTS}/real.csv", real
 
 
 def disturbed(table: pd.DataFrame) -> pd.DataFrame:

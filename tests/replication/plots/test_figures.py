@@ -1,11 +1,13 @@
 """Figures show the numbers of the tables, and are the same on every machine."""
 
 import runpy
+import shutil
 
 import numpy as np
 import pytest
 
 from replication.campaign.variants import DOUBLE
+from replication.config.shipped import RESULTS, root_of
 from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims import claims
 from replication.judgement.contrasts import Crossing, Remaining
@@ -15,7 +17,7 @@ from replication.plots.contrasts import LABELS, rows
 from replication.plots.figures import APART, Figure, figures_of
 from replication.plots.learning import leading
 from replication.plots.palette import BOTH, STYLES, styles_of, styles_of_trainings
-from replication.plots.style import plt
+from replication.plots.style import STYLE, plt
 from tests.conftest import ROOT
 from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
 
@@ -148,6 +150,17 @@ def test_the_mapping_shows_the_assignment_that_is_used(figures, evidence):
         name.upper() for name in robots.unique()
     ]
     assert propagation.lines[0].get_ydata().tolist() == pytest.approx([0.002, 0.02, 0.2])
+
+
+def test_another_study_s_mapping_is_shown_without_the_campaign(small, project):
+    other = small.model_copy(update={"name": "other"})
+    folder = project()
+    shutil.copytree(folder / RESULTS, folder / root_of("other"))
+    with plt.rc_context(STYLE):
+        figure = drawing.FUNCTIONS["mapping"](Evidence(other, folder))
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert titles == ["initial errors", "what to propagate", "expected learning"]
+    plt.close(figure)
 
 
 def test_the_benchmark_shows_two_scenarios(figures, evidence):
