@@ -21,8 +21,9 @@ from recalib.nominal.poses import position_error
 from replication.scenarios.assignments import Ways
 from replication.training.ensemble import feasible, scaled_arm
 from replication.training.poses import Stream
-from replication.training.settings import rules_of
-from replication.training.trials import Search
+from replication.training.settings import Space
+from replication.training.trials import Trials
+from replication.training.tuned import rules_of
 
 RUNS = 2
 DESIRED = np.random.default_rng(1).uniform(-1, 1, (RUNS, 6))
@@ -125,11 +126,10 @@ def test_the_study_s_most_serious_damage_is_far_from_refused(controller, plan, s
     order = np.random.default_rng(5).permutation(len(ways))
     damages = islice(feasible(controller.robot, ways, order, scale), 8)
     arms = [scaled_arm(controller.robot, damage, scale) for damage in damages]
-    budget = study.search.model_copy(update={"rounds": 1, "trials": 8, "seeds": 1})
-    rules = rules_of(study.learners["ritter"])
-    words = {"number": 1, "training": "extreme", "scenario": "scaled"}
-    poses = Stream.SEARCH.draw(budget.seed, range(budget.seeds), 40, 5, **words)
-    Search(lambda runs: Plant(controller, arms), rules, budget, poses).all_rounds()
+    space = Space(rules_of(study.learners["ritter"]), study.search.ranges)
+    poses = Stream.SEARCH.draw(7, [0], 40, 5, number=1, setup=0, replicate=0)
+    points = np.random.default_rng(6).uniform(size=(len(arms), len(space.coordinates)))
+    Trials(space, poses, lambda _: Plant(controller, arms)).outcome(space.rows(points))
     assert 0 < max(farthest) < OUTSIDE / 3
 
 

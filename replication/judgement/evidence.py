@@ -67,11 +67,14 @@ class Evidence:
         return self.study.name == SHIPPED
 
     def table(self, name: str) -> pd.DataFrame:
-        """A table by its path below the folder of results, or below the project's."""
+        """A table by its path below the folder of results, or below the project's.
+
+        Raises NotMeasured: it is not there, or it is the campaign's, which another study has.
+        """
+        if name.startswith(CAMPAIGN) and not self.shipped:
+            raise NotMeasured(f"name: {SHIPPED}")
         path = self._project / (name if name.startswith("workflow/") else f"{self._root}/{name}")
-        if not path.is_file():
-            raise NotMeasured(name)
-        return _read(path)
+        return _read(_there(path, name))
 
     def history(
         self,
@@ -84,7 +87,8 @@ class Evidence:
         place = Place(robot or self.study.robot, scenario or self.study.scenario)
         if iterations not in places(self.study).get(place, {}).get(learner, ()):
             raise NotMeasured(f"experiments.learners.{learner}: [{iterations}]")
-        table = _read(self._project / place.history_file(self._root, learner))
+        path = place.history_file(self._root, learner)
+        table = _read(_there(self._project / path, path))
         return table[table["iterations"] == iterations]
 
     def errors(
@@ -98,10 +102,7 @@ class Evidence:
 
     def findings(self) -> dict[str, Finding]:
         """What was found about each claim, by its id. Raises NotMeasured: nothing was judged."""
-        path = self._project / self._root / "claims.json"
-        if not path.is_file():
-            raise NotMeasured("claims.json")
-        return read_findings(path)
+        return read_findings(_there(self._project / self._root / "claims.json", "claims.json"))
 
     def assignments(self) -> pd.DataFrame:
         """Every assignment of the paper's damage to the study's robot, and its initial errors.
@@ -114,9 +115,7 @@ class Evidence:
         return table
 
     def outcomes(self) -> pd.DataFrame:
-        """The campaign's table. Raises NotMeasured: it is of another study."""
-        if not self.shipped:
-            raise NotMeasured("name: replication")
+        """The campaign's table. Raises NotMeasured."""
         return self.table(f"{CAMPAIGN}/outcomes.csv")
 
     def levels(self) -> pd.DataFrame:
@@ -132,6 +131,13 @@ class Evidence:
         """A scenario as resolved."""
         place = Place(self.study.robot, name or self.study.scenario)
         return json.loads((self._project / place.scenario_file(self._root)).read_text("utf-8"))
+
+
+def _there(path: Path, name: str) -> Path:
+    """The path of a file. Raises NotMeasured, with its name."""
+    if not path.is_file():
+        raise NotMeasured(name)
+    return path
 
 
 @cache

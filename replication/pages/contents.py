@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from replication.campaign.variants import variants
 from replication.config.campaign import Factors
 from replication.config.shipped import root_of
 from replication.config.study import Study
@@ -144,11 +145,13 @@ class Contents:
 
     @cached_property
     def setups(self) -> int:
-        """Setups of the campaign that have been measured."""
+        """Setups of the campaign in which every variant has been measured."""
+        every = {name for name, its in variants(self.study).items() if its.lengths}
         try:
-            return int(self.evidence.outcomes()["setup"].nunique())
+            measured = self.evidence.outcomes().groupby("setup")["variant"].agg(set)
         except NotMeasured:
             return 0
+        return int(measured.map(every.issubset).sum())
 
     @cached_property
     def own(self) -> dict[str, Any]:

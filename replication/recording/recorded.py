@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from replication.config.damages import Assigned
 from replication.config.study import Study
 from replication.training.plan import Place
 
@@ -37,3 +38,11 @@ def typical_seed(history: pd.DataFrame) -> int:
     last = history[history["iteration"] == history["iteration"].max()]
     order = last["position_error_cm"].argsort(kind="stable")
     return int(last["seed"].iloc[order.iloc[len(last) // 2]])
+
+
+def published_errors(study: Study, scenario: str) -> dict[str, float]:
+    """The initial errors in the paper by quantity, where a scenario is the paper's damage."""
+    if scenario != study.scenario:
+        return {}
+    assigned = any(isinstance(entry, Assigned) for entry in study.scenarios[scenario])
+    return study.paper_damage.published.model_dump() if assigned else {}

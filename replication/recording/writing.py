@@ -14,7 +14,7 @@ from rerun.error_utils import RerunWarning
 from recalib.errors import InvalidFile
 from recalib.files.storage import whole
 from recalib.loop.interfaces import Learner
-from replication.config.damages import Assigned, damages_among, disturbances_among
+from replication.config.damages import damages_among, disturbances_among
 from replication.config.study import Study
 from replication.recording import captions, colours
 from replication.recording.arms import send_arms
@@ -30,6 +30,7 @@ from replication.recording.phases import move
 from replication.recording.recorded import (
     MOVES,
     TODAYS,
+    published_errors,
     recorded_history,
     recorded_iterations,
     recorded_learners,
@@ -75,7 +76,7 @@ def record(
         watched = _watched(study, resolved, tuned, seed)
         for name, path, table in zip(names, files, tables, strict=True):
             _compare(path, watched[name], table[table["seed"] == seed])
-        write_recording(rrd, resolved, watched, _published(study, resolved.scenario))
+        write_recording(rrd, resolved, watched, published_errors(study, resolved.scenario))
 
 
 def _watched(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[str, Watched]:
@@ -94,13 +95,6 @@ def _watched(study: Study, resolved: Resolved, tuned: Tuned, seed: int) -> dict[
         plant = resolved.plant(controller, study.seed, [seed])
         found[name] = watch(controller, plant, learner, poses, measure_at)
     return found
-
-
-def _published(study: Study, scenario: str) -> dict[str, float]:
-    """The initial errors in the paper, where a scenario is the paper's damage."""
-    assigned = any(isinstance(entry, Assigned) for entry in study.scenarios[scenario])
-    is_own = scenario == study.scenario
-    return study.paper_damage.published.model_dump() if assigned and is_own else {}
 
 
 def _compare(path: Path, watched: Watched, history: pd.DataFrame) -> None:

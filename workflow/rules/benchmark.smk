@@ -90,7 +90,7 @@ rule real_table:
         f"{RESULTS}/logs/real_table.log",
     localrule: True
     params:
-        **calls("judgement.real_arm.put_together"),
+        **calls("judgement.benchmark.real_errors"),
         digits=5,
     message:
         "Put the results on the real arm together"

@@ -4,7 +4,7 @@ from recalib.nominal.descriptions import find_urdf
 from recalib.nominal.meshes import mesh_files
 from replication.config.switches import IMPROVED
 from replication.pages.writing import OUTCOME, pages_of
-from replication.plots.figures import figures_of
+from replication.plots.figures import Figure, figures_of
 from replication.recording.recorded import recorded_learners, recorded_places
 
 FIGURES = [
@@ -131,6 +131,84 @@ rule publish:
 EVERYTHING = [f"{RESULTS}/summary.csv", FINDINGS, *CHECK, *FIGURES, *RECORDINGS, *PAGES]
 if IS_SHIPPED:
     EVERYTHING += [committed(path) for path in PUBLISHED]
+
+
+# What a target of its own measures, with its tables, its figure and its page.
+APART = {
+    "benchmark": (
+        ["benchmark.csv", "benchmark_moves.csv", "benchmark_seconds.csv"],
+        Figure.BENCHMARK,
+        "guidance.md",
+    ),
+    "real": (["real.csv"], Figure.REAL_ARM, "real_arm.md"),
+}
+
+for part, (tables, figure, page) in APART.items():
+    made = [f"{RESULTS}/figures/{figure.file}.{suffix}" for suffix in ("svg", "png")]
+
+    rule:
+        name:
+            f"{part}_figure"
+        input:
+            tables=[f"{RESULTS}/{table}" for table in tables],
+        output:
+            figures=made,
+        log:
+            f"{RESULTS}/logs/{part}_figure.log",
+        localrule: True
+        params:
+            **calls("plots.drawing.draw"),
+        message:
+            f"Draw the {part}"
+        script:
+            "../scripts/call.py"
+
+    rule:
+        name:
+            f"{part}_page"
+        input:
+            tables=[f"{RESULTS}/{table}" for table in tables],
+            figures=made,
+        output:
+            pages=[f"{RESULTS}/pages/{page}"],
+        log:
+            f"{RESULTS}/logs/{part}_page.log",
+        localrule: True
+        params:
+            **calls("pages.writing.write"),
+        message:
+            f"Write the page of the {part}"
+        script:
+            "../scripts/call.py"
+
+    rule:
+        name:
+            f"publish_{part}"
+        input:
+            sources=[*made, f"{RESULTS}/pages/{page}"],
+        output:
+            copies=[f"figures/{Path(path).name}" for path in made] + [f"docs/{page}"],
+        log:
+            f"{RESULTS}/logs/publish_{part}.log",
+        localrule: True
+        params:
+            **calls("pages.publishing.publish"),
+        message:
+            f"Publish the {part}"
+        script:
+            "../scripts/call.py"
+
+    rule:
+        name:
+            part
+        input:
+            (
+                [f"figures/{Path(path).name}" for path in made] + [f"docs/{page}"]
+                if IS_SHIPPED
+                else [*made, f"{RESULTS}/pages/{page}"]
+            ),
+        message:
+            f"Its results are in {RESULTS}"
 
 
 rule article:

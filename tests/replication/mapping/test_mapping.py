@@ -4,7 +4,7 @@ import pytest
 
 from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
 from recalib.damaged.plant import Plant
-from replication.judgement.claims.reasons import integral_ratios
+from replication.judgement.claims.section_5 import integral_ratios
 from replication.mapping.coupling import coupling
 from replication.mapping.propagation import (
     ball,

@@ -109,6 +109,19 @@ def test_an_incomplete_campaign_says_how_many_setups_were_measured(partial, begu
     assert found == ["-", "not measured"]
 
 
+def test_a_setup_without_all_of_its_variants_is_not_counted(partial, monkeypatch):
+    contents = Contents(partial.study, (), partial.project)
+    table = contents.evidence.outcomes().copy()
+    table.loc[table["setup"] == 3, "variant"] = "improved"
+    monkeypatch.setattr(contents.evidence, "outcomes", lambda: table)
+    assert contents.setups == SOME - 1
+
+
+def test_a_readme_without_any_setup_promises_no_interval(study, project):
+    page = render("README.md", Contents(study, (), project(study, 0)))
+    assert "wait for the first of 30 registered" in page and "Brackets" not in page
+
+
 def test_no_page_says_of_a_complete_campaign_that_it_is_not(complete):
     pages = [render(page, complete) for page in ("README.md", "findings.md")]
     assert not any("may change" in page for page in pages)

@@ -57,7 +57,7 @@ def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(files):
         (LinkShortening("forearm_link", 0.04), "forearm: 4 cm short"),
         (LinkShortening("wrist_1_link", 0.01, "axis"), "wrist 1: 1 cm short, along axis"),
         (EncoderShift("wrist_2_joint", np.radians(-3)), "wrist 2: encoder -3 deg"),
-        (LinkBend("forearm_link", 0.1, 0.2), "forearm: bend 0.1 rad, towards 0.2 rad"),
+        (LinkBend("upper_arm_link", np.radians(5)), "upper arm: bend 5 deg"),
         (BaseShift((0.01, 0, 0)), "translate 1 cm, 0 m, 0 m"),
         (Noise(0.0003, 0.001), "position noise 0.3 mm, orientation noise 0.001 rad"),
     ],

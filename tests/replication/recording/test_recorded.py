@@ -3,6 +3,7 @@
 import pandas as pd
 
 from replication.recording.recorded import (
+    published_errors,
     recorded_iterations,
     recorded_learners,
     recorded_places,
@@ -30,3 +31,10 @@ def test_the_typical_training_ends_with_the_median_error():
         }
     )
     assert typical_seed(table) == 7
+
+
+def test_the_published_errors_belong_to_the_papers_damage_alone(study, small):
+    published = {"position_error_cm": 8.3, "orientation_error_deg": 4.7}  # section 7
+    assert published_errors(study, "links_encoders") == published
+    assert published_errors(study, "links") == {}, "a part of it"
+    assert published_errors(small, "links_encoders") == {}, "another damage"

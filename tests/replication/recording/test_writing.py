@@ -5,15 +5,19 @@ import subprocess
 
 import pandas as pd
 import pytest
+import rerun as rr
 from rerun.chunk import RrdReader
 
 from recalib.damaged.damage import LinkShortening
 from recalib.errors import InvalidFile
 from recalib.laboratory.viewer.program import PROGRAM, quiet
+from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal import meshes
 from replication.recording.recorded import typical_seed
-from replication.recording.writing import check_end, record
-from tests.replication.recording.conftest import DAMAGES, OWN, trained
+from replication.recording.watched import watch
+from replication.recording.writing import check_end, record, write_recording
+from replication.training.poses import Stream
+from tests.replication.recording.conftest import DAMAGES, OWN, reader, trained
 
 
 def rrd(*command) -> bool:
@@ -63,6 +67,42 @@ def test_a_recording_that_differs_from_the_history_is_not_written(small, files, 
     assert [*tmp_path.iterdir()] == [spoilt]
 
 
+def test_a_recording_without_its_end_is_not_written(resolved, tmp_path, monkeypatch):
+    """As on a full disk: Rerun itself only warns."""
+    monkeypatch.setattr(rr.RecordingStream, "disconnect", lambda self: None)
+    with pytest.raises(InvalidFile):
+        write_recording(tmp_path / "a.rrd", resolved, {"affine": watched(resolved)}, {})
+    assert not list(tmp_path.iterdir())
+
+
+def watched(resolved):
+    """A learner of five moves."""
+    controller, poses = resolved.controller(), Stream.REPLAY.draw(1, [0], 5, 15)
+    return watch(
+        controller, resolved.plant(controller, 1, [0]), PolynomialLearner(1), poses, [0, 5]
+    )
+
+
+def test_a_published_error_is_a_level_line_beside_the_measured_one(resolved, tmp_path):
+    path = tmp_path / "a.rrd"
+    write_recording(path, resolved, {"affine": watched(resolved)}, {"position_error_cm": 8.3})
+    columns = reader(path)
+    _, values = columns("/errors/position_error_cm/paper", "Scalars:scalars")
+    assert {value for (value,) in values} == {8.3}
+    with pytest.raises(KeyError):
+        columns("/errors/orientation_error_deg/paper", "Scalars:scalars")
+
+
+def test_one_of_todays_learners_is_recorded_in_the_own_scenario_alone(files):
+    own, intact = map(entities, files.recordings)
+    assert "/geometric/tool" in own
+    assert not any("geometric" in entity for entity in intact)
+
+
+def entities(recording) -> set[str]:
+    return {chunk.entity_path for chunk in RrdReader(recording).store().stream().to_chunks()}
+
+
 def test_missing_meshes_leave_no_recording(small, files, tmp_path, monkeypatch):
     monkeypatch.setattr(meshes, "KINDS", ())
     rrds = [tmp_path / "a.rrd", tmp_path / "b.rrd"]
@@ -87,8 +127,6 @@ def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(small
     )
     its = trained(study, tmp_path)
     record(study, *its)
-    entities = {
-        chunk.entity_path for chunk in RrdReader(its.recordings[1]).store().stream().to_chunks()
-    }
-    assert "/errors/position_error_cm/ritter" in entities
-    assert not any("improved" in entity for entity in entities)
+    found = entities(its.recordings[1])
+    assert "/errors/position_error_cm/ritter" in found
+    assert not any("improved" in entity for entity in found)

@@ -16,7 +16,6 @@ from replication.training.poses import Stream
 from replication.training.train import train
 from tests.replication.conftest import settings_of
 
-
 SPARSE = Measuring(tests=2, measure_every=4, measure_evenly=200, measurements=50)
 
 

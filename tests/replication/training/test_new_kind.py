@@ -7,13 +7,12 @@ from recalib.learners.geometric import GeometricLearner
 from recalib.learners.kinds import KINDS, KINEMATICS, POSES, Kind
 from recalib.learners.learned import load, save
 from recalib.learners.polynomial import PolynomialLearner
-from replication.running.checks.consistency import check
 from replication.plots.palette import STYLES, styles_of
+from replication.running.checks.consistency import check
 from replication.training.benchmark import compete
-from replication.training.competitors import homes_of, label_of, make_peer, needs_of, peers
+from replication.training.competitors import label_of, make_peer, needs_of, peers
 from replication.training.real_arm import remaining_errors
 from replication.training.tracker import TrackerMeasurements
-from replication.running.outputs import write
 
 
 class Pure(PolynomialLearner):
@@ -39,7 +38,6 @@ def new(request, monkeypatch) -> type:
 def test_a_new_kind_is_known_by_its_name_need_and_look(new):
     assert [*peers()][-1] == "by_taylor"
     assert label_of("by_taylor") == "by Taylor" and needs_of("by_taylor") == NEW[new].needs
-    assert homes_of(["improved", "by_taylor"]) == [__name__], "whose code its jobs depend on"
     shown = styles_of([*STYLES, "by_taylor"])
     assert shown["by_taylor"].label == "by Taylor"
     assert shown["by_taylor"].color not in {style.color for style in STYLES.values()}
@@ -55,11 +53,12 @@ def test_a_study_may_name_a_new_kind(new, study):
         assert naming(part, "by_taylor") == [] != naming(part, "by_nobody")
 
 
-def test_a_new_kind_competes_and_its_file_is_read(new, plan, robot, tmp_path):
-    assert type(make_peer("by_taylor", 1, robot)) is new
-    write(path := tmp_path / "translation.json", plan.resolved("translation"))
-    table = compete([path], "by_taylor", None, 2, (1, 8), (), tests=5, seed=1)
-    errors = table.groupby("moves")["position_error_cm"].mean()
+def test_a_new_kind_competes_and_its_file_is_read(new, study, robot, tmp_path):
+    training = study.training.model_copy(update={"tests": 5})
+    plan = {"scenarios": ("translation",), "seeds": 2, "moves": (1, 8), "longer": ()}
+    benchmark = study.benchmark.model_copy(update=plan)
+    its = study.model_copy(update={"benchmark": benchmark, "training": training})
+    errors = compete(its, "by_taylor", []).groupby("moves")["position_error_cm"].mean()
     assert errors[8] < errors[1] / 2
     save(tmp_path / "learned.npz", make_peer("by_taylor", 1, robot), robot)
     assert type(load(tmp_path / "learned.npz", robot)) is new

@@ -1,0 +1,147 @@
+"""Verdicts follow from the numbers: judged in worlds that support each claim, or contradict it."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from replication.campaign.variants import TWO_MAPS, lengths, variants
+from replication.config.switches import IMPROVED, RITTER
+from replication.judgement.claims import claims, judge
+from replication.judgement.claims.claim import OfSetups
+from replication.judgement.evidence import Evidence
+from replication.judgement.findings import read_findings, written
+from replication.judgement.verdicts import Verdict
+from replication.running.outputs import write
+from replication.training.measured import ERRORS, KINDS
+from tests.conftest import ROOT
+
+SETUPS, OWN, LUCK = 12, 0.05, 0.01
+BEST, LEFT = np.log(0.03), np.log(0.5)  # shares that the improved system and Ritter's map leave
+WORSE = 0.5  # of a logarithm: by which what the paper calls worse is
+
+# Of the variants that the paper holds to be worse than others, on the logarithmic scale.
+PAPER = {
+    "improved_single_map": WORSE,
+    "improved_theta_values": WORSE,
+    "improved_jacobian_values": WORSE,
+    "improved_exponential": WORSE,
+    "improved_values": 2 * WORSE,
+    "improved_values_drastic": WORSE,
+    "radial_values": WORSE,
+    "two_maps_for_position_wide": WORSE,
+    "two_maps_for_position_reverse": WORSE,
+    "two_maps_for_orientation_reverse": WORSE,
+    "small_subnet_for_position": WORSE,
+    "small_supernet_for_orientation": WORSE,
+    TWO_MAPS: -WORSE,
+    "one_map_for_position": -WORSE,
+    "one_map_for_orientation": -WORSE,
+}
+
+
+def world(study, paper: bool) -> pd.DataFrame:
+    """A campaign in which all is as the paper says, or just the other way round."""
+    rng, rows, sign = np.random.default_rng(5), [], 1 if paper else -1
+    for setup in range(SETUPS):
+        own = OWN * rng.normal(size=100)
+        for replicate in range(2 if setup < 3 else 1):
+            for number, (name, variant) in enumerate(variants(study).items()):
+                for iterations in (*lengths(variant, setup), *variant.until_reached):
+                    log = _log(study, variant, iterations, paper)
+                    log += sign * PAPER.get(name, 0.0) + own[number] + LUCK * rng.normal()
+                    keys = {"setup": setup, "replicate": replicate, "variant": name}
+                    shares = dict.fromkeys((f"{kind}_share" for kind in KINDS), np.exp(log))
+                    rows.append(keys | {"iterations": iterations, "settled": 1} | shares)
+    return pd.DataFrame(rows)
+
+
+def _log(study, variant, iterations, paper) -> float:
+    """The logarithm of the share that is left, before who is better and who is worse."""
+    longer = np.log(iterations / study.experiments.iterations)
+    if variant.improved:
+        return (BEST if paper else LEFT) - 0.5 * longer
+    if paper:  # it gets there after 70 times as many iterations
+        return LEFT - (LEFT - BEST) * longer / np.log(70)
+    return np.log(0.05)  # it is there at once
+
+
+@pytest.fixture(scope="module")
+def judged(study, tmp_path_factory):
+    def found(paper: bool):
+        folder = tmp_path_factory.mktemp("campaign")
+        write(folder / "workflow/campaign/outcomes.csv", world(study, paper))
+        design = pd.read_csv(ROOT / "workflow/campaign/design.csv")
+        write(folder / "workflow/campaign/design.csv", design)
+        table = pd.DataFrame({"setup": range(30)})
+        for number, kind in enumerate(KINDS):  # of the published size, and spread by a third
+            spread = np.exp(0.1 * np.random.default_rng(number).normal(size=30))
+            table[kind] = (0.05 if paper else 0.5) * spread
+            table[ERRORS[number]] = (8.3, 4.7)[number] * spread * (1 if paper else 3)
+        write(folder / "workflow/campaign/untrained.csv", table)
+        grid = pd.DataFrame({error: [8.3, 4.7] for error in ERRORS}).assign(distance=[0.0, 1.0])
+        write(folder / f"results/assignments/{study.robot}.parquet", grid)
+        findings = judge(Evidence(study, folder))
+        write(folder / "claims.json", written(findings))
+        return read_findings(Path(folder / "claims.json"))
+
+    return {paper: found(paper) for paper in (True, False)}
+
+
+OF_SETUPS = "ritter-slow large-neighbourhoods no-good-solution separate-maps widths-position"
+OF_SETUPS += " widths-orientation cells-position cells-orientation theta-increments not-drastic"
+OF_SETUPS += " jacobian-increments cooperation schedule figure-1 long rough-search local-units"
+OTHERS = "weak-coupling", "initial-error", "speed-up"  # by tables of the campaign, too
+
+
+def test_every_claim_of_setups_is_tried(study):
+    assert {its.statement.id for its in claims(study) if isinstance(its, OfSetups)} == {
+        *OF_SETUPS.split()
+    }
+
+
+@pytest.mark.parametrize("name", [*OF_SETUPS.split(), *OTHERS])
+def test_a_world_as_the_papers_supports_a_claim(judged, name):
+    assert judged[True][name].verdict is Verdict.SUPPORTED
+
+
+@pytest.mark.parametrize("name", [*OF_SETUPS.split(), *OTHERS])
+def test_a_world_of_the_opposite_contradicts_it(judged, name):
+    assert judged[False][name].verdict is Verdict.CONTRADICTED
+
+
+def test_a_finding_has_mean_another_setup_heterogeneity_and_luck(judged):
+    its = judged[True]["theta-increments"]
+    number, spread = its.estimates[0], its.spread
+    assert number.value == pytest.approx(np.exp(-WORSE), rel=0.05)
+    assert number.interval[0] < number.value < number.interval[1]
+    assert number.predictive_interval[0] < number.interval[0]
+    assert spread.setups == SETUPS and spread.unsettled == 0
+    assert spread.luck_interval[0] < np.sqrt(2) * LUCK < spread.luck_interval[1]
+    assert spread.between_interval[0] < np.sqrt(2) * OWN < spread.between_interval[1]
+    assert spread.shares[Verdict.SUPPORTED] > 0.99
+    assert its.estimates[1].system == "Ritter's one map", "beside, another system"
+
+
+def test_the_factor_of_70_is_found_with_bounds_where_a_ladder_ends(judged):
+    its = judged[True]["speed-up"]
+    assert its.estimates[0].value == pytest.approx(70, rel=0.1)
+    assert its.published == "a factor of 70"
+
+
+def test_every_claim_says_all_of_itself(study):
+    every = [its.statement for its in claims(study)]
+    assert len({its.id for its in every}) == len(every) == 30
+    for its in every:
+        assert its.words and its.claim and its.criterion and its.reason and its.section
+
+
+def test_without_results_nothing_is_judged(study, tmp_path):
+    assert judge(Evidence(study, tmp_path)) == ()
+    other = study.model_copy(update={"name": "mine"})
+    assert judge(Evidence(other, tmp_path)) == ()
+
+
+def test_improved_is_the_system_that_the_paper_proposes(study):
+    assert variants(study)[IMPROVED].improved and not variants(study)[RITTER].improved

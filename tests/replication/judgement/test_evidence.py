@@ -1,0 +1,64 @@
+"""What claims, figures and pages read of a study, and what it lacks."""
+
+import pandas as pd
+import pytest
+
+from replication.judgement.evidence import Evidence, NotMeasured, files
+from replication.running.outputs import write
+from replication.training.measured import ERRORS
+
+
+@pytest.fixture
+def evidence(study, tmp_path):
+    """With a history of two trainings of two seeds, in no order."""
+    rows = [
+        {"iterations": iterations, "seed": seed, "iteration": iteration}
+        | {ERRORS[0]: 100 * seed + iteration, ERRORS[1]: float(iterations)}
+        for seed in (1, 0)
+        for iterations in (200, 500)
+        for iteration in (iterations, 0)
+    ]
+    write(tmp_path / "results/runs/ur10/links_encoders/improved.parquet", pd.DataFrame(rows))
+    return Evidence(study, tmp_path)
+
+
+def test_a_history_is_that_of_one_length(evidence):
+    assert set(evidence.history("improved", 500)["iteration"]) == {0, 500}
+
+
+def test_errors_are_the_first_or_last_ones_by_seed(evidence):
+    assert evidence.errors("improved", 200).tolist() == [[200, 200], [300, 200]]
+    assert evidence.errors("improved", 200, first=True).tolist() == [[0, 200], [100, 200]]
+
+
+@pytest.mark.parametrize(
+    ("ask", "key"),
+    [
+        (lambda its: its.history("improved", 201), r"experiments\.learners\.improved: \[201\]"),
+        (lambda its: its.history("improved", 200, "gears"), r"learners\.improved: \[200\]"),
+        (lambda its: its.mapping("widths"), "mapping/widths.parquet"),
+        (lambda its: its.outcomes(), "workflow/campaign/outcomes.csv"),
+        (lambda its: its.assignments(), "assignments/ur10.parquet"),
+        (lambda its: its.findings(), "claims.json"),
+    ],
+)
+def test_what_a_study_lacks_is_named(evidence, ask, key):
+    with pytest.raises(NotMeasured, match=key):
+        ask(evidence)
+
+
+def test_the_campaign_is_that_of_the_shipped_study(study, tmp_path):
+    write(tmp_path / "workflow/campaign/outcomes.csv", pd.DataFrame({"setup": [0]}))
+    assert len(Evidence(study, tmp_path).outcomes()) == 1
+    other = study.model_copy(update={"name": "mine"})
+    with pytest.raises(NotMeasured, match="name: replication"):
+        Evidence(other, tmp_path).outcomes()
+
+
+def test_a_study_without_evidence_needs_no_mapping_and_no_ensemble(study):
+    plan = study.experiments.model_copy(update={"evidence": False})
+    small = study.model_copy(update={"experiments": plan, "name": "mine"})
+    assert files(small, "mapping") == files(small, "ensemble") == []
+    ensemble = [f"results/ensemble/{learner}.parquet" for learner in ("improved", "ritter")]
+    assert files(study, "ensemble") == ensemble
+    assert "results/studies/mine/robots/ur5/links_encoders.json" in files(small, "trainings")

@@ -1,0 +1,79 @@
+"""What both jobs measure is what claims and figures read."""
+
+import numpy as np
+import pytest
+
+from replication.config.shipped import root_of
+from replication.judgement.claims import claims
+from replication.judgement.claims.claim import Measured
+from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.verdicts import Verdict
+from replication.mapping import measured, nearness, quantisation, solutions
+from replication.running.outputs import write
+from replication.training import constant_widths
+from replication.training.plan import Place, places
+from replication.training.scenarios import write_scenarios
+
+FIRST = "coupling", "nearness", "propagation", "quantisation", "solutions", "visits"
+SECOND = "replay", "widths"
+JUDGED = {  # by tables of the mapping alone
+    "single-valued": Verdict.SUPPORTED,
+    "theta-reason": Verdict.SUPPORTED,
+    "jacobian-reason": Verdict.SUPPORTED,
+    "expected-learning": Verdict.SUPPORTED,
+    "controller-kept": Verdict.SUPPORTED,
+}
+OF_MORE = "grid", "weak-coupling-reason", "coarse-widths"  # draws and seeds than there are here
+
+
+@pytest.fixture(scope="module")
+def few(study):
+    plan = study.experiments.model_copy(
+        update={"scenarios": ("links_encoders", "rotation"), "robots": ()}
+    )
+    mapping = study.mapping.model_copy(
+        update={"poses": 6, "balls": 3, "points": 10, "scales": (0.5, 1.0)}
+    )
+    return study.model_copy(update={"experiments": plan, "mapping": mapping, "name": "few"})
+
+
+@pytest.fixture(scope="module")
+def evidence(few, settings, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("mapping")
+    root = folder / root_of(few.name)
+    files = {place: folder / place.scenario_file(root_of(few.name)) for place in places(few)}
+    own = files[Place(few.robot, few.scenario)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(quantisation, "PLACING", 500)
+        patch.setattr(quantisation, "EVALUATING", 500)
+        patch.setattr(nearness, "DRAWS", 2)
+        patch.setattr(solutions, "STARTS", 10)
+        patch.setattr(constant_widths, "SEEDS", 2)
+        patch.setattr(constant_widths, "RATES", np.array([0.8]))
+        write_scenarios(few, [*files.values()])
+        tables = dict(zip(FIRST, measured.measure(few, [*files.values()], own), strict=True))
+        tables |= dict(zip(SECOND, measured.learn(few, own, settings), strict=True))
+    for name, table in tables.items():
+        write(root / f"mapping/{name}.parquet", table)
+    return Evidence(few, folder)
+
+
+@pytest.mark.parametrize("name", [*JUDGED, *OF_MORE])
+def test_claims_about_the_mapping_are_judged_by_what_is_measured(few, evidence, name):
+    claim = next(its for its in claims(few) if its.statement.id == name)
+    assert isinstance(claim, Measured)
+    finding = claim.judge(evidence)
+    assert all(np.isfinite(its.value) for its in finding.estimates) and finding.estimates
+    if name in JUDGED:
+        assert finding.verdict is JUDGED[name]
+
+
+def test_the_cross_effect_is_measured_in_each_scenario(few, evidence):
+    table = evidence.mapping("coupling")
+    assert table.groupby("scenario").size().to_dict() == {"links_encoders": 6, "rotation": 6}
+    assert table[table["scenario"] == "rotation"][["position", "orientation"]].max().max() < 1e-3
+
+
+def test_what_is_not_measured_is_said_to_lack(few, evidence, tmp_path):
+    with pytest.raises(NotMeasured, match="solutions"):
+        Evidence(few, tmp_path).mapping("solutions")

@@ -1,0 +1,190 @@
+"""What settings are chosen by, no result is measured on: neither by a slip nor in any job."""
+
+import ast
+from collections import defaultdict
+
+import numpy as np
+import pytest
+
+from recalib.loop.training import History
+from replication.campaign.own import tune
+from replication.mapping import measured
+from replication.training import benchmark, ensemble, real_arm, train
+from replication.training import poses as module
+from replication.training.plan import Place, places
+from replication.training.poses import ResultPoses, SearchPoses, Stream, train_for_results
+from replication.training.scenarios import write_scenarios
+from replication.training.search import Tuning
+from tests.conftest import ROOT
+from tests.replication.conftest import settings_of
+
+WORDS = {"number": 1, "setup": 0, "replicate": 0, "widths": "wide"}
+
+
+def for_a_search():
+    return Stream.SEARCH.draw(1, [0, 1], 4, 3, **WORDS)
+
+
+def for_results():
+    return Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario="links")
+
+
+def test_a_search_takes_no_poses_of_results(study):
+    class Its:
+        poses = for_results()
+
+    with pytest.raises(TypeError, match="SearchPoses expected, ResultPoses found: links"):
+        Tuning([Its()], Its(), study.search)
+
+
+def test_results_take_no_poses_of_a_search():
+    with pytest.raises(TypeError, match="ResultPoses expected, SearchPoses found: search 1 in"):
+        train_for_results(None, None, for_a_search(), [4])
+
+
+@pytest.mark.parametrize("kind", [SearchPoses, ResultPoses])
+def test_nobody_is_measured_where_it_learned(kind):
+    drawn = for_results()
+    drawn.tests[1, 2] = drawn.desired[1, 3]  # a single one of them
+    with pytest.raises(ValueError, match="links: test poses are among those to learn from"):
+        kind("links", drawn.desired, drawn.tests)
+
+
+@pytest.mark.parametrize("stream", Stream)
+def test_a_stream_is_of_a_search_or_of_results_by_its_name(stream):
+    drawn = stream.draw(1, [0], 4, 3, scenario="links", **WORDS)
+    assert isinstance(drawn, SearchPoses) == drawn.name.startswith("search ")
+    assert isinstance(drawn, ResultPoses) != isinstance(drawn, SearchPoses)
+
+
+def test_results_cannot_take_the_name_of_a_search():
+    with pytest.raises(ValueError, match="SCENARIO: 'search 1 in setup 0, replicate 0' is the"):
+        Stream.SCENARIO.draw(1, [0, 1], 4, 3, scenario=for_a_search().name)
+
+
+def test_nobody_trains_past_the_types():
+    found = {
+        path.stem
+        for path in (ROOT / "replication").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and node.module == "recalib.loop.training"
+        if "train" in {its.name for its in node.names}
+    }
+    assert found == {"poses"}
+
+
+@pytest.fixture(scope="module")
+def few(study):
+    """A study of all kinds of jobs, each of them small."""
+    experiments = {
+        "scenarios": ("intact", "links_encoders"),
+        "robots": ("z1",),
+        "learners": {"improved": (20, 30)},
+        "own": {"ritter": (20,)},
+        "iterations": 20,
+        "switches": False,
+        "ensemble": {
+            "improved": {"scaled": study.experiments.ensemble["improved"]["scaled"]},
+        },
+    }
+    rest = {
+        "search": {"trials": 16, "near_trials": 16, "runs": 2, "fresh": 4, "doublings": 0},
+        "benchmark": {
+            "scenarios": ("links_encoders", "noise"),
+            "learners": ("affine",),
+            "papers": {"improved": 20},
+        },
+        "real": {"twin": {"improved": 20}},
+        "training": {"seeds": 3, "tests": 20},
+        "campaign": {"runs": 4},
+        "paper_damage": {"shorten": (0.04,), "shift": (0.07,), "poses": 5},
+    }
+    rest |= {"experiments": experiments}
+    return study.model_copy(
+        update={name: getattr(study, name).model_copy(update=its) for name, its in rest.items()}
+    )
+
+
+class Drawn:
+    """All poses that jobs draw, by the name of their stream; nothing is trained."""
+
+    def __init__(self, monkeypatch):
+        self.desired, self.tests = defaultdict(list), {SearchPoses: [], ResultPoses: []}
+        self.names, self.seeds = set(), set()
+        draw = Stream.draw
+
+        def noted(stream, seed, *arguments, **words):
+            drawn = draw(stream, seed, *arguments, **words)
+            self.names.add(drawn.name)
+            self.seeds.add(seed)
+            self.desired[type(drawn)].append(drawn.desired[..., 0].ravel())
+            self.tests[type(drawn)].append(drawn.tests[..., 0].ravel())
+            return drawn
+
+        def nothing_learned(plant, learner, desired, tests, measure_at, **how):
+            errors = np.ones((len(desired), len(measure_at), 3))
+            moves, refused = np.zeros(len(measure_at), int), np.zeros(errors.shape[:2], int)
+            return History(np.array(measure_at), moves, refused, errors, errors)
+
+        monkeypatch.setattr(Stream, "draw", noted)
+        monkeypatch.setattr(module, "train", nothing_learned)
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    return Drawn(monkeypatch)
+
+
+def all_jobs(study, folder, monkeypatch):
+    """Run every job of a study that learns."""
+    root, settings = str(folder), settings_of(study, folder / "outcomes.csv")
+    files = {place: folder / place.scenario_file(root) for place in places(study)}
+    write_scenarios(study, [*files.values()])
+    own = files[Place(study.robot, study.scenario)]
+    for place, learners in places(study).items():
+        its = [
+            [folder / f"{place.scenario}.{name}{ending}" for name in learners]
+            for ending in (".parquet", ".npz")
+        ]
+        train.train(study, *place, files[place], settings, *its)
+    for learner in ("improved", "ritter"):
+        tune(study, learner, own)
+    ensemble.train_draws(study, "improved", settings)
+    for learner in ("affine", "improved"):
+        benchmark.compete(study, learner, settings)
+    measured.learn(study, own, settings)
+    said = type("Said", (), {"target": np.eye(4)})
+    monkeypatch.setattr(real_arm, "read_whole_description", lambda _: said)
+    for name in ("read_of", "identified", "Plant"):
+        monkeypatch.setattr(real_arm, name, lambda *_: None)
+    real_arm.learn(study, "improved", *[folder] * 3, settings)
+
+
+def test_no_test_pose_of_any_job_was_learned_from_or_searched_with(
+    few, drawn, tmp_path, monkeypatch
+):
+    all_jobs(few, tmp_path, monkeypatch)
+    assert drawn.names == {
+        *("intact", "links_encoders", "noise", "ensemble", "twin", "replay", "constant widths"),
+        *(f"search for a rate with {widths} widths" for widths in ("wide", "narrow")),
+        *(f"search {number} in setup 0, replicate 0" for number in range(3)),
+        "setup 0, replicate 0",
+    }
+    assert drawn.seeds == {few.seed}, "and from nothing else"
+    tests = np.concatenate(drawn.tests[ResultPoses])
+    searched = np.concatenate(drawn.tests[SearchPoses])
+    learned = np.concatenate([its for kind in drawn.desired.values() for its in kind])
+    assert min(map(len, map(np.unique, (tests, searched, learned)))) > 500
+    for some, others in ((tests, learned), (tests, searched), (searched, learned)):
+        assert not np.isin(some, others).any()
+
+
+def test_the_first_setups_of_the_campaign_and_their_replicates_share_no_poses():
+    drawn = [
+        Stream.SEARCH.draw(seed, [0], 50, 20, number=number, setup=setup, replicate=replicate)
+        for seed, setup in ((1, 0), (2, 1))
+        for number in range(3)
+        for replicate in range(2)
+    ]
+    poses = np.concatenate([np.append(its.desired, its.tests) for its in drawn])
+    assert len(np.unique(poses)) == len(poses)

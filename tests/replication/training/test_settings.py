@@ -1,0 +1,99 @@
+"""Widths and rates: as rows that a learner takes, and as points that a search moves."""
+
+import numpy as np
+import pytest
+
+from recalib.errors import RecalibError
+from recalib.learners.rules import Rules
+from replication.config.switches import SWITCHES
+from replication.training.settings import Space
+from replication.training.tuned import Tuned, rules_of, trained
+
+
+@pytest.fixture
+def space(study):
+    return Space(Rules(True, True, True, True), study.search.ranges)
+
+
+def points(count, dimensions=7):
+    return np.random.default_rng(1).uniform(0, 1, (count, dimensions))
+
+
+def columns(space, rows):
+    return dict(zip(space.columns, rows.T, strict=True))
+
+
+def test_points_fill_the_ranges_and_widths_and_rates_fall(space, study):
+    its = columns(space, space.rows(points(200)))
+    low, high = study.search.ranges.widths
+    for name in space.neighbourhoods:
+        assert (low * 0.999 <= its[name]).all()
+        assert (its[name] <= its["initial_width"] * 1.001).all()
+    assert its["initial_width"].max() > 0.7 * high and its["initial_width"].min() < 2 * low
+    assert (its["final_rate"] <= its["initial_rate"] * 1.001).all()
+    assert its["initial_rate"].max() <= 1
+    ends = columns(space, space.rows(np.array([[1, 0, 1, 0, 1, 1, 1]])))
+    assert [ends[name][0] for name in space.columns] == [high, low, high, low, high, 1, 1]
+
+
+def test_a_row_and_its_point_are_the_same(space):
+    rows = space.rows(points(20))
+    again = space.rows(np.stack([space.point(row) for row in rows]))
+    assert np.allclose(rows, again, rtol=2e-3)  # four digits of each
+
+
+def test_a_neighbourhood_that_is_to_be_narrower_is(study):
+    rules = Rules(True, False, False, False)
+    narrower = {"position_g_k": "position_g_kl"}
+    space = Space(rules, study.search.ranges, narrower=narrower)
+    its = columns(space, space.rows(points(100)))
+    assert (its["position_g_k"] <= its["position_g_kl"] * 1.001).all()
+    assert (its["orientation_g_k"] > its["orientation_g_kl"]).any()
+
+
+def test_a_given_width_is_not_sought_and_does_not_fall(study):
+    rules = Rules(True, False, False, False)
+    space = Space(rules, study.search.ranges, constant={"position_g_k": 2.0})
+    assert "position_g_k" not in space.coordinates and len(space.coordinates) == 6
+    rows = space.rows(points(5, 6))
+    assert (columns(space, rows)["position_g_k"] == 2.0).all()
+    schedule = space.schedule(rows)
+    assert np.allclose(schedule.initial_width["position"][0], 2.0)
+    assert np.allclose(schedule.final_widths["position"][0], 2.0)
+
+
+def test_a_learner_has_the_settings_of_the_reference_study_alone(study, settings):
+    """Rows of other setups and replicates have no numbers there."""
+    learner = Tuned(study, settings).learner("improved", 200, 3)
+    assert np.shape(learner.schedule.initial_width) == (3,)
+    assert np.isfinite(learner.schedule.initial_width).all()
+    others = Tuned(study, settings).learner("improved", 500, 3)
+    assert others.schedule.initial_width[0] != learner.schedule.initial_width[0]
+
+
+def test_without_settings_one_is_told_how_to_get_them(study, settings):
+    with pytest.raises(RecalibError, match="no settings of improved for 201 iterations; try: make"):
+        Tuned(study, settings).learner("improved", 201, 1)
+
+
+def test_every_training_of_a_study_needs_settings(study):
+    needed = trained(study)
+    assert {("improved", 200), ("improved", 50), ("ritter_double", 40_000)} <= needed
+    assert ("ritter", study.real.twin["ritter"]) in needed
+    assert {(switch.without, 200) for switch in SWITCHES} <= needed
+
+
+def test_rules_are_what_the_configuration_says(study):
+    assert rules_of(study.learners["improved"]) == Rules(True, True, True, True)
+    assert rules_of(study.learners["ritter"]) == Rules(False, False, False, False)
+    assert rules_of(study.learners["ritter_double"]).supernet == (3, 6, 3)
+
+
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_a_switch_changes_one_thing_of_each_system(study, switch):
+    known = {name: its.model_dump() for name, its in study.every_learner.items()}
+    improved, ritter = known["improved"], known["ritter"]
+    without, added = known[switch.without], known[switch.added]
+    cells = {"supernet": (3, 6, 3)} if switch.key == "maps" else {}  # as many in one map as in two
+    assert without == improved | {switch.key: ritter[switch.key]} | cells
+    assert added == ritter | {switch.key: improved[switch.key]}
