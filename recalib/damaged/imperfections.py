@@ -3,7 +3,7 @@
 The fields of a class are the keys of a configuration: {link: forearm_link, shorten: 4 cm}.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from importlib import import_module
@@ -86,7 +86,8 @@ class Imperfection:
         from pydantic_core import PydanticCustomError, core_schema
 
         if cls is not Imperfection:
-            schema: CoreSchema = handler(source)
+            schema: Any = handler(source)
+            schema["serialization"] = core_schema.wrap_serializer_function_ser_schema(_short)
             return schema
 
         def known(value: Any) -> Any:
@@ -116,6 +117,13 @@ def _kind_of(value: Any) -> str | None:
     exact = next((key for key in value if key in kinds), None)
     meant = exact or next(filter(None, (nearest(str(key), kinds) for key in value)), None)
     return kinds[meant].__name__ if meant else None
+
+
+def _short(entry: Imperfection, write: Callable[[Imperfection], dict[str, Any]]) -> dict[str, Any]:
+    """An entry as it is written: without what is as by default, unless all of it is."""
+    written = write(entry)
+    default = {field.name for field in fields(entry) if getattr(entry, field.name) == field.default}
+    return {key: text for key, text in written.items() if key not in default} or written
 
 
 def _forms(value: Any) -> list[str]:

@@ -92,7 +92,8 @@ class Schedule:
             initial = np.array([[*map(np.asarray, self.initial_width[name])] for name in maps])
         else:
             initial = np.broadcast_to(self.initial_width, final.shape)
-        return tuple(np.ascontiguousarray(array.transpose(2, 0, 1)) for array in (initial, final))
+        first, last = (np.ascontiguousarray(its.transpose(2, 0, 1)) for its in (initial, final))
+        return first, last
 
     def of_run(self, run: int) -> "Schedule":
         """That of one of several runs, all numbers."""

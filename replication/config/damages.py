@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, Literal
 
 from pydantic import TypeAdapter
@@ -26,18 +25,13 @@ class Assigned(Imperfection, words=("assigned",)):
 
 
 Entry = Imperfection  # of a scenario: any kind of `recalib.damaged`, or Assigned
+_ENTRY = TypeAdapter(Entry)
 
 
 def describe(entry: Entry) -> dict[str, Any]:
     """The keys and values that are read as this entry, without those that are as by default."""
-    written = _adapter(type(entry))  # type: ignore[arg-type]  # a class can be hashed
-    short: dict[str, Any] = written.dump_python(entry, mode="json", exclude_defaults=True)
-    return short or written.dump_python(entry, mode="json")  # nothing at all would be no kind
-
-
-@cache
-def _adapter(kind: type[Imperfection]) -> TypeAdapter:
-    return TypeAdapter(kind)
+    written: dict[str, Any] = _ENTRY.dump_python(entry, mode="json")
+    return written
 
 
 def damages_among(entries: Iterable[Entry]) -> list[Damage]:

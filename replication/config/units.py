@@ -63,7 +63,7 @@ Text = Annotated[str, Field(strict=True, min_length=1, max_length=300)]
 Switch = Annotated[bool, Field(strict=True)]
 
 
-def _distinct(values: Sequence) -> Sequence:
+def _distinct(values: Sequence[Any]) -> Sequence[Any]:
     twice = next((value for index, value in enumerate(values) if value in values[:index]), None)
     if twice is not None:
         raise PydanticCustomError("distinct", "each once, not {twice} twice", {"twice": twice})

@@ -58,7 +58,7 @@ def test_zero_parameters_are_the_nominal_arm(robot):
             {"sine 1": 0.01 * np.cos(0.4), "cosine 1": 0.01 * np.sin(0.4)},
             EccentricGear("elbow_joint", 0.01, 0.4),
         ),
-        ({"twist": (0.01, -0.02, 0.03)}, BaseShift(translation=(0.01, -0.02, 0.03))),
+        ({"twist": (0.01, -0.02, 0.03)}, BaseShift(translate=(0.01, -0.02, 0.03))),
     ],
     ids=["offset", "gear", "base"],
 )

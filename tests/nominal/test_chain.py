@@ -24,7 +24,7 @@ OTHERS = (
 
 
 def some_damage(robot):
-    shift = BaseShift(translation=(0.01, -0.02, 0.03), rotation=(0.1, -0.2, 0.3))
+    shift = BaseShift(translate=(0.01, -0.02, 0.03), rotate=(0.1, -0.2, 0.3))
     return [shift, *(LinkShortening(link, 0.01) for link in [*robot.links][2:4])]
 
 

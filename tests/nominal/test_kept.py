@@ -41,7 +41,9 @@ def test_a_robot_is_as_kept(robot, data_regression):
         "name": [robot.name, robot.urdf.name, robot.joints],
         "numbers": [robot.home, robot.lower, robot.upper, robot.workspace],
         "links": robot.links,
-        "ends": [link_end(model, robot.arm.tool, joint) for joint in range(model.njoints)],
+        "ends": [
+            link_end(model, robot.arm.tool, joint).translation for joint in range(model.njoints)
+        ],
         "shown": [shown(0.1234, slides, digits) for slides in (0, 1) for digits in (".1f", ".4g")],
         "plain": load_robot(
             UR10, "tool0", dict(zip(robot.joints, HOME, strict=True)), *2 * [[1.0] * 3]

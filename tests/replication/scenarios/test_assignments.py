@@ -21,7 +21,7 @@ def test_an_assignment_lists_its_damages_from_the_base_to_the_tool(robot):
     for index in range(0, len(ways), 37):
         links, joints = ways[index][:2], ways[index][2:]
         assert LINKS.index(links[0].link) < LINKS.index(links[1].link)
-        assert robot.joints.index(joints[0].joint) < robot.joints.index(joints[1].joint)
+        assert robot.joints.index(joints[0].encoder) < robot.joints.index(joints[1].encoder)
 
 
 @pytest.fixture(scope="module")
