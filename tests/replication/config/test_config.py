@@ -117,7 +117,7 @@ def test_of_many_mistakes_the_first_are_shown(here):
 
 def test_several_mistakes_are_told_in_the_order_of_their_places(here):
     changed = TEXT.replace("greatest_condition: 60", "greatest_condition: 0", 1)
-    changed = changed.replace("trials: 960", "trials: many", 1).replace("seed: 1996", "sede: 1", 1)
+    changed = changed.replace("trials: 640", "trials: many", 1).replace("seed: 1996", "sede: 1", 1)
     keys = [line.split(": ")[1].split()[0] for line in mistakes_of(here, changed)]
     assert keys == ["sede", "controller.greatest_condition", "search.trials"]
 
