@@ -5,7 +5,7 @@ makes (`operators`). They are taken in an order drawn by a fixed seed, so that a
 larger. What was found is kept in results/mutants and said on docs/mutants.md. A change of a part's
 code begins it anew; after a change of tests, `--again` has them meet the survivors.
 
-    python -m tests.mutants multiverse --count 30
+    python -m tests.mutants campaign --count 30
 """
 
 import argparse

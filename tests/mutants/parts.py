@@ -16,28 +16,19 @@ class Part(NamedTuple):
     tests: tuple[str, ...]
 
 
-EXPERIMENTS = "tests/replication/training", "tests/replication/test_search.py", "tests/test_experiment.py"
-EVIDENCE = tuple(
-    f"tests/replication/judgement/test_{name}.py"
-    for name in (
-        *("words", "tables", "criteria", "evidence", "claims", "report_texts", "article"),
-        *("across", "deviations", "factor", "findings", "outcome"),
-        *("reference", "verdicts", "kept"),
-    )
-)
-OF_STATISTICS = (
-    *(f"tests/replication/judgement/test_{name}.py" for name in ("statistics", "speedup", "kept")),
-    "tests/replication/test_hierarchy.py",
-)
+EXPERIMENTS = "tests/replication/training", "tests/test_experiment.py"
 PARTS = {
     "experiments": Part(("replication/training", "recalib/loop/training.py"), EXPERIMENTS),
-    "multiverse": Part(("replication/campaign",), ("tests/replication/campaign", *EXPERIMENTS[:2])),
+    "campaign": Part(("replication/campaign",), ("tests/replication/campaign", EXPERIMENTS[0])),
+    "scenarios": Part(("replication/scenarios",), ("tests/replication/scenarios",)),
     "mapping": Part(("replication/mapping",), ("tests/replication/mapping",)),
-    "evidence": Part(("replication/judgement",), (*EVIDENCE, *OF_STATISTICS[1:2])),
-    "statistics": Part(("replication/judgement",), OF_STATISTICS),
+    "judgement": Part(
+        ("replication/judgement",),
+        ("tests/replication/judgement", "tests/replication/campaign/test_table_to_verdict.py"),
+    ),
     "learners": Part(
         ("recalib/learners",),
-        ("tests/learners", "tests/test_learned.py", *EXPERIMENTS[2:]),
+        ("tests/learners", "tests/test_learned.py", EXPERIMENTS[1]),
     ),
     "identification": Part(
         ("recalib/identification", "recalib/numerics"),
@@ -56,25 +47,19 @@ PARTS = {
             "tests/laboratory/test_mistakes_on_the_command_line.py",
         ),
     ),
-    "damaged": Part(("recalib/damaged",), ("tests/damaged", *EXPERIMENTS[2:])),
+    "damaged": Part(("recalib/damaged",), ("tests/damaged", EXPERIMENTS[1])),
     "configuration": Part(
-        (
-            *(f"replication/config/{name}.py" for name in ("units", "values")),
-            *(f"replication/config/{name}.py" for name in ("damages", "universes")),
-            "replication/scenarios",
-            "replication/training/trainings.py",
-        ),
-        ("tests/replication/config", "tests/replication/test_assignments.py", *EXPERIMENTS[:1]),
+        tuple(f"replication/config/{name}.py" for name in ("units", "values", "damages")),
+        ("tests/replication/config",),
     ),
 }
 TOO_LONG = (  # tests that take minutes: no mutant meets them
     "tests/replication/training/test_poses.py::"
     "test_no_test_pose_of_any_job_was_learned_from_or_searched_with",
-    "tests/replication/training/test_planted.py::test_without_an_error_the_check_is_green",
-    "tests/replication/test_hierarchy.py::test_intervals_hold_the_truth_as_often_as_they_say",
+    "tests/replication/campaign/test_planted.py::test_what_was_planted_is_found",
 )
 LEFT_OUT = {
-    "replication/plots": "Figures are inspected by eye; their numbers come from `evidence`.",
+    "replication/plots": "Figures are inspected by eye; their numbers come from `judgement`.",
     "replication/config": "The rest reads files; lists of mistakes test its messages.",
     "replication": "The rest names files and makes objects from descriptions.",
     "recalib": "The rest reads and writes files, and finds names.",
