@@ -37,6 +37,7 @@ from replication.campaign.setups import OUTCOMES
 from replication.config.study import Study
 from replication.plots.palette import STYLES
 from replication.plots.style import STYLE, logarithmic, save, title
+from replication.running.studies import study_of
 from replication.scenarios.resolving import resolve
 from replication.training.competitors import label_of, make_peer
 from replication.training.poses import Stream

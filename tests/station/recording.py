@@ -13,7 +13,7 @@ from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
 from recalib.station.physics import PhysicsStation
 from replication.recording.recorded import published_errors
-from replication.recording.writing import watch_learners, write_recording
+from replication.recording.writing import watch_all, write_recording
 from replication.scenarios.plants import Resolved
 from replication.scenarios.resolving import resolve
 from tests.station.paper_live import CONDITIONS, KEPT, study, tuned
@@ -40,7 +40,7 @@ def arm() -> InPhysics:
 def main() -> None:
     """Train the study's recorded learners on it, and write what one would have seen."""
     KEPT.mkdir(parents=True, exist_ok=True)
-    watched = watch_learners(study(), arm(), tuned(), SEED)
+    watched = watch_all(study(), arm(), tuned(), SEED)
     published = published_errors(study(), study().scenario)
     write_recording(KEPT / "live_paper.rrd", arm(), watched, published)
 
