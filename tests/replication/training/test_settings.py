@@ -78,8 +78,13 @@ def test_without_settings_one_is_told_how_to_get_them(study, settings):
 
 def test_every_training_of_a_study_needs_settings(study):
     needed = trained(study)
-    assert {("improved", 200), ("improved", 50), ("ritter_double", 40_000)} <= needed
-    assert ("ritter", study.real.twin["ritter"]) in needed
+    its = study.experiments
+    for learners in (its.learners, its.own):
+        assert {
+            (name, length) for name, lengths in learners.items() for length in lengths
+        } <= needed
+    assert {*study.real.twin.items(), *study.benchmark.papers.items()} <= needed
+    assert {(name, its.iterations) for name in its.ensemble} <= needed
     assert {(switch.without, 200) for switch in SWITCHES} <= needed
 
 
