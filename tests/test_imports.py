@@ -1,4 +1,4 @@
-"""Imports point one way (`[tool.importlinter]` in pyproject.toml), and those that wait are light."""
+"""Imports point one way (`[tool.importlinter]` in pyproject.toml); those that wait are light."""
 
 import tomllib
 

@@ -122,7 +122,7 @@ class Replicate:
         )
         if variant.rough:
             return tuning.rough(self._study.campaign.rough)
-        score = worse
+        score: Score = worse
         if variant.target != "both":
             held = others[variant.held][iterations] if variant.held else None
             score = of_one(variant.target, held)

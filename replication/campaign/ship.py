@@ -1,6 +1,7 @@
-"""Puts measured replicates into the campaign's one table: `python -m replication.campaign.ship FOLDER`.
+"""Puts measured replicates into the campaign's one table.
 
-What was measured again takes the place of what was there.
+`python -m replication.campaign.ship FOLDER` takes those of a folder. What was measured again takes
+the place of what was there.
 """
 
 import sys

@@ -9,9 +9,9 @@ from pydantic import ValidationError
 from replication.config.messages import InvalidConfiguration, Mistake
 from replication.config.refusals import refusals
 from replication.config.study import Study
-from replication.config.values import Placed, from_file, from_mapping, shown
+from replication.config.values import Place, Placed, from_file, from_mapping, shown
 
-Source = str | PathLike | Mapping | Placed
+Source = str | PathLike[str] | Mapping[str, object] | Placed
 Check = Callable[[Study], Iterable[Mistake]]
 
 
@@ -58,7 +58,7 @@ def _at_its_place(
     Args:
         own: the sources that somebody wrote who is told of it.
     """
-    lines: dict[tuple, Mistake] = {}
+    lines: dict[tuple[Place, str], Mistake] = {}
     for mistake in mistakes:
         places = [whole.at(path).place for path in (mistake.path, *mistake.also)]
         place = next((place for place in places if place[0] in own), own[-1:])

@@ -4,11 +4,11 @@
 """
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-from pydantic.json_schema import GenerateJsonSchema
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 
 from recalib.files.storage import whole
 from replication.config.messages import KeyPath
@@ -20,12 +20,12 @@ FILE = Path("workflow/schemas/config.schema.json")
 class _WithoutTitles(GenerateJsonSchema):
     """Titles would repeat the keys."""
 
-    def field_title_should_be_set(self, schema) -> bool:
+    def field_title_should_be_set(self, schema: object) -> bool:
         return False
 
 
 @cache  # making it takes longer than reading a study
-def json_schema() -> dict:
+def json_schema() -> JsonSchemaValue:
     """The schema of a configuration."""
     return Study.model_json_schema(schema_generator=_WithoutTitles)
 
@@ -35,9 +35,9 @@ def text() -> str:
     return json.dumps(json_schema(), indent=1) + "\n"
 
 
-def find(location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
+def find(location: Sequence[str | int]) -> tuple[KeyPath, JsonSchemaValue]:
     """The path and the schema of a place in pydantic's errors, which name choices, too."""
-    schema: Mapping = json_schema()
+    schema = json_schema()
     path: KeyPath = ()
     for part in location:
         schema = resolved(schema)
@@ -48,7 +48,7 @@ def find(location: Sequence[str | int]) -> tuple[KeyPath, Mapping]:
     return path, schema
 
 
-def _at(schema: Mapping, part: str | int) -> Mapping:
+def _at(schema: JsonSchemaValue, part: str | int) -> JsonSchemaValue:
     """The schema of a key or an index; {} where there is none."""
     if isinstance(part, int):
         fixed = schema.get("prefixItems")
@@ -58,7 +58,7 @@ def _at(schema: Mapping, part: str | int) -> Mapping:
     return schema.get("properties", {}).get(part, whatever)
 
 
-def resolved(schema: Mapping) -> Mapping:
+def resolved(schema: JsonSchemaValue) -> JsonSchemaValue:
     """The schema itself in the place of a reference to it, or of it or null."""
     for choice in schema.get("anyOf", ()):
         if choice.get("type") != "null":
@@ -67,12 +67,12 @@ def resolved(schema: Mapping) -> Mapping:
     return json_schema()["$defs"][reference.rsplit("/")[-1]] if reference else schema
 
 
-def keys(schema: Mapping) -> list[str]:
+def keys(schema: JsonSchemaValue) -> list[str]:
     """The keys of a mapping."""
     return list(resolved(schema).get("properties", {}))
 
 
-def meaning(schema: Mapping) -> str:
+def meaning(schema: JsonSchemaValue) -> str:
     """What a key is, within a sentence; of a value in a list, that it is one."""
     text = schema.get("description") or resolved(schema).get("description", "A value.")
     return f"{text[0].lower()}{text[1:-1]}"

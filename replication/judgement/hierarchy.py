@@ -95,9 +95,10 @@ def _student(values: np.ndarray) -> tuple[Estimate, Estimate]:
     """The mean of values (n,), and one more value; both with Student's intervals."""
     count, mean = len(values), values.mean()
     reach = stdtrit(count - 1, TAILS[1]) * values.std(ddof=1)
-    return tuple(
-        Estimate(float(mean), float(mean - its), float(mean + its))
-        for its in (reach / np.sqrt(count), reach * np.sqrt(1 + 1 / count))
+    mean_reach, another_reach = reach / np.sqrt(count), reach * np.sqrt(1 + 1 / count)
+    return (
+        Estimate(float(mean), float(mean - mean_reach), float(mean + mean_reach)),
+        Estimate(float(mean), float(mean - another_reach), float(mean + another_reach)),
     )
 
 

@@ -49,7 +49,10 @@ def check_shipped(study: Study, lock: Mapping[str, str]) -> None:
 
 
 def study_of(
-    project: Path, files: Sequence[Path] = (), changes: Mapping = {}, asking: bool = True
+    project: Path,
+    files: Sequence[Path] = (),
+    changes: Mapping[str, object] = {},
+    asking: bool = True,
 ) -> Study:
     """The study of a call of Snakemake.
 

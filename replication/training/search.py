@@ -140,7 +140,7 @@ class Tuning:
             for number, its in enumerate(self.trials)
         ]
         trials = self.plan.trials if starts is None else self.plan.near_trials
-        for times in 2 ** np.arange(self.plan.doublings + 1):
+        for times in (2**doubling for doubling in range(self.plan.doublings + 1)):
             for its in searches:
                 its.begin(trials * times, times)
             rows = np.stack([its.best for its in searches])

@@ -13,7 +13,7 @@ import numpy as np
 
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
-from replication.config.study import Ranges
+from replication.config.campaign import Ranges
 
 DIGITS = 4  # of the numbers tried, so that the tables that keep them are exact
 NETS = "g_k", "g_kl"
@@ -54,7 +54,8 @@ class Space:
 
     def rows(self, points: np.ndarray) -> np.ndarray:
         """The rows (n, column) of points (n, coordinate)."""
-        share, logs = dict(zip(self.coordinates, points.T, strict=True)), {}
+        share = dict(zip(self.coordinates, points.T, strict=True))
+        logs = dict[str, np.ndarray]()
         for column in self._in_order():
             low, high = self._bounds(column, logs)
             logs[column] = low + share[column] * (high - low)
@@ -65,7 +66,8 @@ class Space:
 
     def point(self, row: np.ndarray) -> np.ndarray:
         """The point (coordinate,) of a row (column,), or the nearest one."""
-        given, logs, found = dict(zip(self.columns, np.log(row), strict=True)), {}, {}
+        given = dict(zip(self.columns, np.log(row), strict=True))
+        logs, found = dict[str, np.ndarray](), dict[str, np.ndarray]()
         for column in self._in_order():
             low, high = self._bounds(column, logs)
             found[column] = np.clip((given[column] - low) / (high - low), 0, 1)
@@ -87,7 +89,7 @@ class Space:
         """The columns that are sought, each after that which bounds it."""
         return sorted(self.coordinates, key=lambda column: column in self.narrower)
 
-    def _bounds(self, column: str, logs: Mapping[str, np.ndarray]) -> tuple:
+    def _bounds(self, column: str, logs: Mapping[str, np.ndarray]) -> tuple[float, np.ndarray]:
         """Logarithms of the least and the largest value of a column, by those before it."""
         of_rate = column in (FIRST_RATE, LAST_RATE)
         low, high = np.log(self.ranges.rates if of_rate else self.ranges.widths)

@@ -19,6 +19,7 @@ from tests.project import Project, ended, expect, kill
 RESULTS = Path("results/studies/faults")
 CHAIN = 6  # times that everything is killed before a run may end
 
+
 @pytest.fixture(scope="session")
 def yard():
     # what is begun in the background ignores Ctrl-C, and so would all runs

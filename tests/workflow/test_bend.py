@@ -78,7 +78,8 @@ def test_a_study_without_a_file_is_refused(project):
 def test_a_file_that_snakemake_cannot_read_is_named(text, said, project, monkeypatch):
     monkeypatch.chdir(project)
     Path("my_leg.yaml").write_text(text, encoding="utf-8")
-    assert "-m replication.running.readable my_leg.yaml\n" in make(project, "study", "STUDY=my_leg").stdout
+    said_by_make = make(project, "study", "STUDY=my_leg").stdout
+    assert "-m replication.running.readable my_leg.yaml\n" in said_by_make
     with pytest.raises(SystemExit, match=rf"^my_leg\.yaml:{re.escape(said)}"):
         readable.main("my_leg.yaml")
     readable.main("my_arm.yaml")

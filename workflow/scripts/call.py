@@ -13,21 +13,24 @@ import time
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from pydantic import ConfigDict, validate_call
+from snakemake.script import Snakemake
 
 from recalib.errors import RecalibError
 from replication.config.study import Study
 from replication.running.outputs import write
 
 
-def function_of(name: str) -> Callable:
+def function_of(name: str) -> Callable[..., Any]:
     """The function of a dotted name."""
     module, _, last = name.rpartition(".")
-    return getattr(import_module(module), last)
+    function: Callable[..., Any] = getattr(import_module(module), last)
+    return function
 
 
-def main(job) -> None:
+def main(job: Snakemake) -> None:
     """Do the job of a rule. A mistake of the user's or of the system is told in one line."""
     function = function_of(job.params.function)
     asked = inspect.signature(function).parameters
@@ -40,7 +43,7 @@ def main(job) -> None:
     paths = [path for name, path in outputs.items() if name not in asked]
     start = time.perf_counter()
     try:
-        returned = validate_call(function, config=ConfigDict(arbitrary_types_allowed=True))(**given)
+        returned = validate_call(config=ConfigDict(arbitrary_types_allowed=True))(function)(**given)
         values = [returned] if len(paths) == 1 else returned or ()
         for path, value in zip(paths, values, strict=True):
             write(Path(path), value, job.params.get("digits"))
@@ -59,6 +62,7 @@ def into(log: Path) -> int:
     return terminal
 
 
+snakemake: Snakemake  # Snakemake defines it where this is its script
 if "snakemake" in globals():
     terminal = into(Path(snakemake.log[0]))
     main(snakemake)

@@ -7,7 +7,7 @@ from replication.judgement.claims.claim import Measured, OfSetups, Statement, lo
 from replication.judgement.contrasts import Contrast, Remaining
 from replication.judgement.evidence import Evidence
 from replication.judgement.findings import Finding, Number, number
-from replication.judgement.hierarchy import student
+from replication.judgement.hierarchy import Estimate, student
 from replication.judgement.verdicts import RATIO, Comparison, Verdict
 from replication.training.measured import ERRORS
 
@@ -56,7 +56,7 @@ def grid(statement: Statement, evidence: Evidence) -> Finding:
     table = evidence.mapping("quantisation")
     distances = np.log(table.pivot(index="seed", columns="placement", values="distance"))
 
-    def over(placement: str):
+    def over(placement: str) -> Estimate:
         return student((distances["boxes"] - distances[placement]).to_numpy())
 
     kohonen, least = over("kohonen_10000"), over("kmeans")
