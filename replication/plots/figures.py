@@ -5,6 +5,8 @@ from enum import Enum
 from replication.config.shipped import SHIPPED
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
+from replication.judgement.claims.claim import FEWEST
+from replication.judgement.evidence import Evidence, NotMeasured
 
 
 class Figure(Enum):
@@ -128,11 +130,22 @@ def scaled(study: Study) -> str | None:
 
 def figures_of(study: Study) -> list[str]:
     """The files, without suffix, of the figures for which a default run of a study has results."""
-    evidence, shipped = study.experiments.evidence, study.name == SHIPPED
+    evidence, campaign = study.experiments.evidence, _has_campaign(study)
     lacking = {
-        Figure.STEPS: not (evidence and shipped),
-        Figure.CONTRASTS: not (evidence and shipped),
+        Figure.STEPS: not campaign,
+        Figure.CONTRASTS: not campaign,
         Figure.MAPPING: not evidence,
         Figure.AMOUNTS: not (evidence and scaled(study)),
     }
     return [its.file for its in Figure if its not in APART and not lacking.get(its)]
+
+
+def _has_campaign(study: Study) -> bool:
+    """Whether enough of the campaign is measured for a mean over setups."""
+    if study.name != SHIPPED or not study.experiments.evidence:
+        return False
+    try:
+        measured = Evidence(study).outcomes().groupby("setup")["replicate"].nunique()
+    except NotMeasured:
+        return False
+    return len(measured) >= FEWEST and bool(measured.max() > 1)

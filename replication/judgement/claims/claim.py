@@ -103,12 +103,20 @@ class OfSetups:
     def values(self, evidence: Evidence) -> Values:
         """The number in each setup. Raises NotMeasured, as `judge`."""
         values = self.estimand.values(evidence.outcomes())
-        if len(values.table) < FEWEST:
-            raise NotMeasured(f"campaign: {self.statement.id} in {FEWEST} setups")
+        if not enough(values):
+            raise NotMeasured(
+                f"campaign: {self.statement.id} in {FEWEST} setups, one of them twice"
+            )
         return values
 
 
-FEWEST = 3  # setups: fewer have no mean and heterogeneity
+FEWEST = 3  # setups
+
+
+def enough(values: Values) -> bool:
+    """Whether luck and heterogeneity can be told: in three setups, of which one was repeated."""
+    counts = np.isfinite(values.table).sum(axis=1)
+    return len(counts) >= FEWEST and bool(counts.max() > 1)
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ import numpy as np
 from replication.campaign.variants import DOUBLE
 from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims.claim import (
-    FEWEST,
     Measured,
     OfSetups,
     Statement,
+    enough,
     log,
     of_all,
 )
@@ -89,7 +89,7 @@ def speed_up(iterations: int) -> Callable[[Statement, Evidence], Finding]:
         numbers, models = [], []
         for (name, system), crossing in ways.items():
             values = crossing.values(evidence.outcomes())
-            if len(values.table) < FEWEST:
+            if not enough(values):
                 raise NotMeasured(f"campaign: {name}")
             its = values.model()
             models.append((its, values))
