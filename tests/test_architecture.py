@@ -60,7 +60,6 @@ NEEDED = {
     "numba": "numba",
     "numpy": "numpy",
     "pin": "pinocchio",
-    "scikit-learn": "sklearn",
     "scipy": "scipy",
 }
 # Each takes a tenth of a second or more to import: who waits for it needs it.

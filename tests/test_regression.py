@@ -6,9 +6,9 @@ from scipy.stats import norm
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, DotProduct, WhiteKernel
 
-from recalib.numerics.covariance import Covariance
-from recalib.numerics.regression import Process, is_time_to_search
+from recalib.numerics.regression import LENGTHS, NOISE, VARIANCES, Process, is_time_to_search
 
+BOUNDS = np.log([VARIANCES, VARIANCES, *[LENGTHS] * 3, NOISE])
 EPS = np.finfo(float).eps
 GENERATOR = np.random.default_rng(1)
 INPUTS = GENERATOR.uniform(-1, 1, (60, 3))
@@ -71,21 +71,13 @@ def test_few_points_constant_inputs_and_exact_data_warn_of_nothing(count):
     assert np.all(np.isfinite(predicted))
 
 
-def test_the_covariance_is_that_of_the_kernels_it_is_made_of():
-    theta = np.log([0.5, 2.0, 0.7, 1.5, 4.0, 0.01])
-    parts = (
-        ConstantKernel(0.5) * DotProduct(1, "fixed")
-        + ConstantKernel(2.0) * RBF([0.7, 1.5, 4.0])
-        + WhiteKernel(0.01)
-    )
-    assert np.allclose(parts.theta, theta)
-    ours = Covariance(theta)
-    for own, theirs in zip(
-        ours(INPUTS, eval_gradient=True), parts(INPUTS, eval_gradient=True), strict=True
-    ):
-        assert np.allclose(own, theirs, atol=1e-12)
-    assert np.allclose(ours(INPUTS[:5], INPUTS), parts(INPUTS[:5], INPUTS), atol=1e-12)
-    assert np.allclose(ours.diag(INPUTS), parts.diag(INPUTS), atol=1e-12)
+@pytest.mark.parametrize("noise", [1e-3, 0.1])
+def test_no_hyperparameters_nearby_are_more_likely_than_those_that_are_found(noise):
+    outputs = SMOOTH + np.random.default_rng(2).normal(scale=noise, size=SMOOTH.shape)
+    found = Process(INPUTS, outputs)
+    for step in (*np.eye(6), *-np.eye(6)):
+        nearby = np.clip(found.hyperparameters + 0.2 * step, *BOUNDS.T)
+        assert Process(INPUTS, outputs, nearby).gain <= found.gain + EPS * abs(found.gain)
 
 
 def test_an_output_that_deviates_by_rounding_alone_is_constant():

@@ -1,16 +1,13 @@
-"""Gaussian process regression, by scikit-learn, for several outputs with one covariance.
+"""Gaussian process regression, for several outputs with one covariance.
 
 The covariance is that of a linear trend, a smooth function with a length along each input, and
 white noise. The outputs are scaled to a deviation of one. The hyperparameters are the logarithms of
 the trend's variance, of the smooth function's, of its lengths and of the noise's variance.
 """
 
-from typing import TYPE_CHECKING
-
 import numpy as np
-
-if TYPE_CHECKING:
-    from sklearn.gaussian_process import GaussianProcessRegressor
+import scipy.linalg
+from scipy.spatial.distance import cdist
 
 VARIANCES, LENGTHS, NOISE = (1e-4, 1e6), (0.3, 1e2), (1e-9, 1e1)  # their bounds
 FIRST_LENGTH = 5.0
@@ -21,6 +18,7 @@ FEWEST = 6  # points to judge hyperparameters by
 MOST = 128
 STEPS = 50  # of a search
 ROUNDING = 10 * np.finfo(float).eps  # an output that deviates by less is constant: not to be scaled
+JITTER = 1e-10  # on the diagonal: exact data leave a matrix that is singular but for rounding
 
 
 def is_time_to_search(before: int, points: int) -> bool:
@@ -60,17 +58,16 @@ class Process:
                 else _start(inputs.shape[1])
             )
         self.hyperparameters = hyperparameters
-        self._regressor = _regressor(inputs, outputs, hyperparameters)
+        self._centred = inputs
+        likelihood, self._weights, *_ = _likelihood(hyperparameters, inputs, outputs)
         white = -outputs.size / 2 * (np.log(2 * np.pi) + 1)
         chance = len(hyperparameters) / 2 * np.log(outputs.size)
-        self.gain = self._regressor.log_marginal_likelihood_value_ - white - chance
+        self.gain = likelihood - white - chance
 
     def predict(self, inputs: np.ndarray) -> np.ndarray:
         """Expected outputs (m, k) at inputs (m, d)."""
-        # The regressor's own `predict` checks and copies for longer than it computes.
-        regressor = self._regressor
-        expected = regressor.kernel_(inputs - self._centre, regressor.X_train_) @ regressor.alpha_
-        return self._mean + expected * self._scale
+        linear, bell = _covariances(self.hyperparameters, inputs - self._centre, self._centred)
+        return self._mean + (linear + bell) @ self._weights * self._scale
 
     def state(self) -> dict[str, np.ndarray]:
         """The arguments that make it again, as named arrays."""
@@ -85,17 +82,54 @@ def _start(dimensions: int, noise: float = FIRST_NOISES[0]) -> np.ndarray:
     return np.log([1.0, 1.0, *[FIRST_LENGTH] * dimensions, noise])
 
 
-def _regressor(
-    inputs: np.ndarray, outputs: np.ndarray, hyperparameters: np.ndarray
-) -> "GaussianProcessRegressor":
-    # Most of a second to import, with pandas: who does not regress need not wait for it.
-    from sklearn.gaussian_process import GaussianProcessRegressor
+def _covariances(
+    hyperparameters: np.ndarray, inputs: np.ndarray, others: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Between points (n, d) and others (m, d): of the trend and of the smooth function (n, m)."""
+    sizes = np.exp(hyperparameters)
+    trend, smooth, lengths = sizes[0], sizes[1], sizes[2:-1]
+    squares = cdist(inputs / lengths, others / lengths, "sqeuclidean")
+    return trend * (1 + inputs @ others.T), smooth * np.exp(-squares / 2)
 
-    from recalib.numerics.covariance import Covariance
 
-    return GaussianProcessRegressor(Covariance(hyperparameters), optimizer=None).fit(
-        inputs, outputs
-    )
+def _likelihood(
+    hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
+) -> tuple[float, np.ndarray, tuple[np.ndarray, bool], np.ndarray, np.ndarray]:
+    """The logarithm of the marginal likelihood, and what it is made of.
+
+    Returns also the weights (n, k) of the points, the Cholesky factor of their covariance, and the
+    latter's parts by the trend and by the smooth function.
+
+    Raises LinAlgError where the covariance is singular.
+    """
+    linear, bell = _covariances(hyperparameters, inputs, inputs)
+    noise = (np.exp(hyperparameters[-1]) + JITTER) * np.eye(len(inputs))
+    factor = scipy.linalg.cho_factor(linear + bell + noise, lower=True, check_finite=False)
+    weights = scipy.linalg.cho_solve(factor, outputs, check_finite=False)
+    volume = outputs.shape[1] * np.log(np.diag(factor[0])).sum()
+    squares = np.sum(outputs * weights) + outputs.size * np.log(2 * np.pi)
+    return -squares / 2 - volume, weights, factor, linear, bell
+
+
+def _loss(
+    hyperparameters: np.ndarray, inputs: np.ndarray, outputs: np.ndarray
+) -> tuple[float, np.ndarray]:
+    """The negative logarithm of the marginal likelihood, and its gradient (d + 3,).
+
+    The latter is that of tr((k K^-1 - W W') K) / 2 with W the weights, whatever K depends on.
+    """
+    try:
+        value, weights, factor, *parts = _likelihood(hyperparameters, inputs, outputs)
+    except np.linalg.LinAlgError:  # no covariance but for rounding
+        return np.inf, np.zeros_like(hyperparameters)
+    inverse = scipy.linalg.cho_solve(factor, np.eye(len(inputs)), check_finite=False)
+    by_covariance = outputs.shape[1] * inverse - weights @ weights.T
+    trend, smooth = (by_covariance * part for part in parts)
+    sizes = np.exp(hyperparameters)
+    places = inputs / sizes[2:-1]
+    by_length = smooth.sum(axis=0) @ places**2 - np.sum(places * (smooth @ places), axis=0)
+    by_noise = sizes[-1] * np.trace(by_covariance) / 2
+    return -value, np.array([trend.sum() / 2, smooth.sum() / 2, *by_length, by_noise])
 
 
 def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
@@ -103,21 +137,11 @@ def _search(inputs: np.ndarray, outputs: np.ndarray) -> np.ndarray:
 
     A bound that is reached (an input that does not matter, no noise) is an answer, not a failure.
     """
-    from scipy.optimize import minimize  # comes with scikit-learn, and as late
+    from scipy.optimize import minimize  # a process with hyperparameters need not wait for it
 
     dimensions = inputs.shape[1]
-    starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
-    regressor = _regressor(inputs, outputs, starts[0])
-
-    def loss(hyperparameters: np.ndarray) -> tuple[float, np.ndarray]:
-        value, slope = regressor.log_marginal_likelihood(
-            hyperparameters, eval_gradient=True, clone_kernel=False
-        )
-        return -value, -slope
-
     bounds = np.log([VARIANCES, VARIANCES, *[LENGTHS] * dimensions, NOISE])
-    found = [
-        minimize(loss, start, jac=True, bounds=bounds, options={"maxiter": STEPS})
-        for start in starts
-    ]
+    starts = [_start(dimensions, noise) for noise in FIRST_NOISES]
+    settings = {"jac": True, "bounds": bounds, "options": {"maxiter": STEPS}}
+    found = [minimize(_loss, start, (inputs, outputs), **settings) for start in starts]
     return min(found, key=lambda result: result.fun).x

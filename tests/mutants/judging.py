@@ -26,7 +26,6 @@ BEFORE = [
     "scipy.spatial.transform",
     "pinocchio",
     "numba",
-    "sklearn.gaussian_process",
     "hypothesis.extra.numpy",
     "pandas",
     "pyarrow.parquet",
