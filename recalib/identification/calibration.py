@@ -1,4 +1,4 @@
-"""A calibrated arm: its forward kinematics, and the joint angles that reach a desired pose."""
+"""A calibrated arm: its forward kinematics, and how it is identified."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,12 +15,9 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.parameters import Parameter, parameters_of, table_of
 from recalib.loop.interfaces import State
 from recalib.nominal.kinematics import Arm
-from recalib.nominal.newton import solve_groups
 from recalib.numerics.randomness import generator
 from recalib.numerics.regression import Process, is_time_to_search
 
-STEPS = 10
-TOLERANCE = 1e-9  # m, rad
 FEWEST = 16  # measurements to see a pattern in residuals
 MOST = 2000  # to learn a pattern from: memory grows with their square, time with their cube
 # A gain in log evidence, over the root of the number of further parameters, that is no chance: idle
@@ -200,29 +197,6 @@ def turned(turns: np.ndarray, residuals: np.ndarray) -> np.ndarray:
     )
 
 
-def angles_for(
-    calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
-) -> np.ndarray:
-    """Joint coordinates (run, n, joints) [rad, m] to send for the arm to reach poses.
-
-    By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
-    the best angles that were met.
-
-    Args:
-        calibrations: one for each run.
-        poses: (run, n, 4, 4) of the tool in the base frame [m].
-        start: (run, n, joints) rad, m nearby.
-    """
-
-    def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        pairs = zip(runs, angles, strict=True)
-        found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
-        poses, jacobians = map(np.stack, zip(*found, strict=True))
-        return poses, jacobians
-
-    return solve_groups(kinematics, poses, start, TOLERANCE, STEPS)[0]
-
-
 def calibrate(
     arm: Arm,
     candidates: Sequence[JointTerms],
@@ -250,30 +224,10 @@ def calibrate(
     start, before = (last.estimate, len(last.estimate.weights)) if last else (None, 0)
     best = most_probable(arm, candidates, observations, frames, start, weights)
     if is_time_to_search(before, len(observations)):
-        return _with_pattern(best, observations, None)
+        return with_pattern(best, observations)
     if last is None or last.pattern is None:
         return best
-    return _with_pattern(best, observations, last.pattern.hyperparameters)
-
-
-def calibrate_again(
-    whole: Calibration,
-    candidates: Sequence[JointTerms],
-    observations: Observations,
-    weights: np.ndarray | None = None,
-) -> Calibration:
-    """A calibration as another, from other observations; both choices are made anew.
-
-    They are those of `calibrate`, but for the hyperparameters of the process, which are kept: they
-    take long to find. Where the other has none, neither has this one.
-
-    Raises BadMeasurement, as `calibrate`.
-    """
-    model = whole.model
-    found = most_probable(model.nominal, candidates, observations, model.frames, None, weights)
-    if whole.pattern is None:
-        return found
-    return _with_pattern(found, observations, whole.pattern.hyperparameters)
+    return with_pattern(best, observations, last.pattern.hyperparameters)
 
 
 def most_probable(
@@ -285,24 +239,42 @@ def most_probable(
     weights: np.ndarray | None = None,
 ) -> Calibration:
     """The calibration of the error model that is chosen, without a process; see `calibrate`."""
+    every = calibrations(arm, candidates, observations, frames, start, weights)
+    return every[choose(every)]
 
-    def identified(terms: JointTerms) -> Calibration:
-        model = ErrorModel(arm, terms, frames)
-        return Calibration(model, identify(model, observations, start, weights))
 
-    best = identified(candidates[0])
-    for terms in candidates[1:]:
-        richer = identified(terms)
-        gain = richer.estimate.log_evidence - best.estimate.log_evidence
-        if gain > CONVINCING * np.sqrt(richer.model.size - best.model.size):
-            best = richer
+def calibrations(
+    arm: Arm,
+    candidates: Sequence[JointTerms],
+    observations: Observations,
+    frames: Frames | None = None,
+    start: Identification | None = None,
+    weights: np.ndarray | None = None,
+) -> list[Calibration]:
+    """Those of all error models, without a process; see `calibrate`."""
+    models = [ErrorModel(arm, terms, frames) for terms in candidates]
+    return [Calibration(its, identify(its, observations, start, weights)) for its in models]
+
+
+def choose(candidates: Sequence[Calibration]) -> int:
+    """Which calibration from the same observations is the most probable, the simplest first."""
+    best = 0
+    for number, other in enumerate(candidates):
+        further = other.model.size - candidates[best].model.size
+        gain = other.estimate.log_evidence - candidates[best].estimate.log_evidence
+        if gain > CONVINCING * np.sqrt(further):
+            best = number
     return best
 
 
-def _with_pattern(
-    calibration: Calibration, observations: Observations, hyperparameters: np.ndarray | None
+def with_pattern(
+    calibration: Calibration, observations: Observations, hyperparameters: np.ndarray | None = None
 ) -> Calibration:
-    """With a process of its residuals, if there are enough of them and they are no noise."""
+    """With a process of its residuals, if there are enough of them and they are no noise.
+
+    Args:
+        hyperparameters: of the process, which take long to find; the most probable unless given.
+    """
     estimate = calibration.estimate
     noise, good = estimate.noise, np.flatnonzero(estimate.weights > DOUBTFUL)
     if len(good) < FEWEST or np.all(noise <= LEAST_NOISE):

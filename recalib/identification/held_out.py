@@ -5,7 +5,7 @@ tests extrapolation. A posture is held out as a whole, with all its targets and 
 its rows would reveal the others.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,8 +20,8 @@ from recalib.numerics.randomness import generator
 FOLDS = 5
 COVERED = 0.95  # of what is measured should lie within the intervals
 
-# From observations and how much each counts (n,) in the first step to a calibration.
-Fit = Callable[[Observations, np.ndarray], Calibration]
+# From the rows that are held out (n,) to calibrations by all others, by what is done.
+Fit = Callable[[np.ndarray], Mapping[str, Calibration]]
 
 
 @dataclass(frozen=True)
@@ -118,13 +118,12 @@ def _divided(
     return parts[postures.numbers]
 
 
-def hold_out(
-    fit: Fit, observations: Observations, weights: np.ndarray, folds: np.ndarray
-) -> HeldOut:
-    """Identify without each fold in turn, and predict it."""
-    residuals = np.empty((len(observations), 3 * observations.kinds))
+def hold_out(fit: Fit, observations: Observations, folds: np.ndarray) -> dict[str, HeldOut]:
+    """Calibrate without each fold in turn, and predict it; by what is done."""
+    residuals: dict[str, np.ndarray] = {}
     for fold in np.unique(folds):
         held = folds == fold
-        calibration = fit(observations[~held], weights[~held])
-        residuals[held] = calibration.residuals(observations[held])
-    return HeldOut(residuals, folds)
+        for kind, calibration in fit(held).items():
+            every = residuals.setdefault(kind, np.empty((len(held), 3 * observations.kinds)))
+            every[held] = calibration.residuals(observations[held])
+    return {kind: HeldOut(every, folds) for kind, every in residuals.items()}

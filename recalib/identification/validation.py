@@ -3,17 +3,21 @@
 The residuals of the fit are no measure: a Gaussian process interpolates.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, calibrate, calibrate_again
+from recalib.identification.calibration import (
+    Calibration,
+    calibrations,
+    choose,
+    with_pattern,
+)
 from recalib.identification.checks.diagnostics import check_estimate, check_links, check_postures
 from recalib.identification.checks.postures import Postures, find_postures
 from recalib.identification.consensus import identify_by_consensus
-from recalib.identification.estimation import LEAST_NOISE, identify
+from recalib.identification.estimation import LEAST_NOISE, Identification
 from recalib.identification.held_out import HeldOut, blocks, hold_out, random_folds
 from recalib.identification.model.error_model import (
     JOINT_ERRORS,
@@ -21,6 +25,7 @@ from recalib.identification.model.error_model import (
     NO_ERRORS,
     OFFSETS,
     ErrorModel,
+    JointTerms,
     held,
 )
 from recalib.identification.model.frames import Frames
@@ -31,12 +36,7 @@ NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the sim
 # Of errors away from what was measured, and among it. The first is what a calibration is worth.
 BLOCKWISE, RANDOM = WAYS = "in blocks", "at random"
 OUTLYING = 0.1  # the weight of a row below which it is grossly off: ten standard deviations
-# The joint terms that each may have, the fewest first.
-CANDIDATES = {
-    NOTHING: (NO_ERRORS,),
-    GEOMETRIC: (OFFSETS,),
-    HYBRID: (OFFSETS, JOINT_ERRORS, JOINT_WAVES),
-}
+CANDIDATES = OFFSETS, JOINT_ERRORS, JOINT_WAVES  # the joint terms that there may be
 SURE = 2.0  # standard errors by which something richer has to be better, to be used
 
 
@@ -114,32 +114,42 @@ def validate(
     check_estimate(geometry, observations, counted)
     check_links(geometry)
     postures = check_postures(find_postures(observations.joints, arm.slides, estimate.noise[0]))
-    candidates = {
-        kind: [held(terms, postures.still) for terms in options]
-        for kind, options in CANDIDATES.items()
-    }
-    weights = counted.astype(float)
-    full = {}
-    for kind in (NOTHING, GEOMETRIC):
-        (terms,) = candidates[kind]
-        model = ErrorModel(arm, terms, frames)
-        full[kind] = Calibration(model, identify(model, observations, weights=weights))
+
+    def identified(
+        candidates: Sequence[JointTerms], rows: np.ndarray, start: Identification | None = None
+    ) -> list[Calibration]:
+        terms = [held(terms, postures.still) for terms in candidates]
+        weights = counted[rows].astype(float)
+        return calibrations(arm, terms, observations[rows], frames, start, weights)
+
+    every = np.ones(len(observations), dtype=bool)
+    nothing, *candidates = identified([NO_ERRORS, *CANDIDATES], every)
     on_progress("errors beyond geometry")
-    hybrid = calibrate(arm, candidates[HYBRID], observations, frames, weights=weights)
-    if not hybrid.estimate.converged:  # it has many parameters, and goes on from there
-        hybrid = calibrate(arm, candidates[HYBRID], observations, frames, hybrid, weights)
-    richer = hybrid.pattern is not None or hybrid.model.names != full[GEOMETRIC].model.names
+    best = choose(candidates)
+    if not candidates[best].estimate.converged:  # it has many parameters, and goes on from there
+        candidates = identified(CANDIDATES, every, candidates[best].estimate)
+        best = choose(candidates)
+    full = {NOTHING: nothing, GEOMETRIC: candidates[0]}
+    hybrid = with_pattern(candidates[best], observations)
+    richer = best > 0 or hybrid.pattern is not None
     unsettled = richer and not hybrid.estimate.converged
     if richer and not unsettled:
         full[HYBRID] = hybrid
+
+    def without(rows: np.ndarray) -> dict[str, Calibration]:
+        # a model that all rows do not ask for is not tried on fewer
+        tried = [NO_ERRORS, *CANDIDATES[: 1 + best * (HYBRID in full)]]
+        none, *others = identified(tried, ~rows)
+        found = {NOTHING: none, GEOMETRIC: others[0], HYBRID: others[choose(others)]}
+        if hybrid.pattern is not None:
+            process = hybrid.pattern.hyperparameters
+            found[HYBRID] = with_pattern(found[HYBRID], observations[~rows], process)
+        return {kind: found[kind] for kind in full}
+
     held_out = {}
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
-        folds = divide(observations, postures)
         on_progress(f"errors {way}")
-        fits = {kind: partial(calibrate_again, full[kind], candidates[kind]) for kind in full}
-        held_out[way] = {
-            kind: hold_out(fit, observations, weights, folds) for kind, fit in fits.items()
-        }
+        held_out[way] = hold_out(without, observations, divide(observations, postures))
     chosen = _choice(held_out, counted, postures)
     full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
     for errors in held_out.values():

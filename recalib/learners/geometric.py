@@ -5,19 +5,23 @@ commands the pose that the nominal kinematics give these angles.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import Any, Self
 
 import numpy as np
 
-from recalib.identification.calibration import Calibration, angles_for, most_probable
+from recalib.identification.calibration import Calibration, most_probable
 from recalib.identification.model.error_model import OFFSETS
 from recalib.identification.model.observations import Observations
 from recalib.learners.experience import Refitting
 from recalib.nominal.controller import Controller
 from recalib.nominal.kinematics import Arm
+from recalib.nominal.newton import solve_groups
 from recalib.nominal.robots import Robot
+
+STEPS = 10
+TOLERANCE = 1e-9  # m, rad
 
 
 class GeometricLearner(Refitting):
@@ -80,3 +84,26 @@ class GeometricLearner(Refitting):
         Its controller's singularity margin was accepted when it learned.
         """
         return cls(Controller(robot, greatest_condition=math.inf), runs=runs)
+
+
+def angles_for(
+    calibrations: Sequence[Calibration], poses: np.ndarray, start: np.ndarray
+) -> np.ndarray:
+    """Joint coordinates (run, n, joints) [rad, m] to send for the arm to reach poses.
+
+    By Newton's method, with the Jacobian of each run's arm alone. Where nothing reaches the pose,
+    the best angles that were met.
+
+    Args:
+        calibrations: one for each run.
+        poses: (run, n, 4, 4) of the tool in the base frame [m].
+        start: (run, n, joints) rad, m nearby.
+    """
+
+    def kinematics(runs: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        pairs = zip(runs, angles, strict=True)
+        found = [calibrations[run].forward_and_jacobian(its) for run, its in pairs]
+        poses, jacobians = map(np.stack, zip(*found, strict=True))
+        return poses, jacobians
+
+    return solve_groups(kinematics, poses, start, TOLERANCE, STEPS)[0]

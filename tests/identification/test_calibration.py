@@ -4,10 +4,11 @@ import pytest
 from recalib.damaged.damage import apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.identification import calibration as module
-from recalib.identification.calibration import Calibration, angles_for, calibrate, calibrate_again
+from recalib.identification.calibration import Calibration, calibrate
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS, held
 from recalib.identification.model.observations import Observations
-from tests.identification.test_estimation import noisy, postures
+from recalib.learners.geometric import angles_for
+from tests.identification.test_estimation import postures
 
 
 @pytest.fixture(scope="module")
@@ -56,17 +57,6 @@ def test_a_pattern_is_learned_from_so_many_rows_at_most(robot, geared, monkeypat
         inputs = calibrate(robot.arm, (OFFSETS,), geared).pattern.state()["inputs"]
         assert len(np.unique(inputs, axis=0)) == used
         assert {*map(tuple, inputs)} <= {*map(tuple, geared.joints)}
-
-
-def test_what_is_not_in_other_observations_is_not_taken_over(controller, calibrations):
-    """Neither joint errors nor a pattern, of an arm that has none."""
-    angles = postures(controller, 40, seed=4)
-    measured = noisy(controller.robot.arm, angles, 4)
-    observations = Observations(angles, measured[:, :3, 3])
-    patterned, eccentric = calibrations
-    assert calibrate_again(patterned, (OFFSETS,), observations).pattern is None
-    again = calibrate_again(eccentric, (OFFSETS, JOINT_ERRORS), observations)
-    assert again.model.names == tuple(OFFSETS) != eccentric.model.names
 
 
 def test_a_restored_calibration_knows_which_joints_were_held(robot, geared):

@@ -12,9 +12,7 @@ from recalib.errors import RecalibError
 from recalib.identification import estimation
 from recalib.identification.calibration import (
     Calibration,
-    angles_for,
     calibrate,
-    calibrate_again,
 )
 from recalib.identification.checks.diagnostics import check_estimate, check_postures
 from recalib.identification.checks.identifiability import unidentifiable_parameters
@@ -38,6 +36,7 @@ from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Distance, Observations
 from recalib.identification.parameters import parameters_of
 from recalib.identification.validation import KINDS, WAYS, validate
+from recalib.learners.geometric import angles_for
 from recalib.nominal.arms import load_arm
 from recalib.numerics.randomness import generator
 from tests.arms import RAILED, urdf
@@ -277,11 +276,9 @@ def test_a_calibration_with_joint_errors_and_a_pattern_is_as_kept(controller, da
     for name, terms in {"geometry": (OFFSETS,), "errors": (OFFSETS, JOINT_ERRORS)}.items():
         its = calibrate(robot.arm, terms, few)
         more = calibrate(robot.arm, terms, observations, last=its)
-        again = calibrate_again(its, terms, observations[16:], np.ones(24))
         found[name] = {
             "first": of_calibration(its, few),
             "more": coarse(more.forward(angles), 3),
-            "again": coarse(again.forward(angles), 3),
             "angles": np.round(angles_for([its], poses, start), 4),
         }
         if its.pattern:

@@ -71,9 +71,14 @@ def test_more_than_geometry_that_does_not_settle_is_left_out(ur10, monkeypatch):
     found = validate(ur10, observations, frames)
     assert found.chosen == HYBRID and not found.unsettled
 
-    richer = found.full[HYBRID]
-    stopped = replace(richer, estimate=replace(richer.estimate, converged=False))
-    monkeypatch.setattr(module, "calibrate", lambda *_, **its: stopped)
+    def stopped(*given):
+        geometry, *richer = calibrations(*given)
+        estimates = [replace(its.estimate, converged=False) for its in richer]
+        pairs = zip(richer, estimates, strict=True)
+        return [geometry, *(replace(its, estimate=estimate) for its, estimate in pairs)]
+
+    calibrations = module.calibrations
+    monkeypatch.setattr(module, "calibrations", stopped)
     found = validate(ur10, observations, frames)
     assert found.chosen == GEOMETRIC and found.unsettled
 

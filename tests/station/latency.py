@@ -16,7 +16,7 @@ import numpy as np
 from recalib.identification.calibration import calibrate
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.observations import Observations
-from recalib.identification.validation import CANDIDATES, HYBRID
+from recalib.identification.validation import CANDIDATES
 from recalib.laboratory.correction.archive import Correction
 from recalib.laboratory.correction.corrector import Corrector
 from recalib.laboratory.live.allowed import AllowedPostures
@@ -93,7 +93,7 @@ def latencies(name: str) -> None:
     uneven = Observations(joints, eccentric.poses(joints, noise=FINE))
     for its in (rows, uneven):
         frames = initial_frames(station.arm, its)
-        calibration = calibrate(station.arm, CANDIDATES[HYBRID], its, frames)
+        calibration = calibrate(station.arm, CANDIDATES, its, frames)
         corrector = Corrector(Correction(b"", calibration, joints))
         path = joints[:1] + np.linspace(0, 0.2, TIMES + 1)[:, None]
         pattern = "no pattern" if calibration.pattern is None else "a pattern"
