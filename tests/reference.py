@@ -123,7 +123,7 @@ def identify(linearise, deviations, measured):
         last, noise = noise, np.maximum(np.sqrt((total + 10 * shared) / (free + 10)), 1e-6)
         # variances: a belief of 0.05 degrees of freedom in a common scale, of 20 more in that
         common = (20 + count) / (20 + (1 / v).sum())
-        v = (0.05 * common + p**2 + np.diag(C)) / 1.05
+        v = np.minimum((0.05 * common + p**2 + np.diag(C)) / 1.05, 9)
         # a tenth of what is not known of the parameters, and a tenth of the noise
         if step >= 3 and np.sqrt(change @ H @ change) < 0.1 and all(abs(noise / last - 1) < 0.1):
             break

@@ -27,6 +27,7 @@ from recalib.identification.model.input_checks import check_observations
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
+from recalib.identification.unseen import Unseen
 
 GOOD = 0.99  # the limit of rho: what lies farther out than this part of good measurements
 DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pattern or a majority
@@ -34,6 +35,7 @@ DOUBTFUL = 0.3  # the weight of a measurement below which it is no part of a pat
 SPARSITY = 0.05
 # The common scale of all parameters is held by this many more, as large as the model expects.
 COMMON = 20.0
+WORN = 3.0**2  # no variance is larger: so far wear goes, in squares of what a model expects
 # The noise of position and of orientation are assumed to be alike, as by so many measurements.
 SHARED = 10.0
 MEDIAN = chdtri(3, 0.5)  # of the squared length of a residual whose components are normal
@@ -95,7 +97,10 @@ def identify(
     terms = model.terms(observations.joints)
     sparse, diagonal = ~model.free, np.diag_indices(len(scale))
     precision = np.empty((len(scale),) * 2)
-    linear = Linearisation(model, parameters, observations, terms)
+    linear, unseen = (
+        Linearisation(model, parameters, observations, terms),
+        Unseen(model, observations),
+    )
     for iteration in range(STEPS):
         if not linear.is_good_at(parameters, NEGLIGIBLE * noise.min()):
             del linear  # there is no room for two
@@ -104,6 +109,9 @@ def identify(
             weights = limit / np.maximum(_squares(linear.residuals, noise), limit)
         # The most probable parameters, given noise, weights and variances ...
         information, gradient = linear.normal_equations(weights)
+        if unseen.directions.size:
+            information = unseen.left_out(unseen.left_out(information).swapaxes(1, 2))
+            gradient = unseen.left_out(gradient)
         np.einsum("k,kpq->pq", noise**-2, information, out=precision)
         gradient = noise**-2 @ gradient - parameters / variances
         if observations.distances:
@@ -186,7 +194,7 @@ def _variances(
 ) -> np.ndarray:
     """The most probable v_j, given the parameters (P,) and the variances of their errors (P,)."""
     sparse = (SPARSITY * common + parameters**2 + spread) / (SPARSITY + 1)
-    return np.where(model.free, 1, sparse)
+    return np.where(model.free, 1, np.minimum(sparse, WORN))
 
 
 def _distances(

@@ -107,6 +107,7 @@ def _correct(given: argparse.Namespace) -> int:
     from recalib.laboratory.correction.correct import (
         beyond_measured,
         correct,
+        outside_measured,
         unidentifiable_ends,
     )
     from recalib.laboratory.report.files import read_correction, write_postures
@@ -130,8 +131,9 @@ def _correct(given: argparse.Namespace) -> int:
             f"an arm of {len(correction.arm.joints)} joints reaches positions; rotations stay up to"
             f" {turned.max():.2g} deg from those desired, the most in row {turned.argmax() + 1}"
         )
-    if beyond := beyond_measured(correction, commands):
-        _warn(beyond)
+    for warning in (beyond_measured(correction, commands), outside_measured(commands)):
+        if warning:
+            _warn(warning)
     made = counted(len(commands.joints), "command")
     print(f"{made} in {given.out}: joint coordinates, and the poses that")
     print(f"the nominal kinematics give them, of {correction.arm.tool} in {correction.arm.base}")

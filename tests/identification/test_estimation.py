@@ -26,8 +26,9 @@ def noisy(arm, angles, seed, disturbances=NOISY) -> np.ndarray:
 
 @pytest.mark.parametrize("terms", [OFFSETS, JOINT_ERRORS], ids=["offsets", "joint errors"])
 @pytest.mark.parametrize("what", ["poses", "positions", "no outlier"])
-def test_the_estimate_is_that_of_the_slow_implementation(robot, controller, damaged, terms, what):
-    model, angles = ErrorModel(robot.arm, terms), postures(controller, 14)
+def test_the_estimate_is_that_of_the_slow_implementation(robot, damaged, terms, what):
+    model = ErrorModel(robot.arm, terms)
+    angles = np.random.default_rng(1).uniform(-2, 2, (20, 6))  # they show all that can be seen
     measured = noisy(damaged, angles, 2)
     if what != "no outlier":
         measured[3, :3, 3] += 0.03, -0.04, 0.0

@@ -11,9 +11,10 @@ from scipy.spatial.transform import Rotation
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.scales import Scale
 from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, SLIP, Fault
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
-from recalib.identification.parameters import Parameter
+from recalib.identification.parameters import parameters_of
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
 from recalib.laboratory.report.doubts import doubts
@@ -26,6 +27,8 @@ LATE = "try to measure at rest, or to synchronise both"
 PARTS = "try rows 1 to 21 and 22 to 60 each by themselves"
 NAMES = {
     "instruments": ["the instrument"],
+    "targets": ["the target"],
+    "sockets": [],
     "ends": ["the target"],
     "sights": ["the target"],
     "frames": Frames(),
@@ -33,11 +36,18 @@ NAMES = {
 }
 
 
+MODEL = ErrorModel(load_arm("ur10_robot.urdf", "tool0"), OFFSETS)
+
+
 def result(
-    errors: dict, chosen: str = HYBRID, found: tuple = (), times=None, parameters=()
+    errors: dict, chosen: str = HYBRID, found: tuple = (), times=None, parameters=None
 ) -> SimpleNamespace:
     """A calibration with these errors [m] by way and kind, and parameters of geometry."""
-    geometry = SimpleNamespace(parameters={its.name: its for its in parameters})
+    size = len(MODEL.deviations)
+    estimate = SimpleNamespace(
+        parameters=np.zeros(size) if parameters is None else parameters, covariance=np.eye(size)
+    )
+    geometry = SimpleNamespace(model=MODEL, estimate=estimate)
     validation = SimpleNamespace(
         chosen=chosen,
         mean_error=lambda way, kind: errors[way, kind],
@@ -50,6 +60,7 @@ def result(
         geometry=geometry,
         scales={},
         mistake=None,
+        unidentifiable=[],
         **NAMES,
     )
 
@@ -70,20 +81,24 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
 
 
 @pytest.mark.parametrize(
-    ("name", "unit", "value", "doubted"),
+    ("name", "said"),
     [
-        ("offset of wrist", "deg", -41.3, True),
-        ("offset of wrist", "deg", 19.0, False),
-        ("offset of rail", "mm", 41.3, False),
-        ("turn z behind wrist", "deg", -41.3, True),
-        ("turn z of target", "deg", 41.3, False),
+        ("offset of wrist_1_joint", "would be {} deg, and wear is expected to do 4 deg"),
+        ("turn z behind elbow_joint", "would be {} deg, and wear is expected to do 0.5 deg"),
+        ("shift x of tool", "would be {} mm, and wear is expected to do 20 mm"),
+        ("shift z of base", "would be {} mm, and wear is expected to do 50 mm"),
     ],
 )
-def test_an_offset_or_a_turn_of_a_link_that_is_too_large_is_doubted(name, unit, value, doubted):
-    its = Parameter(name, unit, value, 0.1), Parameter("offset of elbow", "deg", 3.0, 0.1)
-    said = [*doubts(result({}, GEOMETRIC, parameters=its))]
-    sentence = f"Careful: the {name} would be -41 deg; is each column of the table"
-    assert [line.startswith(sentence) for line in said] == [True] * doubted
+@pytest.mark.parametrize("deviations", [-4.0, 2.9])
+def test_what_wear_does_not_do_is_doubted_by_name(name, said, deviations):
+    names = [its.name for its in parameters_of(MODEL, result({}).geometry.estimate)]
+    parameters = np.zeros(len(names))
+    number = names.index(name)
+    parameters[number] = deviations * MODEL.deviations[number]
+    told = " ".join(doubts(result({}, GEOMETRIC, parameters=parameters)))
+    value = re.search(r"[0-9.]+ (mm|deg)$", said)[0].split()[0]
+    expected = f"the {name} {said.format(f'{deviations * float(value):.3g}')}"
+    assert (expected in told) == (bool(told)) == (abs(deviations) > 3)
 
 
 @pytest.mark.parametrize(

@@ -14,9 +14,9 @@ from recalib.identification.model.observations import Observations
 FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
 NAMED = 5  # rows to look at first
-# Of a link, and of all links together: a change beyond both is no wear. The damage of the paper
-# takes a tenth of a link, and a fortieth of them together.
-OTHER_LINK, OTHER_ARM = 0.2, 0.05
+# Of a link, of all links together, and of links whose axes meet [m]: a change beyond all is no wear.
+# The damage of the paper takes a tenth of a link, and a fortieth of them together.
+OTHER_LINK, OTHER_ARM, OTHER_CROSSING = 0.2, 0.05, 0.02
 
 
 class Untrustworthy(RecalibError):
@@ -74,7 +74,7 @@ def check_links(geometry: Calibration) -> None:
     """
     nominal = geometry.model.nominal
     right, found = link_lengths(nominal, geometry.model.own_arm(geometry.estimate.parameters))
-    limits = np.maximum(OTHER_LINK * right, OTHER_ARM * right.sum())
+    limits = np.maximum(OTHER_LINK * right, max(OTHER_ARM * right.sum(), OTHER_CROSSING))
     beyond = np.abs(found - right) - limits
     if (beyond > 0).any():
         worst = int(beyond.argmax())

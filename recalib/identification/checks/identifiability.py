@@ -16,6 +16,7 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
+from recalib.identification.unseen import Unseen
 from recalib.nominal.newton import solve_groups
 from recalib.numerics.randomness import generator
 
@@ -51,7 +52,7 @@ def unidentifiable_parameters(
     """The parameters of geometry that observations leave open, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
-    root = _root(calibration, observations, estimate.weights)
+    root = Unseen(model, observations).left_out(_root(calibration, observations, estimate.weights))
     anywhere = _anywhere(calibration, observations)
     more = _root(calibration, anywhere, np.ones(len(anywhere)))
     # What goes along an axis is the same before and behind it. By a bent link alone the first of

@@ -12,6 +12,7 @@ from scipy.spatial import KDTree
 
 from recalib.errors import InvalidSetting, RecalibError, UnknownName
 from recalib.identification.calibration import Calibration
+from recalib.identification.checks.poses import outside_of
 from recalib.identification.model.error_model import by_sight
 from recalib.identification.model.linearisation import LEVER
 from recalib.laboratory.correction.archive import Correction
@@ -48,12 +49,14 @@ class Commands:
         beyond: (n, joints) rad, or m where a joint slides, by how much it leaves the range that was
             learned from; zero up to a twentieth of that range.
         turned: (n,) rad, how far from a desired rotation an arm of fewer than six joints stays.
+        outside: (n, 2) m and rad, how far the desired pose is from those that were measured.
     """
 
     joints: np.ndarray
     poses: np.ndarray
     beyond: np.ndarray
     turned: np.ndarray
+    outside: np.ndarray
 
 
 def correct(correction: Correction, desired: Measurements, in_instrument: bool = False) -> Commands:
@@ -73,13 +76,35 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
     _check_frame(correction, desired, in_instrument)
     found = reach(correction, desired, in_instrument)
     goals, turned = _goals(correction.arm, desired), np.zeros(len(found))
+    targets = _targets(correction, desired) if in_instrument else None
+    far = np.zeros((len(found), 2))
+    for target, rows in by_sight(targets, len(found)):
+        its = None if targets is None else np.full(len(correction.learned), target)
+        known = _poses(correction.calibration, correction.learned, its)
+        far[rows] = outside_of(known, goals[rows])
     if goals.ndim == 3:
-        targets = _targets(correction, desired) if in_instrument else None
         turned = orientation_error(_poses(correction.calibration, found, targets), goals)
     low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
     outside = np.maximum(low - found, found - high)
     beyond = np.where(outside > MARGIN * (high - low), outside, 0.0)
-    return Commands(found, correction.arm.forward(found), beyond, turned)
+    return Commands(found, correction.arm.forward(found), beyond, turned, far)
+
+
+def outside_measured(commands: Commands) -> str | None:
+    """The commands whose poses are not among those that were measured, in words."""
+    rows = np.flatnonzero(commands.outside.any(axis=1))
+    if not len(rows):
+        return None
+    parts = zip(("", "turned "), (1e3, 180 / np.pi), ("mm", "deg"), commands.outside.T, strict=True)
+    farthest = [
+        f"row {far.argmax() + 1} by {how}{scale * far.max():.3g} {unit}"
+        for how, scale, unit, far in parts
+        if far.any()
+    ]
+    return (
+        f"{len(rows)} of {counted(len(commands.outside), 'command')} take the arm to poses outside"
+        f" those measured, where its errors are unknown; the farthest: {' and '.join(farthest)}"
+    )
 
 
 def beyond_measured(correction: Correction, commands: Commands) -> str | None:

@@ -4,14 +4,19 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from recalib.identification.checks.poses import turned_axes
+from recalib.identification.model.frames import HELD
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.report.parameters import described, unidentifiable_directions
 from recalib.laboratory.tables.fault_words import in_words
+from recalib.spelling import counted
 
 RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
 TOGETHER = 0.3  # the part of residuals that may remain, were all links longer by one factor
 OUTVOTED = 0.5  # of the rows of a sight: were more outliers, something of it is not as described
-SLIPPED = 20.0  # deg: five times what an encoder is expected to slip by
+WORN = 3.0  # deviations of what wear is expected to do: beyond that is something else
+ENDS, MOST = ("of base", "of tool", "of target"), 3  # what is named first, and how much is named
 CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
 
 
@@ -27,7 +32,8 @@ def doubts(result: Calibrated) -> Iterator[str]:
         yield f"Careful: {in_words(fault, *session)}."
     yield from _outvoted(result)
     if not result.mistake:
-        yield from _slipped(result)
+        yield from _worn(result)
+    yield from _open(result)
     yield from _resized(result)
     validation = result.validation
     if validation.chosen != HYBRID:
@@ -41,19 +47,38 @@ def doubts(result: Calibrated) -> Iterator[str]:
         )
 
 
-def _slipped(result: Calibrated) -> Iterator[str]:
-    """The joint offset or turn of a link that is too large for one, if there is one."""
-    turns = [
-        its
-        for name, its in result.geometry.parameters.items()
-        if (name.startswith("offset of ") or " behind " in name) and its.unit == "deg"
-    ]
-    largest = max(turns, key=lambda its: abs(its.value), default=None)
-    if largest and abs(largest.value) > SLIPPED:
+def _worn(result: Calibrated) -> Iterator[str]:
+    """The offset or error of a link that is too large for one, if there is one."""
+    model = result.geometry.model
+    ratios = result.geometry.estimate.parameters / model.deviations
+    ratios = np.where(model.free | (model.deviations <= HELD), 0.0, np.abs(ratios))
+    ratios[model.optics_columns] = 0.0
+    if ratios.max() > WORN:
+        largest = described(result)[int(ratios.argmax())]
         yield (
-            f"Careful: the {largest.name} would be {largest.value:.0f} deg; is each column of the"
-            " table that of its joint, and its zero that of the URDF?"
+            f"Careful: the {largest.name} would be {largest.value:.3g} {largest.unit}, and wear is"
+            f" expected to do {1 / ratios.max() * abs(largest.value):.2g} {largest.unit}; is each"
+            " column of the table that of its joint, and its zero that of the URDF?"
         )
+
+
+def _open(result: Calibrated) -> Iterator[str]:
+    """What postures leave open that others would tell."""
+    words = [words for words, others_tell in unidentifiable_directions(result) if others_tell]
+    if not words:
+        return
+    words.sort(key=lambda its: not any(end in its for end in ENDS))
+    axes = turned_axes(result.arm.forward(result.observations.joints))
+    turns = ["never turned", "turned about one axis alone", "turned about two axes alone"]
+    about = " and ".join(f"({', '.join(f'{x + 0.0:.2g}' for x in axis.round(2))})" for axis in axes)
+    where = f", {about} of {result.arm.base}" * (0 < len(axes) < 3)
+    tool = f"{result.arm.tool} {turns[len(axes)]}{where}" if len(axes) < 3 else "postures are alike"
+    rest = len(words) - MOST
+    more = f"; and {counted(rest, 'further direction')}" if rest > 0 else ""
+    yield (
+        f"Careful: {tool}, so all that is said here holds for such postures only. These rows do not"
+        f" determine {'; '.join(words[:MOST])}{more}: these stay as given."
+    )
 
 
 def _resized(result: Calibrated) -> Iterator[str]:

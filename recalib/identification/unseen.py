@@ -1,0 +1,75 @@
+"""Directions of the geometry that no row shows, though rows in other postures would.
+
+Such are the length of a tool that is always upright, or the height of the base beneath it. An arm
+that is bent shows them a little, after all; but there, a small misfit of another kind moves them by
+decimetres. So what rows say of them is left out, and the prior alone decides: they stay as given.
+"""
+
+import numpy as np
+
+from recalib.identification.model.error_model import ErrorModel
+from recalib.identification.model.frames import HELD
+from recalib.identification.model.linearisation import LEVER, Linearisation
+from recalib.identification.model.observations import Observations
+from recalib.numerics.randomness import generator
+
+# m, rms: what wear of one deviation moves on rows that do not show it, and on those that would
+NOTHING, SOMETHING = 1e-4, 1e-3
+UNKNOWN = 0.1  # of the deviation of what nobody knows: as much as wear
+POSTURES = 40  # all over the joints' ranges
+
+
+class Unseen:
+    """The directions that observations do not show of an error model, by slopes of the nominal arm.
+
+    Attributes:
+        directions: (P, k) over the parameters' deviations, of the frames, links and offsets.
+    """
+
+    def __init__(self, model: ErrorModel, observations: Observations):
+        columns, size = _geometry(model), len(model.deviations)
+        wear = np.where(model.free[columns], UNKNOWN, 1.0)
+        here = _slopes(model, observations)[:, columns] * wear
+        values, vectors = np.linalg.eigh(here.T @ here / len(observations))
+        unseen = vectors[:, values < NOTHING**2]
+        there = _slopes(model, _anywhere(model, observations))[:, columns] * wear @ unseen
+        values, vectors = np.linalg.eigh(there.T @ there / POSTURES)
+        unseen = unseen @ vectors[:, values > SOMETHING**2]
+        self.directions, self._across = np.zeros((2, size, unseen.shape[1]))
+        self.directions[columns] = unseen * wear[:, None]
+        self._across[columns] = unseen / wear[:, None]
+
+    def left_out(self, columns: np.ndarray) -> np.ndarray:
+        """Slopes, or gradients, (..., P) that say nothing of these directions."""
+        return columns - (columns @ self.directions) @ self._across.T
+
+
+def _geometry(model: ErrorModel) -> np.ndarray:
+    """The numbers of the parameters of frames, links and offsets that are not held."""
+    numbers = np.arange(len(model.deviations))
+    numbers = np.concatenate([numbers[: model.optics_columns.start], numbers[model.offset_columns]])
+    return numbers[model.deviations[numbers] > HELD]
+
+
+def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
+    """Of all that observations measure (m, P) by the parameters over their deviations [m]."""
+    terms, origin = model.terms(observations.joints), np.zeros(len(model.deviations))
+    jacobians = Linearisation(model, origin, observations, terms).jacobians
+    levers = np.array([1, LEVER])[: observations.kinds, None, None, None]
+    return (jacobians * levers).reshape(-1, len(origin))
+
+
+def _anywhere(model: ErrorModel, observations: Observations) -> Observations:
+    """Observations of the same kind in other postures."""
+    arm, rng = model.nominal.model, generator(0, "unseen")
+    low, high = (
+        np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
+    )
+    rows = np.arange(POSTURES) % len(observations)
+    joints = rng.uniform(low, high, (POSTURES, len(low)))
+    return Observations(
+        joints,
+        None if observations.measured is None else observations.measured[rows],
+        observations.targets[rows],
+        None if observations.sockets is None else observations.sockets[rows],
+    )
