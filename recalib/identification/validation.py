@@ -111,7 +111,7 @@ def validate(
     estimate = identify_by_consensus(model, observations)
     counted = estimate.weights >= OUTLYING
     geometry = Calibration(model, estimate)
-    check_estimate(geometry, observations, counted)
+    check_estimate(geometry, observations)
     check_links(geometry)
     postures = check_postures(find_postures(observations.joints, arm.slides, estimate.noise[0]))
 

@@ -126,7 +126,7 @@ class Calibrated:
     @cached_property
     def faults(self) -> list[Fault]:
         """What the order of the rows shows: a lag, a drift, a jump."""
-        found = faults(self.geometry, self.observations, self.validation.counted)
+        found = faults(self.geometry, self.observations)
         return _not_told(found, self.mistake)
 
     @property

@@ -9,7 +9,7 @@ from recalib.identification.consensus import identify_by_consensus
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.observations import Observations
-from recalib.identification.validation import BLOCKWISE, OUTLYING, validate
+from recalib.identification.validation import BLOCKWISE, validate
 from tests.identification.real import Real
 
 MIDDLE, AROUND = np.radians([20, -65, 100, -40, 95, 10]), 0.8  # rad
@@ -78,7 +78,7 @@ class Session:
         model = ErrorModel(self._arm, OFFSETS, self._frames)
         estimate = identify_by_consensus(model, self.observations)
         geometry = Calibration(model, estimate)
-        return faults(geometry, self.observations, estimate.weights >= OUTLYING)
+        return faults(geometry, self.observations)
 
     def honesty(self) -> float:
         """The said error over the true one: on fresh postures, at rest, at any time."""

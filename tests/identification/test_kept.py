@@ -349,7 +349,6 @@ def test_why_rows_are_refused_is_as_kept(arm, load, data_regression):
     estimate = identify(model, Observations(good.joints, arm.forward(good.joints)))
     moving = Calibration(model, replace(estimate, converged=False))
     noisy = Calibration(model, replace(estimate, noise=np.array([0.02, 0.1])))
-    every = np.ones(30, dtype=bool)
     cases = {
         "none": lambda: identify(model, good[:0]),
         "bent": lambda: identify(model, replace(good, joints=bent)),
@@ -362,8 +361,8 @@ def test_why_rows_are_refused_is_as_kept(arm, load, data_regression):
         "line": lambda: initial_frames(arm, line),
         "nothing": lambda: initial_frames(arm, noise),
         "postures": lambda: check_postures(find_postures(good.joints[:9], arm.slides, 0.0)),
-        "moving": lambda: check_estimate(moving, good, every),
-        "noisy": lambda: check_estimate(noisy, good, every),
+        "moving": lambda: check_estimate(moving, good),
+        "noisy": lambda: check_estimate(noisy, good),
     }
     said = {}
     for name, case in cases.items():

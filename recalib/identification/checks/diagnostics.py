@@ -14,8 +14,8 @@ from recalib.identification.model.observations import Observations
 FEWEST = 10  # postures to hold some out
 NOISIEST = 5e-3, np.radians(2)  # m, rad along an axis: so bad is no instrument, and no arm
 NAMED = 5  # rows to look at first
-# Of a link, of all links together, and of links whose axes meet [m]: a change beyond all is no wear.
-# The damage of the paper takes a tenth of a link, and a fortieth of them together.
+# Of a link, of all links together, and, where axes meet, m: a change beyond all is no wear. The
+# damage of the paper takes a tenth of a link, and a fortieth of them together.
 OTHER_LINK, OTHER_ARM, OTHER_CROSSING = 0.2, 0.05, 0.02
 
 
@@ -43,12 +43,8 @@ def check_postures(postures: Postures) -> Postures:
     return postures
 
 
-def check_estimate(geometry: Calibration, observations: Observations, counted: np.ndarray) -> None:
-    """Raise Untrustworthy unless an estimate of the geometry has converged and leaves noise.
-
-    Args:
-        counted: (n,) whether a row is not grossly off.
-    """
+def check_estimate(geometry: Calibration, observations: Observations) -> None:
+    """Raise Untrustworthy unless an estimate of the geometry has converged and leaves noise."""
     noise = geometry.estimate.noise
     if not geometry.estimate.converged:
         raise Untrustworthy(
@@ -63,7 +59,7 @@ def check_estimate(geometry: Calibration, observations: Observations, counted: n
             f"residuals of the best fit are {' and '.join(found)} along each axis, the largest in"
             f" rows {', '.join(map(str, rows))} (the first is 1); expected: up to"
             f" {1e3 * NOISIEST[0]:.0f} mm and {np.degrees(NOISIEST[1]):.0f} deg",
-            faults(geometry, observations, counted),
+            faults(geometry, observations),
         )
 
 

@@ -4,7 +4,8 @@ Rows in the order of measurement show such faults in their residuals. Each fault
 parameters in addition to those of the arm: the delay of all poses as a part of a step; a motion of
 the instrument relative to the base, over time or from some row on; or one of a target on the tool.
 Of several cameras, each may have faults of its own. A fault that no arm could explain instead, and
-that is too large for chance, is reported.
+that is too large for chance, is reported. All rows take part, also those that are far off: after a
+jump all are. But they count by their distance, not by its square, so that no single one decides.
 """
 
 from collections.abc import Iterator
@@ -26,7 +27,8 @@ LAG, DRIFT, JUMP, SLIP = "lag", "drift", "jump", "slip"
 CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
 SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
 MOST = 3  # faults at once
-ENDS = 10  # rows on either side of a jump
+ENDS = 5  # rows on either side of a jump
+FAR = 4.0  # times the noise: a row that is farther off counts by its distance
 SMALL = 1e-3  # of the typical step: for slopes
 
 
@@ -51,7 +53,7 @@ class Fault:
     sight: int = 0
 
 
-def faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
+def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     """What the rows of each series show by their order, if they were measured in that order.
 
     A lag bends the arm that is identified, and so leaves more than a lag. If it is the plainest
@@ -59,28 +61,29 @@ def faults(geometry: Calibration, observations: Observations, counted: np.ndarra
 
     Args:
         geometry: what was identified from them.
-        counted: (n,) whether a row is not grossly off.
     """
-    found = _faults(geometry, observations, counted)
+    found = _faults(geometry, observations)
     if len(found) < 2 or found[0].kind != LAG:
         return found
     punctual = _without(found[0], observations)
-    again = identify(geometry.model, punctual, geometry.estimate, counted.astype(float))
-    others = _faults(replace(geometry, estimate=again), punctual, counted)
+    again = identify(geometry.model, punctual, geometry.estimate, geometry.estimate.weights)
+    others = _faults(replace(geometry, estimate=again), punctual)
     its = LAG, found[0].sight
     others = [fault for fault in others if (fault.kind, fault.sight) != its]
     return [found[0], *others][:MOST]
 
 
-def _faults(geometry: Calibration, observations: Observations, counted: np.ndarray) -> list[Fault]:
+def _faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     """The same, all by one linearisation."""
     model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
     parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
     parameters[: len(estimate.parameters)] = estimate.parameters
     terms = model.terms(observations.joints)
     linear = Linearisation(model, parameters / model.deviations, observations, terms)
-    weights = np.sqrt(estimate.weights * counted)[:, None] / np.repeat(estimate.noise, 3)
-    residuals = np.concatenate([*linear.residuals], axis=1) * weights
+    residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
+    lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
+    weights = np.sqrt(np.minimum(1, FAR / np.maximum(lengths, FAR)))
+    residuals, weights = residuals * weights, weights / np.repeat(estimate.noise, 3)
     arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
