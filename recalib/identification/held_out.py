@@ -49,14 +49,17 @@ class HeldOut:
         """(n,) m, a turn of one rad as `LEVER`."""
         return self.errors @ np.array([1, LEVER])[: self.errors.shape[1]]
 
-    def radius(self) -> float:
-        """Within how much [m] of their predictions 95 % of measured positions lie, in each part.
+    def radius(self, kind: int = 0) -> float:
+        """Within how much of their predictions 95 % of what is measured lies, in each part.
 
         A covariance counts noise and what the data leave open, but not what no parameter describes:
         that is in the residuals (split conformal prediction, Lei et al. 2018). Where parts lie
         apart, that differs from one to the next, and a new place may be as bad as the worst.
+
+        Args:
+            kind: 0 of position [m], 1 of orientation [rad].
         """
-        off = self.errors[:, 0]
+        off = self.errors[:, kind]
         return max(_covering(off[self.folds == fold]) for fold in np.unique(self.folds))
 
     def coverage(self) -> float:

@@ -30,6 +30,7 @@ from recalib.identification.model.error_model import (
 )
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.identification.unseen import Unseen
 from recalib.nominal.kinematics import Arm
 
 NOTHING, GEOMETRIC, HYBRID = KINDS = "nothing", "geometric", "hybrid"  # the simplest first
@@ -49,6 +50,8 @@ class Validation:
             nominal arm are identified, too, and nothing else is.
         postures: in which all rows are.
         counted: (n,) whether a row counts for the choice and in errors; others are grossly off.
+        lost: by way of folding, (n,) whether the part of a row tells what no other rows do: without
+            it a direction of the geometry is open, and errors there are of that.
         chosen: what is best done: nothing, geometric or hybrid.
         full: the calibrations from all rows.
         unsettled: whether there was more than geometry, but its identification did not converge.
@@ -57,6 +60,7 @@ class Validation:
     held_out: Mapping[str, Mapping[str, HeldOut]]
     postures: Postures
     counted: np.ndarray
+    lost: Mapping[str, np.ndarray]
     chosen: str
     full: Mapping[str, Calibration]
     unsettled: bool
@@ -70,9 +74,18 @@ class Validation:
         """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
         return self.held_out[way][kind].errors
 
+    def judged(self, way: str) -> np.ndarray:
+        """Whether errors of rows (n,) count: those of outliers and lost directions do not."""
+        judged = self.counted & ~self.lost[way]
+        return judged if judged.any() else self.counted
+
+    def held_out_by(self, way: str, kind: str) -> HeldOut:
+        """The rows whose errors count."""
+        return self.held_out[way][kind][self.judged(way)]
+
     def mean_error(self, way: str, kind: str) -> float:
         """Of position [m], over the rows that count."""
-        return float(self.errors(way, kind)[self.counted, 0].mean())
+        return float(self.held_out_by(way, kind).errors[:, 0].mean())
 
     @property
     def radius(self) -> float:
@@ -80,11 +93,11 @@ class Validation:
 
         For the calibration that is chosen, also in postures away from those measured.
         """
-        return self.held_out[BLOCKWISE][self.chosen][self.counted].radius()
+        return self.held_out_by(BLOCKWISE, self.chosen).radius()
 
     def coverage(self, way: str) -> float:
         """The part of held-out positions that lie within such a radius, made without them."""
-        return self.held_out[way][self.chosen][self.counted].coverage()
+        return self.held_out_by(way, self.chosen).coverage()
 
 
 def validate(
@@ -146,26 +159,40 @@ def validate(
             found[HYBRID] = with_pattern(found[HYBRID], observations[~rows], process)
         return {kind: found[kind] for kind in full}
 
-    held_out = {}
+    held_out, lost = {}, {}
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
         on_progress(f"errors {way}")
-        held_out[way] = hold_out(without, observations, divide(observations, postures))
-    chosen = _choice(held_out, counted, postures)
+        folds = divide(observations, postures)
+        held_out[way] = hold_out(without, observations, folds)
+        lost[way] = _lost(candidates[0].model, observations, folds)
+    judged = counted & ~lost[BLOCKWISE]
+    chosen = _choice(held_out[BLOCKWISE], judged if judged.any() else counted, postures)
     full.setdefault(HYBRID, full[GEOMETRIC])  # there was nothing but geometry
     for errors in held_out.values():
         errors.setdefault(HYBRID, errors[GEOMETRIC])
-    return Validation(held_out, postures, counted, chosen, full, unsettled)
+    return Validation(held_out, postures, counted, lost, chosen, full, unsettled)
 
 
-def _choice(
-    held_out: Mapping[str, Mapping[str, HeldOut]], counted: np.ndarray, postures: Postures
-) -> str:
-    """The simplest that nothing beats for sure, on postures held out in both ways."""
-    _, own = np.unique(postures.numbers[counted], return_inverse=True)
-    losses = {
-        kind: np.mean([held_out[way][kind][counted].losses for way in WAYS], axis=0)
-        for kind in held_out[RANDOM]
-    }
+def _lost(model: ErrorModel, observations: Observations, folds: np.ndarray) -> np.ndarray:
+    """Whether rows (n,) are in a part without which more directions are open than with it."""
+    opened = Unseen(model, observations).directions.shape[1]
+    parts = [
+        fold
+        for fold in np.unique(folds)
+        if Unseen(model, observations[folds != fold]).directions.shape[1] > opened
+    ]
+    return np.isin(folds, parts)
+
+
+def _choice(held_out: Mapping[str, HeldOut], judged: np.ndarray, postures: Postures) -> str:
+    """The simplest that nothing beats for sure, on postures away from those learned from.
+
+    Args:
+        held_out: by what is done.
+        judged: (n,) the rows that count.
+    """
+    _, own = np.unique(postures.numbers[judged], return_inverse=True)
+    losses = {kind: held_out[kind][judged].losses for kind in held_out}
     best, *richer = losses
     for kind in richer:
         # rows of one posture err alike: they are one gain

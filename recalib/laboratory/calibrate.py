@@ -11,6 +11,7 @@ import numpy as np
 from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 from recalib.identification.calibration import Calibration, turned
+from recalib.identification.checks.couplings import Coupling, coupling
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.identification.checks.identifiability import Unidentifiable, unidentifiable_parameters
 from recalib.identification.checks.repeatability import weigh
@@ -20,6 +21,7 @@ from recalib.identification.estimation import DOUBTFUL
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
+from recalib.identification.unseen import Unseen
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, NOTHING, Validation, validate
 from recalib.laboratory.arms.urdf import corrected_urdf
 from recalib.laboratory.correction.archive import Correction
@@ -124,10 +126,20 @@ class Calibrated:
         return unidentifiable_parameters(self.geometry, self.observations)
 
     @cached_property
+    def unseen(self) -> int:
+        """How many directions of the geometry no row shows, though other postures would."""
+        return Unseen(self.geometry.model, self.observations).directions.shape[1]
+
+    @cached_property
     def faults(self) -> list[Fault]:
         """What the order of the rows shows: a lag, a drift, a jump."""
         found = faults(self.geometry, self.observations)
         return _not_told(found, self.mistake)
+
+    @cached_property
+    def coupling(self) -> Coupling | None:
+        """A joint that does not turn as its column says."""
+        return coupling(self.geometry, self.observations)
 
     @property
     def calibration(self) -> Calibration:
@@ -143,8 +155,8 @@ class Calibrated:
 
     @property
     def counted(self) -> np.ndarray:
-        """Numbers (from 0) of the rows that are not grossly off."""
-        return np.flatnonzero(self.validation.counted)
+        """Numbers (from 0) of the rows whose errors count."""
+        return np.flatnonzero(self.validation.judged(BLOCKWISE))
 
     @property
     def doubted(self) -> np.ndarray:
@@ -173,7 +185,7 @@ class Calibrated:
         """
         kinds = {"before": NOTHING} | ({"after": self.validation.chosen} if self.worthwhile else {})
         held_out, turns = self.validation.held_out[BLOCKWISE], self._bases[:, :3, :3]
-        rows = {name: held_out[kind][self.validation.counted] for name, kind in kinds.items()}
+        rows = {name: held_out[kind][self.counted] for name, kind in kinds.items()}
         return {name: turned(turns.swapaxes(1, 2), its.residuals) for name, its in rows.items()}
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from recalib.identification.calibration import calibrate
-from recalib.identification.checks.sequence import DRIFT, JUMP, LAG, faults
+from recalib.identification.checks.sequence import DRIFT, GROWTH, JUMP, LAG, faults
 from recalib.identification.model.error_model import OFFSETS
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
@@ -53,6 +53,20 @@ def test_a_jump_of_any_size_is_named_wherever_it_is_before_its_rows_are_outliers
     observations = Observations(joints, poses if seed % 2 else poses[:, :3, 3])
     fault, *_ = faults(geometry_of(ur10, observations), observations)
     assert fault.kind == JUMP and abs(fault.row - first) <= 1
+
+
+@pytest.mark.parametrize("positions", [True, False])
+@few_folds()
+def test_an_arm_that_grows_as_it_warms_up_is_named_as_that(positions, ur10):
+    real, random = Real(ur10, 3), np.random.default_rng(9)
+    joints = MIDDLE + random.uniform(-AROUND, AROUND, (60, 6))
+    poses = real.poses(joints)
+    own = np.linalg.inv(real.base) @ poses
+    own[:, :3, 3] *= 1 + 1e-3 * np.linspace(0, 1, 60)[:, None]
+    poses = real.base @ own
+    observations = Observations(joints, poses[:, :3, 3] if positions else poses)
+    fault, *_ = faults(geometry_of(ur10, observations), observations)
+    assert fault.kind == GROWTH and fault.size == pytest.approx(1e-3, rel=0.3)
 
 
 TIMES = np.cumsum(np.random.default_rng(5).uniform(0.1, 3, ROWS))

@@ -60,6 +60,8 @@ def result(
         geometry=geometry,
         scales={},
         mistake=None,
+        coupling=None,
+        unseen=0,
         unidentifiable=[],
         **NAMES,
     )

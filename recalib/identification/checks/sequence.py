@@ -1,11 +1,11 @@
 """Faults in the sequence of rows: poses that lag behind the joints, a drift, a jump, a slip.
 
 Rows in the order of measurement show such faults in their residuals. Each fault is modelled by
-parameters in addition to those of the arm: the delay of all poses as a part of a step; a motion of
-the instrument relative to the base, over time or from some row on; or one of a target on the tool.
-Of several cameras, each may have faults of its own. A fault that no arm could explain instead, and
-that is too large for chance, is reported. All rows take part, also those that are far off: after a
-jump all are. But they count by their distance, not by its square, so that no single one decides.
+parameters in addition to those of the arm: the delay of all poses as a part of a step; the growth
+of an arm that warms up; a motion of the instrument relative to the base, over time or from some row
+on; or one of a target on the tool. Of several cameras, each may have faults of its own. A fault
+that no arm could explain instead, and that is too large for chance, is reported. All rows take
+part, also those that are far off: after a jump all are. But no single one decides.
 """
 
 from collections.abc import Iterator
@@ -23,12 +23,14 @@ from recalib.identification.model.error_model import JOINT_ERRORS, ErrorModel
 from recalib.identification.model.linearisation import Linearisation, displacements
 from recalib.identification.model.observations import Observations
 
-LAG, DRIFT, JUMP, SLIP = "lag", "drift", "jump", "slip"
+LAG, DRIFT, GROWTH, JUMP, SLIP = "lag", "drift", "growth", "jump", "slip"
 CHANCE = 1e-6  # with which what is named would be there by chance, were all residuals noise
 SHARE = 0.15  # of the squares of residuals; those of real arms are more than noise
 MOST = 3  # faults at once
 ENDS = 5  # rows on either side of a jump
-FAR = 4.0  # times the noise: a row that is farther off counts by its distance
+# Times the noise: of a row that is farther off, the distance counts and not its square; and next to
+# nothing where that shows no fault, as beside gross outliers
+FAR = 4.0
 SMALL = 1e-3  # of the typical step: for slopes
 
 
@@ -37,10 +39,11 @@ class Fault:
     """Something that rows show by their order.
 
     Attributes:
-        kind: lag, drift, jump (of the instrument) or slip (of a target).
+        kind: lag, drift, growth (of the arm), jump (of the instrument) or slip (of a target).
         size: of a lag, by how many seconds poses are late, or, of rows without times, by what part
-            of the step to each; otherwise m, by how much the instrument moves against the base,
-            from the first row to the last or at once, or the target against the tool.
+            of the step to each; of growth, by what part from the first row to the last; otherwise
+            m, by how much the instrument moves against the base, from the first row to the last or
+            at once, or the target against the tool.
         row: from 0 in its series, the first one after a jump or a slip.
         turn: rad, that goes with the size.
         sight: that of this row.
@@ -62,29 +65,21 @@ def faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     Args:
         geometry: what was identified from them.
     """
-    found = _faults(geometry, observations)
+    found = _faults(geometry, observations, 1) or _faults(geometry, observations, 2)
     if len(found) < 2 or found[0].kind != LAG:
         return found
     punctual = _without(found[0], observations)
     again = identify(geometry.model, punctual, geometry.estimate, geometry.estimate.weights)
-    others = _faults(replace(geometry, estimate=again), punctual)
+    others = _faults(replace(geometry, estimate=again), punctual, 1)
     its = LAG, found[0].sight
     others = [fault for fault in others if (fault.kind, fault.sight) != its]
     return [found[0], *others][:MOST]
 
 
-def _faults(geometry: Calibration, observations: Observations) -> list[Fault]:
-    """The same, all by one linearisation."""
-    model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
-    parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
-    parameters[: len(estimate.parameters)] = estimate.parameters
-    terms = model.terms(observations.joints)
-    linear = Linearisation(model, parameters / model.deviations, observations, terms)
-    residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
-    lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
-    weights = np.sqrt(np.minimum(1, FAR / np.maximum(lengths, FAR)))
-    residuals, weights = residuals * weights, weights / np.repeat(estimate.noise, 3)
-    arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
+def _faults(geometry: Calibration, observations: Observations, power: int) -> list[Fault]:
+    """The same, all by one linearisation, with weights that fall by a power of the distance."""
+    residuals, arm, weights, model = slopes_of(geometry, observations, power)
+    estimate = geometry.estimate
     slides = model.nominal.slides
     postures = find_postures(observations.joints, slides, estimate.noise[0])
     alike = len(observations) / len(postures)
@@ -94,12 +89,13 @@ def _faults(geometry: Calibration, observations: Observations) -> list[Fault]:
     ]
     found: list[Fault] = []
     while len(found) < MOST:  # the plainest first, then what it does not explain
-        rest = _Unexplained(residuals, arm, alike)
+        rest = Unexplained(residuals, arm, alike)
         tried = [(*rest.plainest(candidate), candidate) for candidate in candidates]
         share, after, by, (kind, rows, columns, _) = max(tried, key=lambda one: one[0])
         if share < SHARE:
             break
-        size, turn = by[0] if kind == LAG else np.linalg.norm(by[:3]), np.linalg.norm(by[3:])
+        size = by[0] if len(by) == 1 else np.linalg.norm(by[:3])
+        turn = np.linalg.norm(by[3:])
         series = observations.series == observations.series[rows[after]]
         row, sight = int(series[: rows[after]].sum()), int(observations.targets[rows[after]])
         found.append(Fault(kind, float(size), row, float(turn), sight))
@@ -107,6 +103,37 @@ def _faults(geometry: Calibration, observations: Observations) -> list[Fault]:
         further[rows[after:]] = columns[after:]
         arm = np.concatenate([arm, further], axis=2)
     return found
+
+
+class Slopes(NamedTuple):
+    """Residuals and their slopes, weighted.
+
+    Attributes:
+        residuals: (n, k) over their noise.
+        arm: (n, k, P) their slopes by the model's parameters over their deviations.
+        weights: (n, k) of both.
+        model: geometry with joint errors.
+    """
+
+    residuals: np.ndarray
+    arm: np.ndarray
+    weights: np.ndarray
+    model: ErrorModel
+
+
+def slopes_of(geometry: Calibration, observations: Observations, power: int) -> Slopes:
+    """Those of all rows, which count less the farther off they are, by a power of the distance."""
+    model = ErrorModel(geometry.model.nominal, JOINT_ERRORS, geometry.model.frames)
+    parameters, estimate = np.zeros_like(model.deviations), geometry.estimate
+    parameters[: len(estimate.parameters)] = estimate.parameters
+    terms = model.terms(observations.joints)
+    linear = Linearisation(model, parameters / model.deviations, observations, terms)
+    residuals = np.concatenate([*linear.residuals], axis=1) / np.repeat(estimate.noise, 3)
+    lengths = np.linalg.norm(residuals, axis=1, keepdims=True)
+    weights = np.sqrt(FAR / np.maximum(lengths, FAR)) ** power
+    residuals, weights = residuals * weights, weights / np.repeat(estimate.noise, 3)
+    arm = np.concatenate([*linear.jacobians], axis=1) * weights[..., None]
+    return Slopes(residuals, arm, weights, model)
 
 
 def _without(lag: Fault, observations: Observations) -> Observations:
@@ -117,7 +144,7 @@ def _without(lag: Fault, observations: Observations) -> Observations:
     return replace(observations, joints=joints)
 
 
-class _Candidate(NamedTuple):
+class Candidate(NamedTuple):
     """A fault that there may be.
 
     Attributes:
@@ -134,13 +161,16 @@ class _Candidate(NamedTuple):
     ends: int = 0
 
 
-def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_Candidate]:
+def _candidates(geometry: Calibration, observations: Observations) -> Iterator[Candidate]:
     """All of them, whose columns are those of whitened residuals."""
     times = _times(observations)
     poses = geometry.predict(observations.joints, observations.targets)
     instruments, targets = geometry.model.frames.sights[observations.targets].T
     known = slice(3 * observations.kinds)  # the rotation of a point is not measured
     moved = observations.whitened(_moved(poses, instruments)[:, known])
+    grown = np.zeros((len(poses), 6, 1))
+    grown[:, :3, 0] = poses[:, :3, 3] - geometry.frames.bases[instruments, :3, 3]
+    grown = observations.whitened(grown[:, known])
     slipped = observations.whitened(_slipped(poses)[:, known, known])
     passed = np.zeros(len(observations))
     for number in np.unique(observations.series):
@@ -149,13 +179,14 @@ def _candidates(geometry: Calibration, observations: Observations) -> Iterator[_
         if clock[0] == clock[-1]:  # a camera that took one picture: nothing is late or drifts
             continue
         passed[rows] = (clock - clock[0]) / np.ptp(clock)
-        yield _Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
-        yield _Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
+        yield Candidate(LAG, rows, its.whitened(_late(geometry, its, clock))[..., None])
+        yield Candidate(DRIFT, rows, moved[rows] * passed[rows, None, None])
+        yield Candidate(GROWTH, rows, grown[rows] * passed[rows, None, None])
     along = passed if observations.times is None else times
     for kind, numbers, columns in ((JUMP, instruments, moved), (SLIP, targets, slipped)):
         for number in np.unique(numbers):
             for rows in _orders(np.flatnonzero(numbers == number), observations.series, along):
-                yield _Candidate(kind, rows, columns[rows], ENDS)
+                yield Candidate(kind, rows, columns[rows], ENDS)
 
 
 def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator[np.ndarray]:
@@ -167,7 +198,7 @@ def _orders(rows: np.ndarray, series: np.ndarray, along: np.ndarray) -> Iterator
         yield rows[np.argsort(along[rows], kind="stable")]
 
 
-class _Unexplained:
+class Unexplained:
     """What an arm does not explain of weighted rows, and what further parameters would.
 
     Args:
@@ -186,7 +217,7 @@ class _Unexplained:
         self._squares = np.sum(residuals**2) - self._gradient @ self._solve(self._gradient)
         self._free = np.count_nonzero(residuals) - np.trace(self._solve(information))
 
-    def plainest(self, candidate: _Candidate) -> tuple[float, int, np.ndarray]:
+    def plainest(self, candidate: Candidate) -> tuple[float, int, np.ndarray]:
         """A fault's share of the unexplained squares, 0 where that may be chance.
 
         Returns also with which of its rows it begins, and its parameters (c,).

@@ -9,7 +9,7 @@ from recalib.identification.model.frames import HELD
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.report.parameters import described, unidentifiable_directions
-from recalib.laboratory.tables.fault_words import in_words
+from recalib.laboratory.tables.fault_words import coupling_in_words, in_words
 from recalib.spelling import counted
 
 RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
@@ -30,6 +30,8 @@ def doubts(result: Calibrated) -> Iterator[str]:
     session = result.observations, result.frames, result.tables, result.instruments, result.ends
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."
+    if result.coupling and not result.mistake:
+        yield f"Careful: {coupling_in_words(result.coupling, result.arm.joints)}."
     yield from _outvoted(result)
     if not result.mistake:
         yield from _worn(result)
@@ -64,9 +66,9 @@ def _worn(result: Calibrated) -> Iterator[str]:
 
 def _open(result: Calibrated) -> Iterator[str]:
     """What postures leave open that others would tell."""
-    words = [words for words, others_tell in unidentifiable_directions(result) if others_tell]
-    if not words:
+    if not result.unseen:
         return
+    words = [words for words, others_tell in unidentifiable_directions(result) if others_tell]
     words.sort(key=lambda its: not any(end in its for end in ENDS))
     axes = turned_axes(result.arm.forward(result.observations.joints))
     turns = ["never turned", "turned about one axis alone", "turned about two axes alone"]
@@ -75,10 +77,9 @@ def _open(result: Calibrated) -> Iterator[str]:
     tool = f"{result.arm.tool} {turns[len(axes)]}{where}" if len(axes) < 3 else "postures are alike"
     rest = len(words) - MOST
     more = f"; and {counted(rest, 'further direction')}" if rest > 0 else ""
-    yield (
-        f"Careful: {tool}, so all that is said here holds for such postures only. These rows do not"
-        f" determine {'; '.join(words[:MOST])}{more}: these stay as given."
-    )
+    named = f" These rows do not determine {'; '.join(words[:MOST])}{more}: these stay as given."
+    only = f"Careful: {tool}, so all that is said here holds for such postures only."
+    yield only + named * bool(words)
 
 
 def _resized(result: Calibrated) -> Iterator[str]:

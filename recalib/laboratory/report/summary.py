@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from recalib.identification.held_out import HeldOut
 from recalib.identification.validation import (
     BLOCKWISE,
     GEOMETRIC,
@@ -34,16 +35,25 @@ BEYOND = 0.5  # deg, mm: limits are rounded
 
 
 def errors_table(result: Calibrated) -> list[dict[str, Any]]:
-    """For each way of folding, quantity and what is done: mean, 95 % and largest error."""
-    rows = []
+    """For each way of folding, quantity and what is done: mean, 95 % and largest error.
+
+    The last rows are of what is used on outliers, which all others leave out.
+    """
+    validation, rows = result.validation, []
+
+    def add(held_out: HeldOut, folds: str, what: str, chosen: bool) -> None:
+        for number, (scale, unit) in enumerate(UNITS[: held_out.errors.shape[1]]):
+            errors = held_out.errors[:, number]
+            numbers = scale * np.array([errors.mean(), held_out.radius(number), errors.max()])
+            row = {"folds": folds, "what": what, "chosen": chosen, "unit": unit}
+            rows.append(row | dict(zip(NUMBERS, numbers.tolist(), strict=True)))
+
     for way in WAYS:
         for kind in KINDS:
-            errors = result.validation.errors(way, kind)[result.validation.counted]
-            chosen = kind == result.validation.chosen
-            for (scale, unit), its in zip(UNITS, errors.T, strict=False):
-                row = {"folds": way, "what": DOING[kind], "chosen": chosen, "unit": unit}
-                numbers = scale * np.array([its.mean(), np.quantile(its, 0.95), its.max()])
-                rows.append(row | dict(zip(NUMBERS, numbers.tolist(), strict=True)))
+            add(validation.held_out_by(way, kind), way, DOING[kind], kind == validation.chosen)
+    if left := int(np.sum(~validation.counted)):
+        outliers = validation.held_out[BLOCKWISE][validation.chosen][~validation.counted]
+        add(outliers, "left out", f"{counted(left, 'row')}, as outliers", False)
     return rows
 
 
@@ -58,18 +68,19 @@ def verdict(result: Calibrated) -> str:
 
 
 def _worth(result: Calibrated) -> str:
-    chosen = result.validation.chosen
+    chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
+    without = f", {left} of {len(result.observations)} rows left out as outliers" if left else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
     within = 1e3 * result.validation.radius
     if not result.worthwhile:
         return (
             "Correcting is no better than doing nothing: on postures that were not learned from,"
-            f" the nominal arm's mean error of {before:.3g} mm does not fall."
+            f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
         )
     return (
         f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
-        f" {after:.3g} mm, 95 % within {within:.3g} mm; near them, to {at_random:.3g} mm."
+        f" {after:.3g} mm, 95 % within {within:.3g} mm; near them, to {at_random:.3g} mm{without}."
     )
 
 
@@ -93,6 +104,7 @@ def _lines(result: Calibrated) -> Iterator[str]:
         yield f"{row['folds']:<12}{what:<34}{numbers} {row['unit']}"
     yield "* used. Each row was predicted by a calibration without it: at random among postures"
     yield "like it, or in blocks of joint space, away from all postures that were measured."
+    yield "95 %: within it lie 95 % of the rows of each part that was held out."
     yield ""
     yield from _notes(result)
 
@@ -142,9 +154,15 @@ def _notes(result: Calibrated) -> Iterator[str]:
         yield f"outliers, rows with almost no weight: {listed}{more}"
     covered = 100 * result.validation.coverage(BLOCKWISE)
     yield (
-        f"95 % of positions should lie within {1e3 * result.validation.radius:.3g} mm, also in"
-        f" places away from those measured (held out: {covered:.0f} %)"
+        f"95 % within {1e3 * result.validation.radius:.3g} mm, also away from what was measured; so"
+        f" made from the other parts, it holds for {covered:.0f} % of the rows held out"
     )
+    for way in WAYS:
+        if lost := int(np.sum(result.validation.lost[way])):
+            yield (
+                f"errors {way} leave out {counted(lost, 'row')}: without their part, the others do"
+                " not determine all that all rows do"
+            )
     directions = unidentifiable_directions(result)
     passing = [words for words, other_postures_tell in directions if other_postures_tell]
     for words in passing[:MOST]:

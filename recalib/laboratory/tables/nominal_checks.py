@@ -168,6 +168,13 @@ def _steps(arm: Arm) -> Iterator[tuple[str, Change, Change]]:
         names = f"{arm.joints[one]} and {arm.joints[other]}"
         exchanged = partial(np.take, indices=order, axis=1)
         yield f"the columns of {names} exchanged", exchanged, np.asarray
+        if other == one + 1 and arm.slides[one] == arm.slides[other]:  # as of a parallelogram
+            for column, by, sign in ((other, one, 1), (other, one, -1), (one, other, 1)):
+                change = np.eye(count)
+                change[by, column] = -sign
+                words = f"{arm.joints[column]} {'plus' if sign > 0 else 'minus'} {arm.joints[by]}"
+                without = partial(np.dot, b=change)
+                yield f"a column {arm.joints[column]} that holds {words}", without, np.asarray
     yield "the joint columns in reverse order", np.fliplr, np.asarray
     for rows, row in ((-1, "before"), (1, "after")):
         rolled = partial(np.roll, shift=rows, axis=0)
