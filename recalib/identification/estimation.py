@@ -122,6 +122,9 @@ def identify(
             known, offset = _optics(model, observations.optics)
             precision += known
             gradient += offset - known @ parameters
+        if model.stated.any():
+            precision += model.stated
+            gradient -= model.stated @ parameters
         precision[diagonal] += 1 / variances
         try:
             step, step_norm, covariance, volume = _posterior(precision, gradient)

@@ -242,7 +242,8 @@ def calibrate_arm(
     on_progress("initial estimate of instrument and target")
     names = sight_names(instruments, targets, sights)
     known = given.instrument, given.target
-    frames = frames_by_sights(arm, replace(observations, optics=None), sights, names, *known)
+    without_optics = replace(observations, optics=None)
+    frames = given.stated_in(frames_by_sights(arm, without_optics, sights, names, *known))
     if observations.optics is not None:
         frames = frames.with_optics(observations.optics)
         observations = weigh(ErrorModel(arm, OFFSETS, frames), observations)

@@ -18,13 +18,13 @@ parameters: the prior keeps them small.
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import reduce
+from functools import cached_property, reduce
 from operator import or_
 
 import numpy as np
 import pinocchio as pin
 
-from recalib.identification.model.frames import HELD, LINK, UNKNOWN, Frames
+from recalib.identification.model.frames import HELD, UNKNOWN, Frames
 from recalib.nominal.kinematics import Arm, tool_frame
 
 # By name, a function of the nominal arm and of joint coordinates (n, joints) [rad, m] with a value
@@ -56,8 +56,6 @@ JOINT_WAVES = reduce(
     or_, (_waves(order, np.radians(0.05) / order) for order in range(2, 25)), JOINT_ERRORS
 )
 
-OFFSET_OF_A_SLIDE = LINK[0]  # m, in the place of the offset of a joint that turns
-
 
 class ErrorModel:
     """The kinematics of an arm as a function of its parameters.
@@ -88,7 +86,7 @@ class ErrorModel:
         self._twists = 6 * (ends + len(self.frames.further))  # how many parameters are of twists
         self._optics = self._twists + sockets.size
         self._geometry = self._optics + len(self.frames.optics_deviations)
-        links = [LINK] * (self._joints - 1)
+        links = [self.frames.link_deviations] * (self._joints - 1)
         links += [self.frames.target_deviations] * len(targets)
         links += [self.frames.base_deviations] * len(self.frames.further)
         twists = np.repeat([self.frames.base_deviations, *links], 3, axis=1).ravel()
@@ -125,7 +123,8 @@ class ErrorModel:
         deviations = np.array(scales)
         slides = self.nominal.slides
         deviations[:, slides] = HELD
-        deviations[0, slides] = OFFSET_OF_A_SLIDE
+        deviations[0] = self.frames.offset_deviation or deviations[0]
+        deviations[0, slides] = self.frames.link_deviations[0]  # in the place of a turn's
         if self.nominal.massless and "compliance" in self.names:
             deviations[self.names.index("compliance")] = HELD
         return np.where(np.array(scales) > HELD, deviations, HELD)
@@ -137,6 +136,25 @@ class ErrorModel:
     def sockets(self, parameters: np.ndarray) -> np.ndarray:
         """The sockets' centres (socket, 3) [m] in the frame of the instrument."""
         return self.frames.sockets + parameters[self.socket_columns].reshape(-1, 3)
+
+    @cached_property
+    def stated(self) -> np.ndarray:
+        """The information (P, P) that is stated of frames, on parameters over their deviations."""
+        frames, information = self.frames, np.zeros((len(self.deviations),) * 2)
+        into_base, into_tool = frames.base[:3, :3].T, self._tool.rotation.T
+        ends = [(0, into_base, np.zeros(3), frames.base_prior)]
+        ends += [
+            (self._joints + number, into_tool, (self._tool * pin.SE3(target)).translation, prior)
+            for prior in [frames.target_prior]
+            for number, target in enumerate(frames.targets)
+        ]
+        for number, turn, point, prior in ends:
+            if len(prior):  # how the end's point moves and turns with the twist, over its deviation
+                columns, moves = slice(6 * number, 6 * number + 6), np.kron(np.eye(2), turn)
+                moves[:3, 3:] = -turn @ pin.skew(point)
+                slopes = moves * self.deviations[columns] / prior[:, None]
+                information[columns, columns] = slopes.T @ slopes
+        return information
 
     @property
     def size(self) -> int:

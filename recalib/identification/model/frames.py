@@ -38,6 +38,11 @@ class Frames:
         optics_kinds: (o,) which of `OPTICS` they are; the first of them unless given.
         sights: (s, 2) the numbers of the instrument and of the target of each sight; the first
             instrument's of each target unless given.
+        base_prior, target_prior: (6,) m and rad, standard deviations of the instrument's pose along
+            the axes of the arm's base, and of the targets' along those of the tool; none where they
+            are unknown or exact. What has them is an estimate.
+        link_deviations, offset_deviation: of links [m, rad] and joint offsets [rad] before anything
+            is known; the latter is that of the joint terms unless given.
     """
 
     base: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -49,6 +54,10 @@ class Frames:
     targets_unknown: bool = False
     optics_deviations: np.ndarray = field(default_factory=lambda: np.empty(0))
     further: np.ndarray = field(default_factory=lambda: np.empty((0, 4, 4)))
+    base_prior: np.ndarray = field(default_factory=lambda: np.empty(0))
+    target_prior: np.ndarray = field(default_factory=lambda: np.empty(0))
+    link_deviations: tuple[float, float] = LINK
+    offset_deviation: float = 0.0
     optics_kinds: np.ndarray = None  # type: ignore[assignment]  # __post_init__ makes it
     sights: np.ndarray = None  # type: ignore[assignment]  # likewise
 
@@ -63,6 +72,17 @@ class Frames:
     def bases(self) -> np.ndarray:
         """The poses (instrument, 4, 4) [m] of the arm's base in the frame of each instrument."""
         return np.concatenate([self.base[None], self.further])
+
+    def with_priors(self, base: np.ndarray | None, target: np.ndarray | None) -> "Frames":
+        """The same, of which one or both are known within deviations (6,), see above."""
+        frames = self
+        if base is not None:
+            unknown = {"base_unknown": True, "base_deviations": UNKNOWN}
+            frames = replace(frames, base_prior=base, **unknown)  # type: ignore[arg-type]
+        if target is not None:
+            unknown = {"targets_unknown": True, "target_deviations": UNKNOWN}
+            frames = replace(frames, target_prior=target, **unknown)  # type: ignore[arg-type]
+        return frames
 
     def with_optics(self, optics: Optics) -> "Frames":
         """The same, with the optics of cameras as parameters."""

@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import Any
 
@@ -12,10 +12,13 @@ from scipy.spatial.transform import Rotation
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
 from recalib.files.storage import read_file
+from recalib.identification.model.frames import LINK, Frames
 from recalib.laboratory.tables.columns import FARTHEST
 from recalib.spelling import listed
 
-PARTS = "columns", "instrument", "target", "distance"
+PARTS = "columns", "instrument", "target", "distance", "wear"
+FRAMES = "instrument", "target"
+EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
 MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
@@ -28,6 +31,10 @@ class Description:
         columns: by a heading of the table, what should have stood there, or "ignored".
         instrument: (4, 4) m in the arm's base frame; None where it is unknown.
         target: (4, 4) m in the tool link's frame; None where it is unknown.
+        instrument_deviations, target_deviations: (6,) m and rad, how well they are known along and
+            about the axes of those frames; None where they are unknown, or exact.
+        encoders: rad, by how much an encoder's zero may be off; 0 where it is not stated.
+        links: m and rad, by how much a link may be off; None likewise.
         distances: m between the centres of two sockets, by their names in alphabetical order.
     """
 
@@ -35,6 +42,19 @@ class Description:
     instrument: np.ndarray | None = None
     target: np.ndarray | None = None
     distances: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    instrument_deviations: np.ndarray | None = None
+    target_deviations: np.ndarray | None = None
+    encoders: float = 0.0
+    links: tuple[float, float] | None = None
+
+    def stated_in(self, frames: Frames) -> Frames:
+        """The same frames, as well known as is stated, of an arm with wear as is stated."""
+        frames = frames.with_priors(self.instrument_deviations, self.target_deviations)
+        frames = replace(frames, offset_deviation=self.encoders)
+        if self.links is None:
+            return frames
+        ends = self.links if frames.target_deviations == LINK else frames.target_deviations
+        return replace(frames, link_deviations=self.links, target_deviations=ends)
 
 
 def read_description(path: str | PathLike[str]) -> Description:
@@ -44,12 +64,17 @@ def read_description(path: str | PathLike[str]) -> Description:
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, listed(PARTS, "or"))
-        instrument, target = (_pose(part, parts) for part in ("instrument", "target"))
+        (instrument, near), (target, next_to) = (_pose(part, parts) for part in FRAMES)
+        encoders, links = _wear(parts.get("wear", {}))
         return Description(
             _columns(parts.get("columns", {})),
             instrument,
             target,
             _distances(parts.get("distance", [])),
+            near,
+            next_to,
+            encoders,
+            links,
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
@@ -65,24 +90,50 @@ def _columns(given: Any) -> dict[str, str]:
     return given
 
 
-def _pose(part: str, parts: Mapping[str, Any]) -> np.ndarray | None:
+def _pose(part: str, parts: Mapping[str, Any]) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """A pose (4, 4) [m], and its deviations (6,) [m, rad]; None of what is not stated."""
     if part not in parts:
-        return None
+        return None, None
     given = parts[part]
     if not isinstance(given, dict) or not given or given.keys() - ORIGIN.keys():
         raise InvalidSetting(part, given, f"{' and '.join(ORIGIN)}")
     numbers = ORIGIN | given
     pose = np.eye(4)
-    pose[:3, 3] = _vector(f"{part}.position", numbers["position"], LENGTH)
-    turns = _vector(f"{part}.roll_pitch_yaw", numbers["roll_pitch_yaw"], ANGLE)
+    pose[:3, 3], along = _vector(f"{part}.position", numbers["position"], LENGTH)
+    turns, about = _vector(f"{part}.roll_pitch_yaw", numbers["roll_pitch_yaw"], ANGLE)
     pose[:3, :3] = Rotation.from_euler("xyz", turns).as_matrix()
-    return pose
+    deviations = np.concatenate([along, about])
+    return pose, np.maximum(deviations, EXACT) if deviations.any() else None
 
 
-def _vector(key: str, given: Any, kind: Quantity) -> list[float]:
+def _vector(key: str, given: Any, kind: Quantity) -> np.ndarray:
+    """Values and deviations (2, 3) of quantities such as "3 mm" or "3 mm +- 1 mm"."""
     if not isinstance(given, list) or len(given) != 3:
-        raise InvalidSetting(key, given, "a list of three quantities")
-    return [_read(key, text, kind) for text in given]
+        raise InvalidSetting(key, given, 'a list of three quantities such as "3 mm +- 1 mm"')
+    parts = [str(text).split("+-", 1) for text in given]
+    values = [_read(key, part[0], kind) for part in parts]
+    within = [_positive(key, part[1], kind) if part[1:] else 0.0 for part in parts]
+    return np.array([values, within])
+
+
+def _wear(given: Any) -> tuple[float, tuple[float, float] | None]:
+    """By how much encoders [rad] and links [m, rad] may be off; 0 and None if it is not stated."""
+    if not isinstance(given, dict) or given.keys() - {"encoders", "links"}:
+        raise InvalidSetting("wear", given, 'encoders = "1 deg" and links = ["2 mm", "0.1 deg"]')
+    encoders, links = given.get("encoders"), given.get("links")
+    if links is not None and (not isinstance(links, list) or len(links) != 2):
+        raise InvalidSetting("wear.links", links, 'a length and an angle: ["2 mm", "0.1 deg"]')
+    pairs = zip(links or (), (LENGTH, ANGLE), strict=False)
+    off = [_positive("wear.links", text, kind) for text, kind in pairs]
+    angle = 0.0 if encoders is None else _positive("wear.encoders", encoders, ANGLE)
+    return angle, (off[0], off[1]) if off else None
+
+
+def _positive(key: str, text: Any, kind: Quantity) -> float:
+    number = _read(key, text, kind)
+    if number <= 0:
+        raise InvalidSetting(key, text, "more than zero")
+    return number
 
 
 def _distances(given: Any) -> dict[tuple[str, str], float]:
@@ -105,10 +156,7 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
     if len(pair) != 2 or pair[0] == pair[1]:
         raise InvalidSetting("distance.sockets", between, "the names of two sockets")
     one, other = sorted(pair)
-    length = _read("distance.length", given["length"], LENGTH)
-    if length <= 0:
-        raise InvalidSetting("distance.length", given["length"], "more than zero")
-    return (one, other), length
+    return (one, other), _positive("distance.length", given["length"], LENGTH)
 
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
