@@ -19,7 +19,7 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms initial_estimate estimation parameters calibration consensus design checks
+    model closed_forms initial_estimate unseen estimation parameters calibration consensus design checks
     held_out validation
 """.split()  # noqa: SIM905
 LABORATORY = """

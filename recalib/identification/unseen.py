@@ -5,6 +5,8 @@ that is bent shows them a little, after all; but there, a small misfit of anothe
 decimetres. So what rows say of them is left out, and the prior alone decides: they stay as given.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from recalib.identification.model.error_model import ErrorModel
@@ -32,7 +34,7 @@ class Unseen:
         here = _slopes(model, observations)[:, columns] * wear
         values, vectors = np.linalg.eigh(here.T @ here / len(observations))
         unseen = vectors[:, values < NOTHING**2]
-        there = _slopes(model, _anywhere(model, observations))[:, columns] * wear @ unseen
+        there = _slopes(model, anywhere(model, observations, POSTURES))[:, columns] * wear @ unseen
         values, vectors = np.linalg.eigh(there.T @ there / POSTURES)
         unseen = unseen @ vectors[:, values > SOMETHING**2]
         self.directions, self._across = np.zeros((2, size, unseen.shape[1]))
@@ -59,17 +61,14 @@ def _slopes(model: ErrorModel, observations: Observations) -> np.ndarray:
     return (jacobians * levers).reshape(-1, len(origin))
 
 
-def _anywhere(model: ErrorModel, observations: Observations) -> Observations:
-    """Observations of the same kind in other postures."""
-    arm, rng = model.nominal.model, generator(0, "unseen")
+def anywhere(model: ErrorModel, observations: Observations, count: int) -> Observations:
+    """So many observations of the same kind, of all targets, all over the joints' ranges."""
+    arm, rng, rows = model.nominal.model, generator(0, "anywhere"), np.arange(count)
     low, high = (
         np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
     )
-    rows = np.arange(POSTURES) % len(observations)
-    joints = rng.uniform(low, high, (POSTURES, len(low)))
-    return Observations(
-        joints,
-        None if observations.measured is None else observations.measured[rows],
-        observations.targets[rows],
-        None if observations.sockets is None else observations.sockets[rows],
+    others = observations[rows % len(observations)]
+    targets = rows % (int(observations.targets.max()) + 1)
+    return replace(
+        others, joints=rng.uniform(low, high, (count, len(low))), targets=targets, optics=None
     )

@@ -16,9 +16,8 @@ from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD
 from recalib.identification.model.linearisation import Linearisation
 from recalib.identification.model.observations import Observations
-from recalib.identification.unseen import Unseen
+from recalib.identification.unseen import Unseen, anywhere
 from recalib.nominal.newton import solve_groups
-from recalib.numerics.randomness import generator
 
 TOLD = 1.0  # information over that of the prior from which on a parameter is told apart
 POSTURES = 200  # all over the joints' ranges, to see what any measurements of the kind would tell
@@ -53,8 +52,11 @@ def unidentifiable_parameters(
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
     root = Unseen(model, observations).left_out(_root(calibration, observations, estimate.weights))
-    anywhere = _anywhere(calibration, observations)
-    more = _root(calibration, anywhere, np.ones(len(anywhere)))
+    others = anywhere(model, observations, POSTURES)
+    if observations.sockets is not None:
+        pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
+        others = _seated(calibration, others.joints, pairs)
+    more = _root(calibration, others, np.ones(len(others)))
     # What goes along an axis is the same before and behind it. By a bent link alone the first of
     # two such parameters looks told, and then the second by nothing: so the first comes last.
     its = root[:, order]
@@ -99,24 +101,6 @@ def _root(calibration: Calibration, observations: Observations, weights: np.ndar
         rows = jacobians * (np.sqrt(weights) / noise)[:, None, None]
         root = np.linalg.qr(np.concatenate([root, rows.reshape(-1, len(parameters))])).R
     return root
-
-
-def _anywhere(calibration: Calibration, observations: Observations) -> Observations:
-    """Observations of the same kind, of all targets, in postures all over the joints' ranges.
-
-    A ball goes into its sockets from there, by the shortest way.
-    """
-    arm, rng = calibration.model.nominal.model, generator(0, "openness")
-    low, high = (
-        np.clip(at, -np.pi, np.pi) for at in (arm.lowerPositionLimit, arm.upperPositionLimit)
-    )
-    joints = rng.uniform(low, high, (POSTURES, len(low)))
-    if observations.sockets is not None:
-        pairs = np.unique(np.stack([observations.targets, observations.sockets]), axis=1)
-        return _seated(calibration, joints, pairs)
-    targets = np.arange(POSTURES) % (observations.targets.max() + 1)
-    poses = calibration.model.predict(calibration.estimate.parameters, joints, targets)
-    return Observations(joints, poses if observations.kinds == 2 else poses[:, :3, 3], targets)
 
 
 def _seated(calibration: Calibration, joints: np.ndarray, pairs: np.ndarray) -> Observations:

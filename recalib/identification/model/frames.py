@@ -77,12 +77,11 @@ class Frames:
         """The same, of which one or both are known within deviations (6,), see above."""
         frames = self
         if base is not None:
-            unknown = {"base_unknown": True, "base_deviations": UNKNOWN}
-            frames = replace(frames, base_prior=base, **unknown)  # type: ignore[arg-type]
-        if target is not None:
-            unknown = {"targets_unknown": True, "target_deviations": UNKNOWN}
-            frames = replace(frames, target_prior=target, **unknown)  # type: ignore[arg-type]
-        return frames
+            frames = replace(frames, base_prior=base, base_unknown=True, base_deviations=UNKNOWN)
+        if target is None:
+            return frames
+        frames = replace(frames, target_prior=target, targets_unknown=True)
+        return replace(frames, target_deviations=UNKNOWN)
 
     def with_optics(self, optics: Optics) -> "Frames":
         """The same, with the optics of cameras as parameters."""

@@ -110,7 +110,7 @@ def _vector(key: str, given: Any, kind: Quantity) -> np.ndarray:
     """Values and deviations (2, 3) of quantities such as "3 mm" or "3 mm +- 1 mm"."""
     if not isinstance(given, list) or len(given) != 3:
         raise InvalidSetting(key, given, 'a list of three quantities such as "3 mm +- 1 mm"')
-    parts = [str(text).split("+-", 1) for text in given]
+    parts = [text.split("+-", 1) if isinstance(text, str) else [text] for text in given]
     values = [_read(key, part[0], kind) for part in parts]
     within = [_positive(key, part[1], kind) if part[1:] else 0.0 for part in parts]
     return np.array([values, within])
