@@ -92,8 +92,7 @@ def correct(correction: Correction, desired: Measurements, in_instrument: bool =
 
 def outside_measured(commands: Commands) -> str | None:
     """The commands whose poses are not among those that were measured, in words."""
-    rows = np.flatnonzero(commands.outside.any(axis=1))
-    if not len(rows):
+    if not (count := np.count_nonzero(commands.outside.any(axis=1))):
         return None
     parts = zip(("", "turned "), (1e3, 180 / np.pi), ("mm", "deg"), commands.outside.T, strict=True)
     farthest = [
@@ -102,7 +101,7 @@ def outside_measured(commands: Commands) -> str | None:
         if far.any()
     ]
     return (
-        f"{len(rows)} of {counted(len(commands.outside), 'command')} take the arm to poses outside"
+        f"{count} of {counted(len(commands.outside), 'command')} take the arm to poses outside"
         f" those measured, where its errors are unknown; the farthest: {' and '.join(farthest)}"
     )
 
