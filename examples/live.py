@@ -10,7 +10,7 @@ from recalib import Corrector, LiveSettings, calibrate_arm, calibrate_live, load
 
 arm, station = load_arm("ur10_robot.urdf", "tool0"), BentUR10()
 table = Path(tempfile.mkdtemp()) / "measurements.csv"
-calibrate_live(lambda: station, arm, table, LiveSettings(most=30), lambda posture: True)
+calibrate_live(lambda: station, arm, table, LiveSettings(most=30))
 corrector = Corrector(calibrate_arm("ur10_robot.urdf", table, tool="tool0").correction)
 
 near = np.array([0.1, -1.0, 1.8, -2.2, -1.5, 0.1])

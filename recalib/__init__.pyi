@@ -36,8 +36,9 @@ from recalib.laboratory.calibrate import calibrate_arm as calibrate_arm
 from recalib.laboratory.correction.archive import load_correction as load_correction
 from recalib.laboratory.correction.correct import correct as correct
 from recalib.laboratory.correction.corrector import Corrector as Corrector
-from recalib.laboratory.live.calibration import LiveSettings as LiveSettings
-from recalib.laboratory.live.calibration import calibrate_live as calibrate_live
+from recalib.laboratory.live.session import Answer as Answer
+from recalib.laboratory.live.session import LiveSettings as LiveSettings
+from recalib.laboratory.live.session import calibrate_live as calibrate_live
 from recalib.laboratory.report.summary import verdict as verdict
 from recalib.laboratory.tables.measurements import Measurements as Measurements
 from recalib.learners.gaussian_process import GaussianProcessLearner as GaussianProcessLearner
@@ -72,6 +73,7 @@ from recalib.nominal.poses import orientation_error as orientation_error
 from recalib.nominal.poses import position_error as position_error
 from recalib.nominal.robots import Robot as Robot
 from recalib.nominal.robots import load_robot as load_robot
+from recalib.nominal.shapes import load_shapes as load_shapes
 from recalib.station.interface import Station as Station
 from recalib.station.interface import StationFailed as StationFailed
 from recalib.station.program import ProgramStation as ProgramStation

@@ -19,8 +19,8 @@ STUDY = """
     recording studies
 """.split()  # noqa: SIM905
 IDENTIFICATION = """
-    model closed_forms initial_estimate unseen estimation parameters calibration consensus design checks
-    held_out validation
+    model closed_forms initial_estimate unseen estimation parameters calibration consensus design
+    checks held_out validation arm_as_right
 """.split()  # noqa: SIM905
 LABORATORY = """
     tables arms correction pictures places calibrate propose viewer live report options command_line
@@ -33,26 +33,21 @@ EVIDENCE = """
 LOOKS = {
     "laboratory/report/drawings.py": {"matplotlib"},
     "laboratory/report/page.py": {"jinja2"},
-    "laboratory/live/view.py": {"rerun"},
     "laboratory/report/recording.py": {"rerun"},
     "laboratory/viewer/arms.py": {"rerun"},
 }
 PROGRAM = {"laboratory/viewer/program.py": {"rerun_cli"}}  # of the viewer, which comes with rerun
+SHAPES = {"laboratory/live/clearance.py": {"coal"}}  # it comes with pin
 # What needs the extra `vision`: modules that nothing imports at once but each other.
 PICTURES = {
     "laboratory/pictures/observe.py": {"cv2"},
+    "laboratory/pictures/observed.py": {"cv2"},
     "laboratory/report/observed_page.py": {"cv2", "matplotlib"},
-    "station/pictures.py": {"cv2"},
     "vision/boards.py": {"cv2"},
-    "vision/detection.py": {"cv2"},
+    "vision/detection.py": {"PIL", "cv2"},
     "vision/lenses.py": {"yaml"},
     "vision/printing.py": {"matplotlib"},
     "vision/views.py": {"cv2"},
-}
-# What needs the extra `live`, likewise.
-LIVE = {
-    "station/camera.py": {"cv2"},
-    "station/engine.py": {"mujoco"},
 }
 # What the library needs beside Python, by the name under which it is installed.
 NEEDED = {
@@ -139,7 +134,7 @@ def test_the_library_knows_of_no_study_and_needs_what_it_declares():
             names = imported(path)
             assert not [name for name in names if name.startswith("recalib.study")], path
             tops = {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"recalib"}
-            looks = (LOOKS | PROGRAM | PICTURES | LIVE).get(
+            looks = (LOOKS | PROGRAM | PICTURES | SHAPES).get(
                 path.relative_to(ROOT / "recalib").as_posix(), set()
             )
             assert tops <= {*NEEDED.values()} | looks, path

@@ -80,6 +80,36 @@ class Calibration:
             poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
         return self._shifted(poses, joints, targets), jacobians
 
+    def position_covariances(
+        self, joints: np.ndarray, shifted: bool, targets: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Covariances (n, 3, 3) [m^2] of predicted positions of targets.
+
+        Args:
+            joints: (n, joints) rad, m.
+            shifted: whether one shift and turn of instrument and target is taken out, of all rows
+                together: how far away a camera is, no picture tells better than its board and lens
+                are known.
+            targets: (n,) the numbers of the sights; the first unless given.
+        """
+        model, estimate = self.model, self.estimate
+        _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints), targets)
+        by_position = jacobians[:, :3].reshape(-1, model.deviations.size)
+        if shifted:
+            ends = np.flatnonzero(model.free[: model.optics_columns.start])
+            shifts = np.linalg.qr(by_position[:, ends]).Q
+            by_position = by_position - shifts @ (shifts.T @ by_position)
+        rows = by_position.reshape(len(joints), 3, -1)
+        return rows @ estimate.covariance @ rows.swapaxes(1, 2)
+
+    def unseen(self, observations: Observations) -> float | np.ndarray:
+        """Deviations (n,) [m] of predicted positions along lines of sight; 0 without cameras."""
+        if observations.optics is None:
+            return 0.0
+        lines = observations.optics.lines
+        spread = self.position_covariances(observations.joints, True, observations.targets)
+        return np.sqrt(np.einsum("ni,nij,nj->n", lines, spread, lines))
+
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""
         predicted = self.predict(observations.joints, observations.targets)

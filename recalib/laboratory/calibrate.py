@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -37,6 +38,9 @@ from recalib.nominal.descriptions import MOST, find_urdf, origin
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted
 
+if TYPE_CHECKING:  # OpenCV is imported only for pictures
+    from recalib.laboratory.pictures.sessions import Sighted
+
 
 @dataclass(frozen=True)
 class Calibrated:
@@ -56,6 +60,7 @@ class Calibrated:
         scales: of boards, of distances between sockets or of all positions, by links as long as the
             URDF has them.
         mistake: what is likely wrong with the rows, in words; see `mistake_in`.
+        sighted: what cameras saw, with their lenses; None without cameras.
     """
 
     urdf: Path
@@ -71,6 +76,7 @@ class Calibrated:
     instruments: tuple[str, ...] = INSTRUMENT
     scales: Mapping[str, Scale] = field(default_factory=dict)
     mistake: str | None = None
+    sighted: "Sighted | None" = None
 
     @property
     def arm(self) -> Arm:
@@ -233,12 +239,12 @@ def calibrate_arm(
     read = [observations_of(rows, given, path) for rows, path in zip(measured, tables, strict=True)]
     observations, targets, sockets = read[0]
     scaled: tuple[str, ...] = ("positions",)
-    instruments, sights = INSTRUMENT, None
+    instruments, sights, sighted = INSTRUMENT, None, None
     if folders:  # OpenCV is imported only for these
-        from recalib.laboratory.pictures.observed import with_pixels
+        from recalib.laboratory.pictures.sessions import with_pixels
 
-        combined = with_pixels([rows for rows, *_ in read], folders)
-        observations, instruments, targets, sights, scaled = combined
+        sighted = with_pixels([rows for rows, *_ in read], folders)
+        observations, instruments, targets, sights, scaled, *_ = sighted
     on_progress("initial estimate of instrument and target")
     names = sight_names(instruments, targets, sights)
     known = given.instrument, given.target
@@ -258,6 +264,7 @@ def calibrate_arm(
         session = observations, frames, tables, instruments, _ends(targets, observations)
         reasons = [in_words(fault, *session) for fault in _not_told(error.faults, mistake)]
         reasons += [f"likely: {mistake}"] if mistake else []
+        reasons += sighted.doubts if sighted else []
         ranges = rows_of(observations, names) if len(tables) > 1 else []
         raise Untrustworthy("; ".join([str(error), *reasons, *ranges])) from None
     return Calibrated(
@@ -274,6 +281,7 @@ def calibrate_arm(
         instruments,
         dict(zip(scaled, scales(arm, observations[validation.counted], frames), strict=True)),
         mistake,
+        sighted,
     )
 
 

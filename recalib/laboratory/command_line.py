@@ -71,12 +71,18 @@ def _no_cache_at_home() -> Iterator[None]:
 
 
 def _live(given: argparse.Namespace) -> int:
+    from recalib.identification.checks.diagnostics import FEWEST
     from recalib.laboratory.live.command import measure_live
 
     observed = Path(given.out).with_name(f"{Path(given.out).name}_observed")
     if given.board is not None:
         check_new(observed, folder=True)
-    _print_progress(f"enough: {measure_live(given, _print_progress)}")
+    ended = measure_live(given, _print_progress)
+    _print_progress(f"ended: {ended.reason}")
+    if ended.rows < FEWEST:
+        rows = counted(ended.rows, "row")
+        print(f"{rows} in {given.table}; a calibration needs {FEWEST}: the same call goes on")
+        return DONE
     given.measurements = [given.table]
     if given.board is not None:  # all corners together tell more, also of the lens
         _write_observed(observed, ".", given.table, given.board, None, given.camera)
@@ -203,7 +209,8 @@ def _write_observed(
     camera: str | None,
     name: str = "camera",
 ) -> None:
-    from recalib.laboratory.pictures.observe import IN_HAND, observe, write_observed
+    from recalib.laboratory.pictures.observe import observe
+    from recalib.laboratory.pictures.observed import IN_HAND, write_observed
     from recalib.laboratory.report.observed_page import write_observed_page
 
     in_hand = camera == IN_HAND

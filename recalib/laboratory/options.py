@@ -62,12 +62,15 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
         "--box", help="ranges of the tool's x, y, z: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'"
     )
     add_default(own, "--speed", 0.1, "share of the possible speed", float)
-    add_default(own, "--patience", "60 s", "time limit of a move or measurement")
+    floor = "height in the arm's base that all stays above, or none"
+    add_default(own, "--floor", "0 mm", floor)
+    own.add_argument(
+        "--no-self-collision", action="store_true", help="let links come near each other"
+    )
     own.add_argument("--board", type=_path, help="board in the station's pictures (TOML)")
     own.add_argument("--lens", type=_path, help="lens calibration (YAML), with --board")
     own.add_argument("--camera", choices=CAMERAS, help="where it is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")
-    own.add_argument("--view", action="store_true", help="show it in a window of rerun")
     add_default(own, "--table", "measurements.csv", "new, or begun by live", _path)
     add_arm(own)
 

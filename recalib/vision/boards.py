@@ -103,8 +103,8 @@ class Board:
         """The part of a TOML that `read_board` reads."""
         lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in ("square", "marker")}
         lines = [
-            f"{its.name} = {lengths.get(its.name) or repr(getattr(self, its.name))}"
-            for its in fields(self)
+            f"{part.name} = {lengths.get(part.name) or repr(getattr(self, part.name))}"
+            for part in fields(self)
         ]
         return "\n".join(["[board]", *lines, ""]).replace("'", '"')
 
@@ -122,7 +122,7 @@ def read_board(path: str | PathLike[str]) -> Board:
     """The board in the TOML at `path`. Raises InvalidFile, which names the key."""
     try:
         given = tomllib.loads(read_file(path, MOST).decode("utf-8")).get("board")
-        names = [its.name for its in fields(Board)]
+        names = [part.name for part in fields(Board)]
         if not isinstance(given, dict) or sorted(given) != sorted(names):
             raise InvalidSetting("[board]", given, ", ".join(names))
         lengths = {name: LENGTH.value_of(name, given[name]) for name in ("square", "marker")}

@@ -63,6 +63,7 @@ def result(
         coupling=None,
         unseen=0,
         unidentifiable=[],
+        sighted=None,
         **NAMES,
     )
 

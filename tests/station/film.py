@@ -3,13 +3,13 @@
 python -m tests.station.film
 """
 
+import mujoco
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
+from simulated_arm import PhysicsStation
 
 from recalib.damaged.plant import Plant
 from recalib.nominal.poses import position_error
-from recalib.station.engine import mujoco
-from recalib.station.physics import PhysicsStation
 from recalib.study.experiments.poses import Stream
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.trainings import rules

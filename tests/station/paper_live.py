@@ -17,6 +17,8 @@ import jinja2
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from simulated_arm import Gears, PhysicsStation
+from simulated_camera import UPWARDS, PicturedStation
 
 from recalib.damaged.damage import DamagedArm, apply
 from recalib.damaged.disturbances import Disturbances, Noise
@@ -28,8 +30,6 @@ from recalib.loop.training import History, train
 from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
-from recalib.station.camera import UPWARDS, PicturedStation
-from recalib.station.physics import Gears, PhysicsStation
 from recalib.study.configuration.damages import damages_among
 from recalib.study.configuration.study import Study
 from recalib.study.experiments.poses import Stream

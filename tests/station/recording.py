@@ -9,11 +9,12 @@ them; where the tool lands is where the physics takes it.
 import os
 from collections.abc import Sequence
 
+from simulated_arm import PhysicsStation
+
 from recalib.damaged.plant import Plant
 from recalib.loop.interfaces import Learner
 from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
-from recalib.station.physics import PhysicsStation
 from recalib.study.experiments.settings import build_tuned
 from recalib.study.plan.competitors import make_peer
 from recalib.study.plan.recordings import Recording, recording

@@ -92,16 +92,20 @@ def test_a_lens_is_read_as_ros_and_as_opencv_write_it(tmp_path):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ("plumb_bob|equidistant", "distortion_model is 'equidistant'; expected: plumb_bob"),
-        ("1105|.nan", "focal lengths above zero"),
-        ("1105|-1105", "focal lengths above zero"),
+        ("plumb_bob|thin_prism", "distortion_model is 'thin_prism'; expected: one of plumb_bob"),
+        ("plumb_bob|equidistant", "has no 4 numbers, as equidistant needs"),
+        ("1105, 0,|.nan, 0,", "camera_matrix has no 9 numbers"),
+        ("1105, 0,|-1105, 0,", "its focal lengths are -1105 and 1102; expected: 64 to 64000 px"),
+        ("1105, 0,|4.2, 0,", "its focal lengths are 4.2 and 1102; expected: 64 to 64000 px"),
+        ("1105, 0,|1105, 3,", "expected: fx 0 cx 0 fy cy 0 0 1"),
+        ("0, 0, 1]|0, 0, 2]", "expected: fx 0 cx 0 fy cy 0 0 1"),
         ("image_width|width_of", "image_width and image_height are no numbers"),
         ("image_width: 1280|image_width: wide", "image_width and image_height are no numbers"),
         ("image_width: 1280|image_width: 0", "image_width and image_height are no numbers"),
-        ("distortion_coefficients|distortions", "no 4, 5 or 8 numbers"),
+        ("distortion_coefficients|distortions", "no 4 or 5 numbers"),
         ("camera_matrix|matrix", "camera_matrix has no 9 numbers"),
         ("image_width: 1280|image_width: 1280.5", "image_width and image_height are no numbers"),
-        ("-0.21|.nan", "no 4, 5 or 8 numbers"),
+        ("-0.21|.nan", "no 4 or 5 numbers"),
         ("distortion_model: plumb_bob|distortion_model: [a]", "distortion_model is ['a']"),
         ("[1105|[[1105", "it is no YAML"),
         pytest.param("[1105|" + 10_000 * "[", "it is no YAML", id="deep"),
@@ -144,7 +148,7 @@ def test_a_lens_is_written_as_ros_reads_it():
     assert said["distortion_model"] == "plumb_bob"
     for name, rows, columns, data in (
         ("camera_matrix", 3, 3, LENS.matrix.ravel().tolist()),
-        ("distortion_coefficients", 1, 5, LENS.distortion.tolist()),
+        ("distortion_coefficients", 1, 5, [*LENS.distortion.tolist(), 0]),
         ("rectification_matrix", 3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]),
         ("projection_matrix", 3, 4, [fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0]),
     ):

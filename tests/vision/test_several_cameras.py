@@ -15,7 +15,7 @@ from recalib.errors import RecalibError
 from recalib.identification.model.linearisation import displacements
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.pictures.observed import fitted_lenses
+from recalib.laboratory.pictures.sessions import fitted_lenses
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
@@ -171,19 +171,20 @@ def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
 
 
 def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
-    """Also where it starts beside the best one of their pictures."""
+    """Also if one folder has another lens in its file: it is found anew by all pictures."""
     result, folders = in_one_fit("two boards")
-    copies = [Path(copytree(its, tmp_path / str(its).replace("/", "_"))) for its in folders]
+    copies = [Path(copytree(one, tmp_path / str(one).replace("/", "_"))) for one in folders]
     lens, matrices = read_lens(folders[0] / "lens.yaml"), []
-    start = Lens(lens.size, lens.matrix + np.diag([3.0, 3.0, 0.0]), lens.distortion)  # px
+    start = Lens(lens.size, lens.matrix + np.diag([30.0, 30.0, 0.0]), lens.distortion)  # px
     (copies[0] / "lens.yaml").write_text(start.as_ros())
-    for its, geometry in ((folders, result.geometry), (copies, calibrated(*copies).geometry)):
-        optics = geometry.estimate.parameters[geometry.model.optics_columns]
+    for one in (result, calibrated(*copies)):
+        calibration = one.geometry
+        optics = calibration.estimate.parameters[calibration.model.optics_columns]
         assert len(optics) == 2 * 2 + 8
-        (found,) = fitted_lenses(its, optics).values()
+        (found,) = fitted_lenses(one.sighted, optics).values()
         matrices.append(found.matrix)
     assert np.allclose(matrices[0], LENS.matrix, atol=1)
-    assert np.allclose(*map(np.diag, matrices), atol=0.03)  # 0.05 were the pictures' own lens lost
+    assert np.array_equal(*matrices)
 
 
 @pytest.mark.parametrize(

@@ -12,10 +12,11 @@ from typing import Protocol
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.storage import read_file
+from recalib.files.quantities import ANGLE, LENGTH
+from recalib.files.storage import read_file, whole
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
-from recalib.laboratory.tables.columns import MOST
+from recalib.laboratory.tables.columns import MOST, read_table, write_table
 from recalib.laboratory.tables.description import Description
 from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
 from recalib.laboratory.tables.observations import observations_of
@@ -23,7 +24,13 @@ from recalib.nominal.kinematics import Arm
 
 
 class Pictures(Protocol):
-    """What pictures say beyond the poses that are measured in them."""
+    """What pictures say beyond the poses that are measured in them.
+
+    Attributes:
+        tool_radius: m about the tool link's origin that a board there may take.
+    """
+
+    tool_radius: float
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
         """Poses (n, 4, 4) [m] in pictures, and what is known of them. Raises InvalidFile."""
@@ -38,10 +45,10 @@ class Pictures(Protocol):
 
 
 class Record:
-    """The rows so far, and the file that holds them.
+    """The rows so far, the postures that a person skipped, and the files that hold them.
 
     A row that a killed process or a full disk left without its end is dropped; nothing else that
-    is there is changed.
+    is there is changed. Skipped postures are in a file of their own beside the table.
 
     Args:
         path: of the table, which may be there already.
@@ -52,6 +59,7 @@ class Record:
     Attributes:
         pictures: as given.
         observations: the rows; None while there are none.
+        skipped: postures (n, joints) [rad, m].
         dropped: the row without an end, if there was one.
 
     Raises InvalidFile: it is no such table, or another process writes it.
@@ -72,6 +80,7 @@ class Record:
             f"{joint} [{'m' if slides else 'rad'}]"
             for joint, slides in zip(arm.joints, arm.slides, strict=True)
         ]
+        self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
             self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
         except OSError as error:
@@ -107,6 +116,28 @@ class Record:
         elif not (content.startswith(start) or start.startswith(content)):
             raise InvalidFile(self.path, "it is no table that recalib live began")
         os.ftruncate(self._file, len(self._content))
+        self.skipped = self._read_skipped()
+
+    def _read_skipped(self) -> np.ndarray:
+        if not self._skips.exists():
+            return np.zeros((0, len(self._joints)))
+        if not self._content:
+            reason = f"it has postures that were skipped for {self.path}, which has no rows"
+            raise InvalidFile(self._skips, f"{reason}; try: remove it, or another --table")
+        table = read_table(self._skips)
+        names = [heading.partition(" ")[0] for heading in self._joints]
+        if [*table.cells] != names:
+            raise InvalidFile(self._skips, f"it has other columns than {', '.join(self._joints)}")
+        kinds = (LENGTH if heading.endswith("[m]") else ANGLE for heading in self._joints)
+        columns = [table.numbers(*column) for column in zip(names, kinds, strict=True)]
+        return np.stack(columns, axis=1)
+
+    def skip(self, posture: np.ndarray) -> None:
+        """Remember for good that a posture (joints,) [rad, m] is not wanted."""
+        self.skipped = np.vstack([self.skipped, posture])
+        with whole(self._skips) as file:
+            rows = (dict(zip(self._joints, row, strict=True)) for row in self.skipped.tolist())
+            write_table(file, rows)
 
     def read(
         self, angles: np.ndarray, cells: Mapping[str, float | str]
@@ -178,4 +209,4 @@ class Record:
 def _pictures_in(content: bytes) -> list[str]:
     """The paths in the column `picture`; none where there is no such column."""
     rows = csv.DictReader(io.StringIO(content.decode("utf-8-sig")))
-    return [its[PICTURE] for its in rows] if PICTURE in (rows.fieldnames or ()) else []
+    return [row[PICTURE] for row in rows] if PICTURE in (rows.fieldnames or ()) else []

@@ -27,6 +27,8 @@ def doubts(result: Calibrated) -> Iterator[str]:
             "Careful: the table likely has a mistake, without which the URDF explains it far"
             f" better: {result.mistake}."
         )
+    for doubt in result.sighted.doubts if result.sighted else ():
+        yield f"Careful: {doubt}."
     session = result.observations, result.frames, result.tables, result.instruments, result.ends
     for fault in result.faults:
         yield f"Careful: {in_words(fault, *session)}."

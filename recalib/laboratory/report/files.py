@@ -136,12 +136,13 @@ def _write_calibration(folder: Path, result: Calibrated) -> None:
 
 def _write_hand_eye(folder: Path, result: Calibrated) -> None:
     """Where cameras and boards are, and the lenses that go with it."""
-    from recalib.laboratory.pictures.observed import fitted_lenses  # OpenCV is there for pictures
+    from recalib.laboratory.pictures.sessions import fitted_lenses  # OpenCV is there for pictures
 
     (folder / HAND_EYE).write_text(hand_eye(result), encoding="utf-8")
     calibration = result.geometry if result.worthwhile else result.calibration
     optics = calibration.estimate.parameters[calibration.model.optics_columns]
-    lenses = fitted_lenses([table.parent for table in result.tables], optics)
+    assert result.sighted
+    lenses = fitted_lenses(result.sighted, optics)
     for name, lens in lenses.items():
         file = LENS if len(lenses) == 1 else LENSES.format(name)
         (folder / file).write_text(lens.as_ros(), encoding="utf-8")

@@ -1,11 +1,13 @@
 """Hand-eye calibration by name: where camera and board are, how sure that is, what it is worth."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.validation import NOTHING, WAYS
+from recalib.identification.arm_as_right import arm_as_right
+from recalib.identification.held_out import HeldOut
+from recalib.identification.validation import WAYS
 from recalib.laboratory.arms.urdf import angles_of
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.places import Place
@@ -38,12 +40,15 @@ def static_transform(place: Place) -> str:
 
 def hand_eye(result: Calibrated) -> str:
     """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
-    as_right = result.places_by(result.validation.full[NOTHING], [], result.arm.tool)
-    chosen = result.validation.chosen
-    lines = [*_tables(result.places, ""), *_errors(result, chosen, "held_out")]
+    validation = result.validation
+    held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
+    folds = {way: errors.folds for way, errors in held_out.items()}
+    as_right, without = arm_as_right(result.geometry, result.observations, folds)
+    places = result.places_by(as_right, [], result.arm.tool)
+    lines = [*_tables(result.places, ""), *_errors(result, held_out, "held_out")]
     lines += ["# the same with the arm taken as right: what its errors cost"]
-    lines += _tables(as_right, "arm_as_right.")
-    lines += _errors(result, NOTHING, "arm_as_right.held_out")
+    lines += _tables(places, "arm_as_right.")
+    lines += _errors(result, without, "arm_as_right.held_out")
     return "\n".join(lines)
 
 
@@ -60,11 +65,14 @@ def _tables(places: Sequence[Place], prefix: str) -> Iterator[str]:
         yield ""
 
 
-def _errors(result: Calibrated, kind: str, name: str) -> Iterator[str]:
+def _errors(result: Calibrated, held_out: Mapping[str, HeldOut], name: str) -> Iterator[str]:
+    optics = result.observations.optics
+    assert optics is not None
     yield f"[{name}]"
-    for way in WAYS:
-        millimetres = 1e3 * result.validation.mean_error(way, kind)
-        pixels = pixel_error(result, way, kind)
+    for way, errors in held_out.items():
+        judged = result.validation.judged(way)
+        millimetres = 1e3 * errors[judged].errors[:, 0].mean()
+        pixels = optics.moved(errors.residuals)[judged].mean()
         yield f'"{way}" = {{ millimetres = {millimetres:.4g}, pixels = {pixels:.4g} }}'
     yield ""
 

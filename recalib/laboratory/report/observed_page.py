@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 from matplotlib import rc_context
 
-from recalib.laboratory.pictures.observe import WIDE, Observed, Picture
+from recalib.laboratory.pictures.observed import WIDE, Observed, Picture
 from recalib.laboratory.report.drawings import COLOURS, STYLE, figure_of, svg_of
 from recalib.laboratory.report.page import write_html
 

@@ -5,12 +5,12 @@ from os import PathLike
 from pathlib import Path
 
 import cv2
+import mujoco
 import numpy as np
+from simulated_arm import Gears, PhysicsStation, placed
 
 from recalib.damaged.damage import DamagedArm
 from recalib.nominal.kinematics import tool_frame
-from recalib.station.engine import mujoco
-from recalib.station.physics import Gears, PhysicsStation, placed
 from recalib.vision.boards import Board
 from recalib.vision.detection import Unusable, find_corners
 from recalib.vision.lenses import Lens
@@ -52,7 +52,7 @@ class PicturedStation(PhysicsStation):
         self._taken = len([*self._folder.glob("*.png")])  # what is there stays
         x, y = (side / 2 - 0.5 for side in size)
         matrix = np.array([[FOCAL, 0, x], [0, FOCAL, y], [0, 0, 1]])
-        self.lens = Lens(size, matrix, np.zeros(5))
+        self.lens = Lens(size, matrix, np.zeros(4))
         self._camera, self._place = camera, place
         super().__init__(damaged, gears, instrument=camera, target=place, seed=seed)
         width, height = (FINE * side for side in size)
@@ -97,7 +97,8 @@ class PicturedStation(PhysicsStation):
         fine = cv2.cvtColor(self._renderer.render(), cv2.COLOR_RGB2GRAY)
         grey = cv2.resize(fine, self.lens.size, interpolation=cv2.INTER_AREA).astype(float)
         grey += NOISE * self._rng.standard_normal(grey.shape)
-        return np.clip(grey, 0, 255).astype(np.uint8)
+        picture: np.ndarray = np.clip(grey, 0, 255).astype(np.uint8)
+        return picture
 
     def measure(self) -> Mapping[str, float | str] | None:
         """The path of a picture; None where it does not show the board."""

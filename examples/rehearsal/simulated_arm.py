@@ -6,8 +6,11 @@ which stands exactly where the controller wants it. The gear is a spring, which 
 gravity, with friction and play. So only the instrument sees how far a joint droops.
 """
 
+import os
+import sys
 import threading
 from collections.abc import Mapping
+from ctypes.util import find_library
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,8 +19,12 @@ from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances
 from recalib.errors import UnsuitableRobot
 from recalib.nominal.kinematics import Arm, tool_frame
-from recalib.station.engine import mujoco
 from recalib.station.interface import StationFailed, cells_of
+
+if sys.platform == "linux" and find_library("EGL"):  # to draw without a screen
+    os.environ.setdefault("MUJOCO_GL", "egl")  # MuJoCo looks here when it is imported
+
+import mujoco
 
 STEP = 0.004  # s
 CHUNK = 25  # steps between two looks at whether it stands
@@ -175,14 +182,17 @@ def _spec(arm: Arm, gears: Gears) -> mujoco.MjSpec:
     spec.compiler.boundmass, spec.compiler.boundinertia = 1e-6, 1e-9
     spec.compiler.balanceinertia = True
     count, body = model.nv, spec.worldbody
-    stiffness, friction = (np.broadcast_to(its, count) for its in (gears.stiffness, gears.friction))
+    stiffness, friction = (
+        np.broadcast_to(given, count) for given in (gears.stiffness, gears.friction)
+    )
     tool = model.frames[tool_frame(model, arm.tool)].placement
     ends = [*list(model.jointPlacements)[2:], tool]
     for index, name in enumerate(arm.joints):
         body = body.add_body(name=name, **placed(model.jointPlacements[index + 1].homogeneous))
-        its = model.inertias[index + 1]
-        (xx, xy, xz), (_, yy, yz), (_, _, zz) = its.inertia
-        body.mass, body.ipos, body.fullinertia = its.mass, its.lever, [xx, yy, zz, xy, xz, yz]
+        carried = model.inertias[index + 1]
+        (xx, xy, xz), (_, yy, yz), (_, _, zz) = carried.inertia
+        body.mass, body.ipos = carried.mass, carried.lever
+        body.fullinertia = [xx, yy, zz, xy, xz, yz]
         body.explicitinertial = True
         slides = mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE
         body.add_joint(
