@@ -53,14 +53,15 @@ tools: .venv/tools ## what tests, pages and the article need besides, from requi
 	$(PIP) --require-hashes -r requirements-dev.lock
 	touch $@
 
-cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
-	$(PIP) --no-build-isolation --editable .[cluster]
+cluster: .venv/extras ## what Snakemake needs to talk to Slurm, from requirements-extras.lock; see docs/cluster.md
 
-vision: setup ## install OpenCV for pictures of a board, not pinned; see docs/pictures.md
-	$(PIP) --no-build-isolation --editable .[vision]
+vision: .venv/extras ## OpenCV for pictures of a board, from requirements-extras.lock; see docs/pictures.md
 
-live: setup ## install MuJoCo for an arm with dynamics, not pinned; see docs/live_paper.md
-	$(PIP) --no-build-isolation --editable .[live]
+live: .venv/extras ## MuJoCo for an arm with dynamics, from requirements-extras.lock; see docs/live_paper.md
+
+.venv/extras: .venv/installed requirements-extras.lock
+	$(PIP) --require-hashes -r requirements-extras.lock
+	touch $@
 
 test: lint ## the linters and all tests except whole workflows, examples, sites and environments
 	$(PYTEST) -m "not slow"
@@ -81,7 +82,7 @@ lines: ## count the lines of Python
 dist: tools ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
-	$(UV) tool run twine check --strict dist/*
+	.venv/bin/twine check --strict dist/*
 
 elsewhere: dist ## unpack the released sources elsewhere, and run make test and make quick there; PYTHON=python3.13 for another Python
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
@@ -101,8 +102,7 @@ faults: tools ## kill runs, start two at once, damage files, fill the disk (10 m
 verify: setup ## remove results that have changed since they were written
 	.venv/bin/python -m workflow.digests results
 
-mutants: tools ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
-	$(PIP) --no-build-isolation --editable .[mutants]
+mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
 peers: tools ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
@@ -150,8 +150,7 @@ web: setup ## show recordings and report in a browser, also from a server; SCENA
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 	.venv/bin/python -m workflow.watch $(RESULTS) --port $(PORT)
 
-notebook: setup ## damage an arm with sliders, in a browser; installs marimo, which is not pinned
-	$(PIP) --no-build-isolation --editable .[notebook]
+notebook: .venv/extras ## damage an arm with sliders, in a browser
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
 tune: setup ## repeat all searches for widths and rates, and ship what is found (an hour)
@@ -185,6 +184,8 @@ ship: setup ## make the present config.yaml the shipped study
 lock: tools ## pin the dependencies of pyproject.toml anew
 	$(LOCK) --extra study --output-file requirements.lock
 	$(LOCK) $(addprefix --extra ,study dev docs article) --constraint requirements.lock --output-file requirements-dev.lock
+	$(LOCK) $(addprefix --extra ,study vision live cluster notebook mutants) --constraint requirements-dev.lock \
+	  --output-file requirements-extras.lock
 
 clean: ## remove results, keep the environment
 	rm -rf results .snakemake

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from recalib.errors import RecalibError
-from recalib.laboratory.viewer.program import HERE
+from recalib.laboratory.viewer.process import HERE
 from recalib.study.configuration.shipped import RESULTS, SHIPPED
 from recalib.study.evidence.pages.report import layout
 from recalib.study.recording.naming import in_words

@@ -6,10 +6,11 @@ These are the damages of section 7; `recalib.damaged.nongeometric` has more.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Self, get_args
+from typing import TYPE_CHECKING, Literal, Self, cast, get_args
 
 import numpy as np
 
+from recalib.arrays import array_of
 from recalib.damaged.words import Described, said, words
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.quantities import ANGLE, LENGTH
@@ -47,8 +48,11 @@ class DamagedArm:
 
         Args:
             angles: (n, joint) rad that the controller assumes.
+
+        Raises InvalidSetting: another shape.
         """
-        return self.chain.forward(self._deflected(angles)[None])[0]
+        joints = array_of("angles", angles, ("n", len(self.offsets)))
+        return self.chain.forward(self._deflected(joints)[None])[0]
 
     @cached_property
     def chain(self) -> "Chain":
@@ -83,10 +87,10 @@ class DamagedArm:
 class Damage(Described):
     """Anything that can happen to an arm. A new one is a class like these, listed in `kinds`."""
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        """Do it to the damaged arm; `robot` is the nominal one, which stays as it is.
+    def apply(self, arm: "Arm", damaged: DamagedArm) -> None:
+        """Do it to the damaged arm; `arm` is the nominal one, which stays as it is.
 
-        Raises UnknownName (link, joint) and InvalidSetting (more than the robot can lose).
+        Raises UnknownName (link, joint) and InvalidSetting (more than the arm can lose).
         """
         raise NotImplementedError
 
@@ -120,7 +124,12 @@ class BaseShift(Damage):
         default=(0.0, 0.0, 0.0),
     )
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("translation", "rotation"):
+            array_of(f"BaseShift.{name}", getattr(self, name), (3,))
+
+    def apply(self, arm: "Arm", damaged: DamagedArm) -> None:
         import pinocchio as pin
         from scipy.spatial.transform import Rotation
 
@@ -146,12 +155,12 @@ class LinkShortening(Damage):
         if self.along not in get_args(Along):
             raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
+    def apply(self, arm: "Arm", damaged: DamagedArm) -> None:
         from recalib.nominal.robots import link_end
 
-        if self.link not in robot.links:
-            raise UnknownName(f"link of {robot.name}", self.link, robot.links)
-        end = link_end(damaged.arm.model, damaged.arm.tool, robot.links[self.link])
+        if self.link not in arm.links:
+            raise UnknownName("link", self.link, arm.links)
+        end = link_end(damaged.arm.model, damaged.arm.tool, arm.links[self.link])
         longest = np.abs(end).argmax()
         part = end if self.along == "line" else end[longest : longest + 1]
         whole = np.linalg.norm(part)
@@ -173,26 +182,25 @@ class EncoderShift(Damage):
         signed=True,
     )
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        damaged.offsets[joint_index(robot, self.joint)] += self.angle
+    def apply(self, arm: "Arm", damaged: DamagedArm) -> None:
+        damaged.offsets[joint_index(arm, self.joint)] += self.angle
 
 
-def joint_index(robot: "Robot", joint: str) -> int:
-    """Which joint of the robot has this name. Raises UnknownName: none, or one that slides."""
-    turning = [
-        name for name, slides in zip(robot.joints, robot.arm.slides, strict=True) if not slides
-    ]
+def joint_index(arm: "Arm", joint: str) -> int:
+    """Which joint of the arm has this name. Raises UnknownName: none, or one that slides."""
+    turning = [name for name, slides in zip(arm.joints, arm.slides, strict=True) if not slides]
     if joint not in turning:
-        raise UnknownName(f"turning joint of {robot.name}", joint, turning)
-    return robot.joints.index(joint)
+        raise UnknownName("turning joint", joint, turning)
+    return arm.joints.index(joint)
 
 
-def apply(robot: "Robot", damages: Iterable[Damage]) -> DamagedArm:
-    """The arm of the nominal robot with the damages done to it, one after the other.
+def apply(nominal: "Robot | Arm", damages: Iterable[Damage]) -> DamagedArm:
+    """The nominal arm with the damages done to it, one after the other.
 
     Raises what they raise: see `Damage.apply`.
     """
-    damaged = DamagedArm(robot.arm.copy(), np.zeros(len(robot.home)))
+    arm = getattr(nominal, "arm", cast("Arm", nominal))
+    damaged = DamagedArm(arm.copy(), np.zeros(len(arm.joints)))
     for damage in damages:
-        damage.apply(robot, damaged)
+        damage.apply(arm, damaged)
     return damaged

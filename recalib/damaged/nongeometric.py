@@ -15,7 +15,7 @@ from recalib.damaged.words import said
 from recalib.files.quantities import ANGLE, COMPLIANCE
 
 if TYPE_CHECKING:
-    from recalib.nominal.robots import Robot
+    from recalib.nominal.kinematics import Arm
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
 # vertical axis, no load.
@@ -27,8 +27,8 @@ class Deflection(Damage):
 
     joint: str
 
-    def apply(self, robot: "Robot", damaged: DamagedArm) -> None:
-        damaged.deflections.append(partial(self._deflections, joint_index(robot, self.joint)))
+    def apply(self, arm: "Arm", damaged: DamagedArm) -> None:
+        damaged.deflections.append(partial(self._deflections, joint_index(arm, self.joint)))
 
     def _deflections(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         deflections = np.zeros_like(angles)

@@ -5,12 +5,14 @@ The fields of a class name their words. Reading and writing of descriptions foll
 
 import dataclasses
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, ClassVar
 
 from recalib.errors import InvalidSetting
-from recalib.files.quantities import Quantity
+from recalib.files.quantities import ANGLE, LENGTH, Quantity
+
+MOST = {ANGLE: math.pi, LENGTH: LENGTH.farthest}  # rad, m, of what can happen to an arm
 
 
 @dataclass(frozen=True)
@@ -53,25 +55,28 @@ class Described:
     Attributes:
         under: the word under which the others stand, as `noise` in {noise: {position: 1 mm}}.
 
-    Raises InvalidSetting for an amount that is not finite, or negative where it must not be.
+    Raises InvalidSetting for an amount that is not finite, negative where it must not be, or larger
+    than such an amount can be.
     """
 
     under: ClassVar[str | None] = None
 
     def __post_init__(self) -> None:
         for name, word in words(type(self)).items():
-            for amount in _numbers(getattr(self, name)):
-                if not math.isfinite(amount) or (amount < 0 and not word.signed):
+            value = getattr(self, name)
+            if isinstance(value, str) and word.quantity is None:
+                continue
+            for amount in value if isinstance(value, tuple | list) else (value,):
+                finite = isinstance(amount, Real) and math.isfinite(amount)
+                if not finite or (amount < 0 and not word.signed):
                     valid = "finite" if word.signed else "a finite number from 0 on"
+                    raise InvalidSetting(f"{type(self).__name__}.{name}", amount, valid)
+                most = MOST.get(word.quantity) if word.quantity and word.grows else None
+                if most is not None and abs(amount) > most:
+                    valid = f"at most {most:.4g} (m, rad); is its unit right?"
                     raise InvalidSetting(f"{type(self).__name__}.{name}", amount, valid)
 
 
 def words(kind: type[Described]) -> dict[str, Word]:
     """The word of each field."""
     return {field.name: field.metadata["word"] for field in dataclasses.fields(kind)}
-
-
-def _numbers(value: str | float | Iterable[float]) -> Iterable[float]:
-    if isinstance(value, str):
-        return ()
-    return value if isinstance(value, tuple) else (value,)

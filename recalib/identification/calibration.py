@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
+from recalib.arrays import array_of
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Identification, identify
 from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.model.frames import HELD, Frames
@@ -47,8 +48,11 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m that the controller assumes.
+
+        Raises InvalidSetting: another shape, NaN.
         """
-        return self._moved(self._arm.forward(self._standing(joints)), joints)
+        angles = array_of("joints", joints, ("n", self._arm.model.nv))
+        return self._moved(self._arm.forward(self._standing(angles)), angles)
 
     def forward_and_jacobian(self, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, joints) of the arm standing there.
@@ -64,9 +68,12 @@ class Calibration:
         Args:
             joints: (n, joints) rad, m that the controller assumes.
             targets: (n,) the numbers of the sights; the first unless given.
+
+        Raises InvalidSetting: another shape, NaN.
         """
-        poses = self.model.predict(self.estimate.parameters, joints, targets)
-        return self._shifted(poses, joints, targets)
+        angles = array_of("joints", joints, ("n", self._arm.model.nv))
+        poses = self.model.predict(self.estimate.parameters, angles, targets)
+        return self._shifted(poses, angles, targets)
 
     def predict_and_jacobian(
         self, joints: np.ndarray, targets: np.ndarray

@@ -171,7 +171,7 @@ class Guarded:
     def _standing(self) -> np.ndarray:
         """The angles (joints,) at which some readings agree."""
         readings, until = [self.angles()], time.monotonic() + SETTLING
-        while time.monotonic() < until:
+        while time.monotonic() < until or len(readings) < READINGS:
             time.sleep(APART)
             readings = [*readings[1 - READINGS :], self.angles()]
             if len(readings) == READINGS and self._moved(readings) <= STILL:

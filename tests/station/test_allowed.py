@@ -110,7 +110,10 @@ def test_postures_are_within_the_limits_of_both():
             "'elbow_joint at 120.3 deg'; expected: -143.2 to 114",
         ),
         ({"box": Box(np.zeros(3), np.full(3, 0.5))}, "the tool at .* expected: within --box"),
-        ({"box": Box.read("77 cm to 78 cm, 16 cm to 17 cm, 23 cm to 25 cm")}, "postures are free"),
+        (
+            {"box": Box.read(["77 cm to 78 cm", "16 cm to 17 cm", "23 cm to 25 cm"])},
+            "postures are free",
+        ),
         ({"clearance": low}, "nearer than 20 mm to the floor'; expected: .* --floor"),
     ):
         given = {"home": home, "limits": limits, "span": 0.5, "box": AROUND} | changed
@@ -146,10 +149,13 @@ def test_an_arm_goes_by_way_of_home_if_something_is_in_the_straight_way():
         assert len(path) == 1 or np.array_equal(path[0], station.stands)
 
 
-@pytest.mark.parametrize("text", ["1 m to 2 m", "a, b, c", "1 m to 0 m, 0 m to 1 m, 0 m to 1 m"])
-def test_a_box_is_three_ranges(text):
+@pytest.mark.parametrize("wrong", ["1 m", "a to b", "1 m to 0 m", "0 m to 0 m", "0 m to 1 deg"])
+@pytest.mark.parametrize("axis", range(3))
+def test_a_box_has_a_range_along_each_axis(wrong, axis):
+    ranges = ["0 m to 1 m"] * 3
+    ranges[axis] = wrong
     with pytest.raises(InvalidSetting, match="--box"):
-        Box.read(text)
+        Box.read(ranges)
 
 
 @pytest.mark.usefixtures("all_postures")

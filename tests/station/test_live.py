@@ -18,8 +18,7 @@ from recalib.errors import InvalidFile, InvalidSetting, UnknownName
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correction.correct import NotReached
-from recalib.laboratory.correction.corrector import Corrector
+from recalib.laboratory.correction import NotReached
 from recalib.laboratory.live.allowed import AllowedPostures, Box
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
@@ -101,19 +100,19 @@ def test_a_command_takes_the_target_where_it_should_be(lived):
     station = lived.station
     with few_folds():
         correction = calibrate_arm("ur5_robot.urdf", lived.table, tool="tool0").correction
-    corrector, near = Corrector(correction), station.stands
+    near = station.stands
     goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
-    command = corrector.command(goal, near, target="the target")
+    command = correction.command(goal, near, target="the target")
     there = station.real.poses(command[None], noise=(0, 0))[0]
     assert np.linalg.norm((there - goal)[:3, 3]) < 1e-3
-    position = corrector.command(goal[:3, 3], near, target="the target")
+    position = correction.command(goal[:3, 3], near, target="the target")
     assert np.abs(position - near).max() < np.abs(command - near).max() + 0.05
-    tool = correction.calibration.forward(near[None])[0]
-    np.testing.assert_allclose(corrector.command(tool, near + 0.02), near, atol=1e-6)
+    shown = correction.calibration.predict(near[None])[0]
+    np.testing.assert_allclose(correction.command(shown, near + 0.02), near, atol=1e-6)
     with pytest.raises(NotReached):
-        corrector.command(np.array([9.0, 0, 0]), near)
+        correction.command(np.array([9.0, 0, 0]), near)
     with pytest.raises(UnknownName, match="unknown target"):
-        corrector.command(goal, near, target="the board")
+        correction.command(goal, near, target="the board")
 
 
 def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(lived):

@@ -148,7 +148,7 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
     from recalib.vision.detection import find_corners
     from recalib.vision.views import board_pose, reprojection
 
-    damaged, board = bent(), printable("charuco", 7, 5, 0.036)
+    damaged, board = bent(), printable(7, 5, 0.036)
     angles = np.array([0.0, -1.4, 2.1, -2.9, -1.57, 0.0])
     tool = damaged.forward(angles[None])[0]
     place = UPWARDS.copy()  # it looks the way of the tool, to the camera a metre away

@@ -12,7 +12,7 @@ from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 from tests.identification.real import Real
 
-BOARD = printable("charuco", 7, 5, 0.036)
+BOARD = printable(7, 5, 0.036)
 LENS = Lens(
     (1280, 960),
     np.array([[1105.0, 0, 652], [0, 1102, 470], [0, 0, 1]]),

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.laboratory.pictures.observed import Observed, Picture, write_observed
-from recalib.laboratory.tables.columns import read_table
+from recalib.files.outputs import write_new
+from recalib.laboratory.pictures.observed import Observed, Picture
+from recalib.laboratory.tables.table import read_table
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners
 from recalib.vision.lens_search import find_lens
@@ -17,7 +18,7 @@ from tests.vision.rendering import LENS, Cell, frame
 
 PICTURES, NOISE = 30, 0.15  # px
 LONGER = Lens((1280, 960), LENS.matrix * [[1.1], [1.1], [1.0]], 0.5 * LENS.distortion)
-SMALL = printable("charuco", 8, 5, 0.03)
+SMALL = printable(8, 5, 0.03)
 SHIFT = frame([0, 0, 0], [6e-4, -6e-4, 5e-4])  # by 1 mm
 TURN = frame(np.radians(0.2) * np.array([0.6, -0.6, 0.5]), [0, 0, 0])  # by 0.2 deg
 
@@ -85,5 +86,5 @@ def write_views(
         for row, (name, view) in enumerate(zip(table.cells["picture"], views, strict=True), 1)
     ]
     result = Observed(table, cell.board, own, given, cell.in_hand, shown, [], camera, board)
-    write_observed(result, folder / "observed", lambda path, _: path.write_text("no page"))
+    write_new(folder / "observed", result.files())
     return folder / "observed"

@@ -19,10 +19,12 @@ from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
 from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
-from recalib.laboratory.pictures.sessions import read_sessions
+from recalib.laboratory.pictures.sessions import Cell as Cameras
+from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
-from recalib.laboratory.tables.columns import MOST_ROWS
+from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.table import MOST_ROWS
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens
@@ -38,7 +40,7 @@ BAD = {  # of further pictures, by row
     33: "it is the same picture as 000.png",
     34: "it has 640 x 480 pixels; expected: 1280 x 960",
     35: "there is no such file",
-    36: "it is no picture",
+    36: "it is not a picture",
 }
 
 
@@ -105,16 +107,17 @@ def observed(tmp_path_factory):
 @pytest.fixture(scope="module")
 @few_folds()
 def calibrated(observed):
-    return calibrate_arm("panda.urdf", observed[0], tool="panda_link8")
+    return calibrate_pictures("panda.urdf", [observed[0]], tool="panda_link8")
 
 
 def test_pixels_are_read_and_weighed(observed, calibrated):
     (folder, draw), result = observed, calibrated
-    assert result.observations.optics is not None and result.instruments == ("the camera",)
+    assert result.data.observations.optics is not None
+    assert result.data.instruments == ("the camera",)
     assert abs(result.scales["the board"].factor - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
     poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
-    assert poses.observations.optics is None
+    assert poses.data.observations.optics is None
     assert draw.judge(poses.geometry.forward(draw.fresh))[0] > 0.5
 
 
@@ -126,11 +129,15 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
             ("setup.toml", ('camera_name = "camera"', new), "camera_name or board_name is not as")
             for new in ('camera_name = "two words"', 'camera_name = ""', "camera_name = 3", "")
         ),
-        ("corners.csv", ("u [px]", "w [px]"), "column 'u' is missing"),
+        ("corners.csv", ("u [px]", "w [px]"), "unknown column 'w'"),
         ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
         ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
-        ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner more than once"),
-        ("corners.csv", ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"), "a corner is more than"),
+        ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner twice"),
+        (
+            "corners.csv",
+            ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"),
+            "expected: up to 100000 px",
+        ),
         ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )
@@ -148,13 +155,12 @@ def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
     path = tmp_path / "measurements.csv"
     header, first, *others = path.read_text().splitlines()
     path.write_text("\n".join([header, *others[:0:-1], first]))
-    (left,) = read_sessions([tmp_path])
-    (whole,) = read_sessions([observed[0]])
-    first, second, *others = whole.views
-    expected, found = [*others[::-1], first], left.views
-    assert len(second.numbers) and len(found) == len(expected) == PICTURES - 1
-    for its, view in zip(expected, found, strict=True):
-        assert np.array_equal(its.pixels, view.pixels)
+    arm = load_arm("panda.urdf", "panda_link8")
+    (left,), (whole,) = (Cameras.read([folder], arm).sessions for folder in (tmp_path, observed[0]))
+    rows = [*range(PICTURES - 1, 1, -1), 0]
+    assert np.array_equal(left.rows.joints, whole.rows.joints[rows])
+    for row, view in zip(rows, left.views, strict=True):
+        assert np.array_equal(view.pixels, whole.views[row].pixels)
 
 
 def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
@@ -162,8 +168,8 @@ def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
     header, others = (tmp_path / "corners.csv").read_text().split("\n", 1)
     more = "another.png,0,1.0,1.0\n" * MOST_ROWS
     (tmp_path / "corners.csv").write_text(f"{header}\n{more}{others}")
-    (session,) = read_sessions([tmp_path])
-    assert len(session.views) == PICTURES
+    arm = load_arm("panda.urdf", "panda_link8")
+    assert len(read_folders([tmp_path], arm, Description())) == PICTURES
 
 
 def test_a_board_of_another_size_is_doubted(observed, tmp_path):
@@ -171,7 +177,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
     text = (tmp_path / "setup.toml").read_text()
     text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
     (tmp_path / "setup.toml").write_text(text)
-    result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
+    result = calibrate_pictures("panda.urdf", [tmp_path], tool="panda_link8")
     assert result.scales["the board"].factor == pytest.approx(36 / 33, abs=0.01)
     assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
 
@@ -386,10 +392,11 @@ def test_places_are_written_as_they_are_published(calibrated):
             turn = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
             assert np.allclose(turn, pose[:3, :3], atol=1e-5)
     own, as_right = written["held_out"], written["arm_as_right"]["held_out"]
-    validation, optics = calibrated.validation, calibrated.observations.optics
+    validation, optics = calibrated.validation, calibrated.data.observations.optics
     for name in WAYS:
-        residuals = validation.held_out[name][validation.chosen].residuals[calibrated.counted]
-        moved = np.einsum("nij,nj->ni", optics.pixels[calibrated.counted], residuals)
+        judged = validation.judged(name)
+        residuals = validation.held_out[name][validation.chosen].residuals[judged]
+        moved = np.einsum("nij,nj->ni", optics.pixels[judged], residuals)
         pixels = np.linalg.norm(moved, axis=1).mean()
         assert own[name]["pixels"] == pytest.approx(pixels, rel=1e-3)
         millimetres = 1e3 * validation.mean_error(name, validation.chosen)

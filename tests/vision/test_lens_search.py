@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.model.observations import Observations
-from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.pictures.sessions import with_pixels
+from recalib.laboratory.pictures.sessions import Cell as Cameras
+from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import verdict
+from recalib.nominal.arms import load_arm
 from recalib.vision import lens_search
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners, are_on_a_line, find_corners
@@ -97,29 +97,30 @@ def wide(tmp_path):
         name = "unknown" if given is None else f"{given.distortion[-1]:.3f}"
         return write_views(tmp_path / name, cell, joints, views, given)
 
-    return cell, observed, [Observations(joints)]
+    return cell, observed
 
 
 def test_a_lens_that_is_not_mild_is_found_and_the_arm_is_not_blamed(wide):
-    _, observed, rows = wide
+    _, observed = wide
     folder = observed()
     with few_folds():
-        result = calibrate_arm("panda.urdf", folder, tool="panda_link8")
+        result = calibrate_pictures("panda.urdf", [folder], tool="panda_link8")
     assert "Careful" not in verdict(result) and result.worthwhile
     assert result.validation.mean_error("at random", result.validation.chosen) < 2e-4
     # a folder of an earlier search, which took another lens, is searched again
     (folder / "lens.yaml").write_text(LENS.as_ros())
-    again = with_pixels(rows, [folder])
-    assert np.array_equal(again.lenses["camera"].matrix, result.sighted.lenses["camera"].matrix)
+    again, first = Cameras.read([folder], result.arm), result.data.cameras
+    assert np.array_equal(again.lenses["camera"].matrix, first.lenses["camera"].matrix)
 
 
 def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_arm(wide):
-    cell, observed, rows = wide
+    (cell, observed), arm = wide, load_arm("panda.urdf", "panda_link8")
     near = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
-    (doubt,) = with_pixels(rows, [observed(near)]).doubts
+    cameras = Cameras.read([observed(near)], arm)
+    (doubt,) = cameras.doubts
     assert doubt.startswith("the lens as given leaves")
-    assert not with_pixels(rows, [observed(cell.lens)]).doubts
-    result = SimpleNamespace(mistake=None, sighted=SimpleNamespace(doubts=[doubt]))
+    assert not Cameras.read([observed(cell.lens)], arm).doubts
+    result = SimpleNamespace(mistake=None, data=SimpleNamespace(cameras=cameras))
     assert next(doubts(result)) == f"Careful: {doubt}."
 
 
@@ -137,5 +138,5 @@ def test_a_picture_out_of_focus_shows_the_markers_that_others_lead_to():
 
 
 def test_corners_on_a_line_tell_no_pose():
-    board = printable("charuco", 12, 4, 0.03)
+    board = printable(12, 4, 0.03)
     assert are_on_a_line(board, np.arange(11)) and not are_on_a_line(board, np.arange(12))

@@ -48,8 +48,8 @@ def test_corners_are_found_where_they_are(cell, poses):
 def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     first, second, _ = (cell.picture(pose) for pose in poses)
     other = replace(cell, board=replace(BOARD, dictionary="5X5_100"))
-    turned = replace(cell, board=printable("charuco", 5, 7, 0.036))
-    larger = replace(cell, board=printable("charuco", 9, 7, 0.03))
+    turned = replace(cell, board=printable(5, 7, 0.036))
+    larger = replace(cell, board=printable(9, 7, 0.03))
     reasons = {
         "marker 30 is not on the board: this is another one": larger.picture(poses[0]),
         "it is mirrored": cv2.flip(first, 1),

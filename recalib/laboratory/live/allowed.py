@@ -1,6 +1,7 @@
 """The postures to which an arm may be sent, and the paths between them."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
@@ -30,18 +31,18 @@ class Box:
     high: np.ndarray
 
     @classmethod
-    def read(cls, text: str) -> "Box":
-        """From ranges of x, y and z, as in `-40 cm to 40 cm, ...`. Raises InvalidSetting."""
-        ranges = [_RANGE.fullmatch(part) for part in text.split(",")]
-        if len(ranges) != 3 or None in ranges:
-            valid = "ranges of x, y and z, as in '-40 cm to 40 cm, 30 cm to 80 cm, 10 cm to 1 m'"
-            raise InvalidSetting("--box", text, valid)
-        low, high = np.array(
-            [[LENGTH.value_of("--box", end) for end in part.groups()] for part in ranges if part]
-        ).T
-        if (low >= high).any():
-            raise InvalidSetting("--box", text, "each range from its lower end to its upper end")
-        return cls(low, high)
+    def read(cls, ranges: Sequence[str]) -> "Box":
+        """From ranges of x, y and z, each as in `-40 cm to 40 cm`. Raises InvalidSetting."""
+        ends = []
+        for text in ranges:
+            if not (found := _RANGE.fullmatch(text)):
+                raise InvalidSetting("--box", text, "a range as in '-40 cm to 40 cm'")
+            low, high = (LENGTH.value_of("--box", end) for end in found.groups())
+            if low >= high:
+                raise InvalidSetting("--box", text, "a range from its lower end to its upper end")
+            ends.append((low, high))
+        lower, upper = np.array(ends).T
+        return cls(lower, upper)
 
 
 class Problem(NamedTuple):

@@ -12,15 +12,17 @@ from typing import Protocol
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.quantities import ANGLE, LENGTH
 from recalib.files.storage import read_file, whole
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
-from recalib.laboratory.tables.columns import MOST, read_table, write_table
+from recalib.laboratory.data_set import data_set
+from recalib.laboratory.tables.columns import PICTURES
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
-from recalib.laboratory.tables.observations import observations_of
+from recalib.laboratory.tables.measurements import joint_headings, measurements_so_far, read_desired
+from recalib.laboratory.tables.table import MOST, table_text
 from recalib.nominal.kinematics import Arm
+
+(PICTURE,) = PICTURES.headings
 
 
 class Pictures(Protocol):
@@ -76,10 +78,7 @@ class Record:
         self.pictures = pictures
         self.observations: Observations | None = None
         self.dropped = ""
-        self._joints = [
-            f"{joint} [{'m' if slides else 'rad'}]"
-            for joint, slides in zip(arm.joints, arm.slides, strict=True)
-        ]
+        self._joints = joint_headings(arm, "rad", "m")
         self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
             self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
@@ -124,20 +123,17 @@ class Record:
         if not self._content:
             reason = f"it has postures that were skipped for {self.path}, which has no rows"
             raise InvalidFile(self._skips, f"{reason}; try: remove it, or another --table")
-        table = read_table(self._skips)
-        names = [heading.partition(" ")[0] for heading in self._joints]
-        if [*table.cells] != names:
-            raise InvalidFile(self._skips, f"it has other columns than {', '.join(self._joints)}")
-        kinds = (LENGTH if heading.endswith("[m]") else ANGLE for heading in self._joints)
-        columns = [table.numbers(*column) for column in zip(names, kinds, strict=True)]
-        return np.stack(columns, axis=1)
+        joints = read_desired(self._skips, self._arm).joints
+        if joints is None:
+            raise InvalidFile(self._skips, f"it has no joints; expected: {', '.join(self._joints)}")
+        return joints
 
     def skip(self, posture: np.ndarray) -> None:
         """Remember for good that a posture (joints,) [rad, m] is not wanted."""
         self.skipped = np.vstack([self.skipped, posture])
         with whole(self._skips) as file:
             rows = (dict(zip(self._joints, row, strict=True)) for row in self.skipped.tolist())
-            write_table(file, rows)
+            file.write_bytes(table_text(rows))
 
     def read(
         self, angles: np.ndarray, cells: Mapping[str, float | str]
@@ -195,15 +191,14 @@ class Record:
 
     def _read(self, content: bytes) -> Observations:
         rows = measurements_so_far(content, self.path, self._arm, self._description)
-        observations, targets, _ = observations_of(rows, self._description, self.path)
-        if len(targets) > 1:
-            raise InvalidFile(
-                self.path, f"it has the targets {', '.join(targets)}; expected: one and the same"
-            )
+        data = data_set(rows, self._description, self._arm)
+        if len(data.targets) > 1:
+            names = ", ".join(data.targets)
+            raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
         if self.pictures is None:
-            return observations
+            return data.observations
         poses, optics = self.pictures(_pictures_in(content))
-        return replace(observations, measured=poses, optics=optics)
+        return replace(data.observations, measured=poses, optics=optics)
 
 
 def _pictures_in(content: bytes) -> list[str]:

@@ -22,9 +22,9 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.live.record import Pictures
+from recalib.laboratory.plausibility.knowledge import checked_frames
 from recalib.laboratory.propose import PROBES
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.knowledge import checked_frames
 from recalib.nominal.kinematics import Arm
 from recalib.station.guarded import REACHED
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from recalib.errors import InvalidFile, InvalidSetting, RecalibError
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnsuitableRobot
 from recalib.identification.checks.diagnostics import FEWEST
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.live.allowed import AllowedPostures, Box
@@ -125,8 +125,13 @@ def calibrate_live(
         pictures: what those of the column `picture` say, if the rows go by their pixels.
         shapes: of the links, see `load_shapes`; without them, only the tool keeps off the floor.
 
-    Raises RecalibError: StationFailed, Interrupted, or rows that do not fit the arm.
+    Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
     """
+    if len(arm.coupling.columns) < len(arm.joints):
+        followers = f"of {', '.join(arm.joints)} some follow others by <mimic>"
+        raise UnsuitableRobot(
+            f"{followers}; expected: a motor for each joint; try: a table for recalib calibrate"
+        )
     description = description or Description()
     record = Record(table, arm, description, pictures)
     if record.dropped:

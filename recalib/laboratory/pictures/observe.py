@@ -16,14 +16,14 @@ from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.pictures.observed import (
     LEAST,
     NAME,
+    PICTURE,
     WIDE,
     Observed,
     Picture,
     doubt_of,
     views_of,
 )
-from recalib.laboratory.tables.columns import read_table
-from recalib.laboratory.tables.measurements import PICTURE
+from recalib.laboratory.tables.table import read_table
 from recalib.vision.boards import Board, read_board
 from recalib.vision.detection import FEWEST as FEWEST_CORNERS
 from recalib.vision.detection import Unusable, find_corners, read_picture
@@ -50,11 +50,11 @@ def observe(
     Args:
         folder: of the pictures.
         joints: a table (CSV) with a column `picture`, which names them.
-        board: its description (TOML); the file's name is that of the board.
-        lens: a calibration of it (YAML of ROS or OpenCV); estimated from the pictures by default.
+        board: the description of the board (TOML); the file's name is that of the board.
+        lens: a calibration of the lens (YAML of ROS or OpenCV; default: estimated).
         in_hand: whether the camera is on the hand.
         on_progress: called with what is being done, in a line each.
-        camera: its name, among others.
+        camera: the name of the camera, among several.
 
     Raises RecalibError: a name or a file that cannot be used, or too few pictures that can.
     """
@@ -67,7 +67,7 @@ def observe(
     names = table.cells[PICTURE]
     if twice := [name for name, count in Counter(names).items() if count > 1]:
         raise InvalidFile(table.path, f"{twice[0]!r} is in more than one row")
-    for name, unit in table.units.items():  # a joint that is no number is refused before the search
+    for name, unit in table.units.items():  # a joint without a number is refused before the search
         if quantity := next((kind for kind in (ANGLE, LENGTH) if unit in kind.units), None):
             table.numbers(name, quantity)
     if not Path(folder).is_dir():
@@ -120,12 +120,15 @@ def _compared(pictures: Sequence[Picture], size: tuple[int, int], by_lens: bool)
         elif other != picture.name:
             picture = picture.refused(f"it is the same picture as {other}")
         done.append(picture)
-    most = SOFTER * np.median([one.corners.softness for one in done if one.corners] or [np.inf])
+    blurs = [picture.corners.softness for picture in done if picture.corners]
+    most = SOFTER * np.median(blurs or [np.inf])
     return [
-        one.refused(f"it is blurred by {one.corners.softness:.1f} px, twice as much as others")
-        if one.corners and one.corners.softness > most
-        else one
-        for one in done
+        picture.refused(
+            f"it is blurred by {picture.corners.softness:.1f} px, twice as much as others"
+        )
+        if picture.corners and picture.corners.softness > most
+        else picture
+        for picture in done
     ]
 
 

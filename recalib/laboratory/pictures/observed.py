@@ -1,18 +1,22 @@
 """What was found in pictures of a board, and the folder that `recalib calibrate` reads."""
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
-from pathlib import Path
 
 import cv2
 import numpy as np
 
 from recalib.errors import RecalibError
-from recalib.files.outputs import new
-from recalib.laboratory.tables.columns import POSE, Table, write_table
-from recalib.laboratory.tables.measurements import OBSERVED, PICTURE, VECTORS
+from recalib.laboratory.tables.columns import (
+    ERRORS,
+    NOMINAL,
+    PICTURES,
+    POSITIONS,
+    ROTATION_VECTORS,
+    ROTATIONS,
+)
+from recalib.laboratory.tables.table import Table, table_text
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
 from recalib.vision.lens_search import FoundLens, View, reprojection_error
@@ -20,8 +24,8 @@ from recalib.vision.lenses import Lens
 from recalib.vision.views import optics_kinds
 
 NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
-CORNERS, SETUP, LENS = "corners.csv", "setup.toml", "lens.yaml"
-FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
+(PICTURE,) = PICTURES.headings
+OBSERVED, CORNERS, SETUP, LENS = "measurements.csv", "corners.csv", "setup.toml", "lens.yaml"
 WIDE = 300  # px, of a picture on the page
 LEAST = 0.5  # px: a reprojection error as small is never a reason
 # What a given lens may leave, over one from the pictures: it is as good, or cannot be the same.
@@ -31,21 +35,22 @@ UNSETTLED = (
     "the search for the lens was still going on when it was stopped; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
 )
+FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture, and what came of it.
+    """A picture, and what was found in it.
 
     Attributes:
         row: in the table, from 1.
-        name: of its file.
-        size: width and height [px]; None where it cannot be read.
-        small: the same on the page, grey; None likewise.
-        digest: of its pixels.
-        corners: None where it is refused.
-        reason: why it is refused; empty where it is not.
-        error: px, the root mean square of its corners' reprojection errors.
+        name: of the file.
+        size: width and height [px]; None if it cannot be read.
+        small: a small grey copy for the page; None likewise.
+        digest: of the pixels.
+        corners: None if it is refused.
+        reason: why it is refused; empty if it is not.
+        error: px, the root mean square of the corners' reprojection errors.
         pose: (4, 4) m of the board in the camera.
     """
 
@@ -60,7 +65,7 @@ class Picture:
     pose: np.ndarray | None = None
 
     def refused(self, reason: str) -> "Picture":
-        """The same, of no use."""
+        """The same picture, refused."""
         return replace(self, corners=None, reason=reason, error=np.nan, pose=None)
 
 
@@ -69,10 +74,10 @@ class Observed:
     """What was found in pictures.
 
     Attributes:
-        table: the joints of each.
-        board: which they show.
-        own: the lens by these pictures.
-        given: the lens, if it is known; else that by these pictures counts.
+        table: the joints of each picture.
+        board: in all pictures.
+        own: the lens estimated from these pictures.
+        given: the lens, if it is known; otherwise the estimated one counts.
         in_hand: whether the camera is on the hand.
         pictures: all of the table.
         unlisted: names of pictures that are not in the table.
@@ -91,12 +96,12 @@ class Observed:
 
     @property
     def lens(self) -> Lens:
-        """Through which the pictures were taken."""
+        """The lens in all pictures."""
         return self.given or self.own.lens
 
     @property
     def used(self) -> list[Picture]:
-        """Those that were not refused."""
+        """The pictures that were not refused."""
         return [picture for picture in self.pictures if picture.corners is not None]
 
     @property
@@ -107,7 +112,7 @@ class Observed:
 
     @property
     def doubt(self) -> str | None:
-        """What is doubtful of the lens, in a sentence."""
+        """What is doubtful about the lens, in a sentence without its full stop."""
         return doubt_of(self.given, self.own, views_of(self.board, self.used))
 
     def summary(self) -> str:
@@ -120,7 +125,7 @@ class Observed:
         lines = [
             f"{len(used)} of {len(self.pictures)} pictures are used;"
             f" reprojection error {self.error:.3f} px along an axis",
-            *([f"Careful: {self.doubt}"] if self.doubt else []),
+            *([f"Careful: {self.doubt}."] if self.doubt else []),
             f"lens {source}: {lens.model}, focal lengths {fx:.1f} and {fy:.1f} px, principal point"
             f" ({cx:.1f}, {cy:.1f}) px, distortion"
             f" {', '.join(f'{number:.4f}' for number in lens.distortion)}",
@@ -134,13 +139,51 @@ class Observed:
             lines.append(f"not in {self.table.path.name}: {', '.join(self.unlisted)}")
         return "\n".join([*lines, ""])
 
+    def files(self) -> dict[str, bytes]:
+        """The files of a folder for `recalib calibrate`, by their names."""
+        corners = (
+            {PICTURE: shown.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
+            for shown in self.used
+            if shown.corners is not None
+            for number, (u, v) in zip(shown.corners.numbers, shown.corners.pixels, strict=True)
+        )
+        setup = (
+            f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
+            f"lens_from_pictures = {str(self.given is None).lower()}\n"
+            f'camera_name = "{self.camera}"\nboard_name = "{self.board_name}"\n\n'
+        )
+        return {
+            "summary.txt": self.summary().encode(),
+            LENS: self.lens.as_ros().encode(),
+            SETUP: (setup + self.board.described()).encode(),
+            OBSERVED: table_text(self._measurements()),
+            CORNERS: table_text(corners),
+        }
+
+    def _measurements(self) -> Iterator[dict[str, str]]:
+        """Rows of pictures and joints, with poses of the board, or of the camera in it."""
+        table = self.table
+        # what a live calibration measured by the same pictures is measured anew
+        vectors = (POSITIONS, *ROTATIONS, NOMINAL, ERRORS)
+        measured = {PICTURE, *(name for kind in vectors for name in kind.headings)}
+        joints = [name for name in table.cells if name not in measured]
+        units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
+        headings = [PICTURE, *units, *POSITIONS.written, *ROTATION_VECTORS.written]
+        for picture in self.used:
+            assert picture.pose is not None
+            pose = np.linalg.inv(picture.pose) if self.in_hand else picture.pose
+            turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
+            numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
+            cells = [table.cells[name][picture.row - 1] for name in joints]
+            yield dict(zip(headings, [picture.name, *cells, *numbers], strict=True))
+
 
 def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
-    """What is doubtful of the lens of some pictures, in a sentence.
+    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
 
     Args:
-        given: the lens, if it is known; else that by the pictures counts.
-        own: the lens by the pictures.
+        given: the lens, if it is known; otherwise the estimated one counts.
+        own: the lens estimated from the pictures.
 
     Raises RecalibError: a given lens that cannot be theirs.
     """
@@ -157,47 +200,9 @@ def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str |
     )
     if left > max(OTHER * own.error, LEAST):
         raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
-    return f"{found}; is it this camera's, and are focus and zoom as they were?"
+    return f"{found}; check that it is this camera's, and that focus and zoom are as they were"
 
 
 def views_of(board: Board, pictures: Sequence[Picture]) -> list[View]:
+    """The corners in pictures that were not refused, each with the board."""
     return [(board, picture.corners) for picture in pictures if picture.corners is not None]
-
-
-def write_observed(
-    result: Observed, out: str | PathLike[str], write_page: Callable[[Path, Observed], None]
-) -> None:
-    """Write a new folder for `recalib calibrate`. Raises InvalidFile where it cannot be made."""
-    with new(out, folder=True) as made:
-        (made / "summary.txt").write_text(result.summary(), encoding="utf-8")
-        (made / LENS).write_text(result.lens.as_ros(), encoding="utf-8")
-        camera = IN_HAND if result.in_hand else FIXED
-        fitted = str(result.given is None).lower()
-        names = f'camera_name = "{result.camera}"\nboard_name = "{result.board_name}"\n'
-        setup = f'camera = "{camera}"\nlens_from_pictures = {fitted}\n{names}\n'
-        (made / SETUP).write_text(setup + result.board.described(), encoding="utf-8")
-        write_table(made / OBSERVED, _measurements(result))
-        corners = (
-            {PICTURE: shown.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
-            for shown in result.used
-            if shown.corners is not None
-            for number, (u, v) in zip(shown.corners.numbers, shown.corners.pixels, strict=True)
-        )
-        write_table(made / CORNERS, corners)
-        write_page(made / "page.html", result)
-
-
-def _measurements(result: Observed) -> Iterator[dict[str, str]]:
-    """Rows of pictures and joints, with poses of the board, or of the camera in it."""
-    table = result.table
-    # what a live calibration measured by the same pictures is measured anew
-    measured = {PICTURE, *(name for group in VECTORS for name in group)}
-    joints = [name for name in table.cells if name not in measured]
-    units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
-    for picture in result.used:
-        assert picture.pose is not None
-        pose = np.linalg.inv(picture.pose) if result.in_hand else picture.pose
-        turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
-        numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
-        cells = [picture.name, *(table.cells[name][picture.row - 1] for name in joints), *numbers]
-        yield dict(zip([PICTURE, *units, *POSE], cells, strict=True))

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from recalib.errors import RecalibError
-from recalib.laboratory.viewer.program import PROGRAM, quiet
+from recalib.laboratory.viewer.process import PROGRAM, quiet
 from recalib.study.recording import pictures
 from recalib.study.recording.phases import ARM, BEFORE
 from recalib.study.recording.pictures import ends, take_pictures

@@ -11,7 +11,7 @@ from rerun.chunk import RrdReader
 from recalib.damaged.damage import LinkShortening
 from recalib.damaged.disturbances import Outliers, Repeatability
 from recalib.errors import InvalidFile
-from recalib.laboratory.viewer.program import PROGRAM, quiet
+from recalib.laboratory.viewer.process import PROGRAM, quiet
 from recalib.nominal import meshes
 from recalib.study.experiments import campaign, search
 from recalib.study.experiments.samples import sample_of, sought
