@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from itertools import takewhile
 
 MOST, SOME = 10, 3  # names in a sentence: of all that are valid, or as examples
 ALIKE = 0.75  # difflib's ratio: two letters of four exchanged, or one of two left out
@@ -9,9 +10,18 @@ ALIKE = 0.75  # difflib's ratio: two letters of four exchanged, or one of two le
 
 def nearest(word: str, valid: Iterable[str]) -> str | None:
     """The valid word that is the most alike, if one is near; capitals do not count."""
-    words = {other.casefold(): other for other in valid}
-    found = get_close_matches(word.casefold(), words, n=1, cutoff=ALIKE)
+    words, word = {other.casefold(): other for other in valid}, word.casefold()
+    ending = _common_ending(words) if len(words) > 1 else ""
+    if ending and word.endswith(ending):  # as .urdf: it says nothing of how near names are
+        words = {other.removesuffix(ending): name for other, name in words.items()}
+        word = word.removesuffix(ending)
+    found = get_close_matches(word, words, n=1, cutoff=ALIKE)
     return words[found[0]] if found else None
+
+
+def _common_ending(words: Iterable[str]) -> str:
+    letters = zip(*(word[::-1] for word in words), strict=False)
+    return "".join(one[0] for one in takewhile(lambda one: len({*one}) == 1, letters))[::-1]
 
 
 def instead(name: str, valid: Iterable[str]) -> str:

@@ -15,6 +15,7 @@ URDFS = ["a1.urdf", "finger_edu.urdf", "panda.urdf", "ur10_robot.urdf", "ur5_rob
         ("pandra.urdf", "panda.urdf"),
         ("PANDA.URDF", "panda.urdf"),
         ("nowhere.urdf", None),
+        ("iiwa14.urdf", None),  # whose ending alone is that of all
         ("", None),
         ("x" * 5000, None),
     ],

@@ -122,7 +122,8 @@ def test_what_is_no_station_is_told(text, says):
 
 
 @pytest.mark.skipif(not shutil.which("node"), reason="needs node")
-def test_the_example_in_another_language_is_a_station(tmp_path):
+def test_the_example_in_another_language_is_a_station(tmp_path, monkeypatch):
+    monkeypatch.setattr("recalib.station.guarded.PATIENCE", 60)  # s: Node starts slowly
     arm, left = load_arm("ur10_robot.urdf", "tool0"), iter([Answer.MOVE] * 10)
     program = f"node {ROOT / 'examples' / 'station.js'}"
     ended = calibrate_live(

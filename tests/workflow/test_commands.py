@@ -101,6 +101,7 @@ BY_HAND = {
     "python -m recalib.study.configuration.schema": "a test compares what it has written",
     "python -m recalib.study.evidence.pages.deviations": "a test compares what it prints",
     "python -m tests.station.bars": "whole tables of calibrations",
+    "python -m tests.station.bars ur5": "part of these tables",
     "python -m tests.station.film": "a film that was looked at",
     "python -m tests.station.paper_live": "15 minutes",
     "python -m tests.station.recording": "5 minutes; a test makes its learners",

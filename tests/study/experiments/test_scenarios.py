@@ -20,7 +20,7 @@ def test_a_scenario_may_name_its_robot(study):
     assert scenario_of(study, "links_encoders-z1") == ("links_encoders", "z1")
     with pytest.raises(UnknownName, match="did you mean links"):
         scenario_of(study, "link")
-    with pytest.raises(UnknownName, match="ur10, ur3, ur5 or z1; did you mean ur3"):
+    with pytest.raises(UnknownName, match="expected: jaco, puma560, ur10, ur3, ur5 or z1$"):
         scenario_of(study, "links-ur7")
 
 

@@ -38,7 +38,7 @@ def test_nothing_else_starts_it():
     ]
     named = [path for path in files if "rerun_cli" in path.read_text(encoding="utf-8")]
     starting = {path for path in named if "rerun_cli" in imported(path)}
-    assert starting == {Path(ROOT, "recalib", "laboratory", "viewer", "program.py")}
+    assert starting == {Path(ROOT, "recalib", "laboratory", "viewer", "process.py")}
 
 
 @pytest.mark.slow
