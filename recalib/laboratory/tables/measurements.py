@@ -152,7 +152,7 @@ def _check_rows(rows: Measurements) -> Measurements:
             row = int(early.argmax()) + 2
             found = f"row {row} was measured before row {row - 1}; try: sort the rows by time"
             raise InvalidFile(rows.path, found)
-        if times[0] == times[-1]:
+        if len(times) > 1 and times[0] == times[-1]:
             raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: without it")
     if len(rows) < FEWEST:
         found = f"it has {counted(len(rows), 'row')}; expected: at least {FEWEST}"
