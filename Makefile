@@ -53,14 +53,15 @@ tools: .venv/tools ## what tests, pages and the article need besides, from requi
 	$(PIP) --require-hashes -r requirements-dev.lock
 	touch $@
 
-cluster: setup ## install what Snakemake needs to talk to Slurm, not pinned; see docs/cluster.md
-	$(PIP) --no-build-isolation --editable .[cluster]
+cluster: .venv/extras ## what Snakemake needs to talk to Slurm, from requirements-extras.lock; see docs/cluster.md
 
-vision: setup ## install OpenCV for pictures of a board, not pinned; see docs/pictures.md
-	$(PIP) --no-build-isolation --editable .[vision]
+vision: .venv/extras ## OpenCV for pictures of a board, from requirements-extras.lock; see docs/pictures.md
 
-live: setup ## install MuJoCo for an arm with dynamics, not pinned; see docs/live_paper.md
-	$(PIP) --no-build-isolation --editable .[live]
+live: .venv/extras ## MuJoCo for an arm with dynamics, from requirements-extras.lock; see docs/live_paper.md
+
+.venv/extras: .venv/installed requirements-extras.lock
+	$(PIP) --require-hashes -r requirements-extras.lock
+	touch $@
 
 test: lint ## the linters and all tests except whole workflows, examples, sites and environments
 	$(PYTEST) -m "not slow"
@@ -81,7 +82,7 @@ lines: ## count the lines of Python
 dist: tools ## build what is released, the sources and the wheel, in dist/
 	rm -rf dist
 	.venv/bin/python -m build --no-isolation --outdir dist
-	$(UV) tool run twine check --strict dist/*
+	.venv/bin/twine check --strict dist/*
 
 elsewhere: dist ## unpack the released sources elsewhere, and run make test and make quick there; PYTHON=python3.13 for another Python
 	$(ELSEWHERE) && tar --extract --file dist/recalib-*.tar.gz --directory "$$folder" --strip-components 1 && \
@@ -98,8 +99,7 @@ slurm: tools ## run a small campaign on a Slurm cluster of one node, with faults
 faults: tools ## kill runs, start two at once, damage files, fill the disk (10 minutes)
 	.venv/bin/python -m pytest -n0 -vv -rs tests/faults
 
-mutants: tools ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
-	$(PIP) --no-build-isolation --editable .[mutants]
+mutants: tools .venv/extras ## plant small random errors in the code, and list those that no test notices, with the time left: docs/mutants.md
 	.venv/bin/python -m tests.mutants --count $(COUNT)
 
 peers: tools ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
@@ -144,8 +144,7 @@ web: setup ## show recordings in a browser, also from a server; SCENARIO and STU
 	$(SNAKEMAKE) --quiet all -- $(RECORDING)
 	.venv/bin/python -m replication.recording.watch $(RESULTS) --port $(PORT)
 
-notebook: setup ## damage an arm with sliders, in a browser; installs marimo, which is not pinned
-	$(PIP) --no-build-isolation --editable .[notebook]
+notebook: .venv/extras ## damage an arm with sliders, in a browser
 	MARIMO_SKIP_UPDATE_CHECK=1 .venv/bin/marimo run --host 127.0.0.1 --port $(PORT) examples/notebook.py
 
 tune: ## find the settings of every variant in the reference study anew, and ship them (an hour)
@@ -165,6 +164,8 @@ ship: setup ## make the present config.yaml the shipped study
 lock: tools ## pin the dependencies of pyproject.toml anew
 	$(LOCK) --extra study --output-file requirements.lock
 	$(LOCK) $(addprefix --extra ,study dev docs article) --constraint requirements.lock --output-file requirements-dev.lock
+	$(LOCK) $(addprefix --extra ,study vision live cluster notebook mutants) --constraint requirements-dev.lock \
+	  --output-file requirements-extras.lock
 
 clean: ## remove results, keep the environment
 	rm -rf results .snakemake

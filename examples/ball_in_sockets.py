@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib import OFFSETS, Chain, Distance, Observations, calibrate, initial_frames, load_arm
+from recalib import Chain, calibrate, load_arm
 
 rng = np.random.default_rng(1996)
 arm, home = load_arm("panda.urdf", "panda_hand_tcp"), np.array([0, 0.2, 0, -2, 0, 2.2, 0.8])
@@ -15,9 +15,8 @@ joints, number = home + rng.uniform(-0.7, 0.7, (80, 7)), np.repeat([0, 1], 40)
 poses = arm.forward(joints)
 poses[:, :3, 3] = sockets[number]  # guided by hand until the ball sits in the socket
 joints = Chain.of(arm).solve(poses, joints)[0] - offsets + rng.normal(scale=2e-5, size=(80, 7))
-apart = Distance(0, 1, math.dist(*sockets))  # this distance is measured
-observations = Observations(joints, sockets=number, distances=[apart])
-calibration = calibrate(arm, [OFFSETS], observations, initial_frames(arm, observations))
+apart = {(0, 1): math.dist(*sockets)}  # m, measured
+calibration = calibrate(arm, joints, sockets=number, distances=apart).calibration
 tests = home + rng.uniform(-0.5, 0.5, (100, 7))
 reached = [arm.forward(tests + offsets), arm.forward(tests), calibration.forward(tests)]
 # relative to their mean: sockets do not say where the arm stands

@@ -4,7 +4,7 @@ import numpy as np
 from ur10 import robot
 
 import recalib
-from recalib import EncoderShift, LinkShortening, Observations, position_error
+from recalib import EncoderShift, LinkShortening, position_error
 
 rng = np.random.default_rng(1996)
 damages = [LinkShortening("forearm_link", 0.04), EncoderShift("elbow_joint", 0.07)]
@@ -18,11 +18,13 @@ def measure(angles):
 
 poses = robot.workspace.to_poses(robot.workspace.sample(rng, 300))
 candidates, tests = np.split(recalib.Controller(robot).inverse(poses), [200])
-angles, measured = candidates[:1], measure(candidates[:1])
-for _ in range(12):
-    calibration = recalib.calibrate(robot.arm, [recalib.OFFSETS], Observations(angles, measured))
-    missed = position_error(calibration.forward(tests), arm.forward(tests)).mean()
-    print(f"{len(angles):2} positions: predictions miss by {1e3 * missed:.2f} mm")
-    best = recalib.information_gains(calibration, candidates).argmax()
+errors = position_error(robot.arm.forward(tests), arm.forward(tests))
+print(f"nominal: predictions are off by {1e3 * errors.mean():.2f} mm")
+angles, measured = candidates[:10], measure(candidates[:10])
+for _ in range(4):
+    calibrated = recalib.calibrate(robot.arm, angles, measured)
+    errors = position_error(calibrated.predict(tests), arm.forward(tests))
+    print(f"{len(angles)} positions: predictions are off by {1e3 * errors.mean():.2f} mm")
+    best = recalib.information_gains(calibrated.calibration, candidates).argmax()
     angles = np.vstack([angles, candidates[best]])
     measured = np.vstack([measured, measure(candidates[[best]])])

@@ -6,18 +6,18 @@ from pathlib import Path
 import numpy as np
 from station import BentUR10, in_room
 
-from recalib import Corrector, LiveSettings, calibrate_arm, calibrate_live, load_arm
+from recalib import LiveSettings, calibrate_arm, calibrate_live, load_arm
 
 arm, station = load_arm("ur10_robot.urdf", "tool0"), BentUR10()
 table = Path(tempfile.mkdtemp()) / "measurements.csv"
-calibrate_live(lambda: station, arm, table, LiveSettings(most=30), lambda posture: True)
-corrector = Corrector(calibrate_arm("ur10_robot.urdf", table, tool="tool0").correction)
+calibrate_live(lambda: station, arm, table, LiveSettings(most=30))
+correction = calibrate_arm("ur10_robot.urdf", table, tool="tool0").correction
 
 near = np.array([0.1, -1.0, 1.8, -2.2, -1.5, 0.1])
 before, after = [], []
 for joints in near + np.linspace(0, 0.2, 50)[:, None]:
     goal = in_room(arm.forward(joints[None])[0])
-    near = corrector.command(goal, near, target="the target")
+    near = correction.command(goal, near)
     before.append(np.linalg.norm(station.seen(joints) - goal))
     after.append(np.linalg.norm(station.seen(near) - goal))
 print(f"mean error before {1e3 * np.mean(before):.3g} mm, after {1e3 * np.mean(after):.3g} mm")

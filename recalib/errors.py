@@ -1,13 +1,10 @@
-"""The exceptions of this library: each has its facts as attributes and says what was expected."""
+"""The exceptions of this library: attributes hold the facts, messages say what was expected."""
 
 from collections.abc import Iterable
 from os import PathLike, fspath
-from typing import TYPE_CHECKING
+from typing import Any
 
 from recalib.spelling import instead
-
-if TYPE_CHECKING:  # names are checked without it
-    import numpy as np
 
 
 class RecalibError(Exception):
@@ -15,7 +12,7 @@ class RecalibError(Exception):
 
 
 class UnknownName(RecalibError):
-    """A name that is not among the valid ones; the message has the nearest of them."""
+    """A name that is not among the valid ones; the message suggests the nearest of these."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -38,8 +35,8 @@ class InvalidSetting(RecalibError):
 
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
-        said = "missing" if value is None else repr(value)
-        super().__init__(f"{key} is {said}; expected: {valid}")
+        found = "missing" if value is None else repr(value)
+        super().__init__(f"{key} is {found}; expected: {valid}")
 
 
 class BadMeasurement(RecalibError):
@@ -55,11 +52,11 @@ class BadMeasurement(RecalibError):
 
 
 class UnsuitableRobot(RecalibError):
-    """A robot that is no serial arm of joints that turn or slide about or along one axis."""
+    """A robot that is not a serial arm of joints that turn or slide about or along one axis."""
 
 
 class Unreachable(RecalibError):
-    """A pose command that the nominal controller cannot execute.
+    """A pose command (4, 4) [m] that the nominal controller cannot execute.
 
     Attributes:
         position, rotation: (3,) m and (3, 3) of the command in the base frame.
@@ -67,7 +64,7 @@ class Unreachable(RecalibError):
         reason: why.
     """
 
-    def __init__(self, pose: "np.ndarray", residual: float, reason: str):
+    def __init__(self, pose: Any, residual: float, reason: str):
         self.position, self.rotation = pose[:3, 3].copy(), pose[:3, :3].copy()
         self.residual, self.reason = float(residual), reason
         place = ", ".join(f"{x:.3f}" for x in self.position)

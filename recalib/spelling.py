@@ -1,40 +1,31 @@
-"""Names that do not exist: what may have been meant, and lists of names in a sentence."""
+"""Unknown names: a suggestion, the valid names, and lists of names in a sentence."""
 
 from collections.abc import Iterable
-from functools import cache
+from difflib import get_close_matches
+from itertools import takewhile
 
 MOST, SOME = 10, 3  # names in a sentence: of all that are valid, or as examples
+ALIKE = 0.75  # difflib's ratio: two letters of four exchanged, or one of two left out
 
 
 def nearest(word: str, valid: Iterable[str]) -> str | None:
-    """The valid word that is the fewest edits away, if those are at most a third of the word.
+    """The valid word that is the most alike, if one is near; capitals do not count."""
+    words, word = {other.casefold(): other for other in valid}, word.casefold()
+    ending = _common_ending(words) if len(words) > 1 else ""
+    if ending and word.endswith(ending):  # as .urdf: it says nothing of how near names are
+        words = {other.removesuffix(ending): name for other, name in words.items()}
+        word = word.removesuffix(ending)
+    found = get_close_matches(word, words, n=1, cutoff=ALIKE)
+    return words[found[0]] if found else None
 
-    Capitals do not count.
-    """
-    alike = [other for other in valid if 3 * abs(len(word) - len(other)) <= len(word)]
-    edits = {other: _edits(word.casefold(), other.casefold()) for other in alike}
-    best = min(edits, key=lambda other: edits[other], default=None)
-    return best if best is not None and 3 * edits[best] <= len(word) else None
 
-
-def _edits(word: str, other: str) -> int:
-    """How many letters to insert, delete, replace or swap: Damerau and Levenshtein's distance."""
-
-    @cache
-    def between(i: int, j: int) -> int:
-        if not i or not j:
-            return i + j
-        ways = [between(i - 1, j) + 1, between(i, j - 1) + 1]
-        ways.append(between(i - 1, j - 1) + (word[i - 1] != other[j - 1]))
-        if min(i, j) > 1 and word[i - 2 : i] == other[j - 1] + other[j - 2]:
-            ways.append(between(i - 2, j - 2) + 1)
-        return min(ways)
-
-    return between(len(word), len(other))
+def _common_ending(words: Iterable[str]) -> str:
+    letters = zip(*(word[::-1] for word in words), strict=False)
+    return "".join(one[0] for one in takewhile(lambda one: len({*one}) == 1, letters))[::-1]
 
 
 def instead(name: str, valid: Iterable[str]) -> str:
-    """What to say in the place of a name: the nearest one, the valid ones, or some of many."""
+    """What to use in the place of a name: the nearest one, the valid ones, or some of many."""
     valid = list(valid)
     meant = f"did you mean {other}?" if (other := nearest(name, valid)) else ""
     if len(valid) > MOST:

@@ -11,25 +11,17 @@ URDFS = ["a1.urdf", "finger_edu.urdf", "panda.urdf", "ur10_robot.urdf", "ur5_rob
     ("word", "meant"),
     [
         ("urr5_robot.urdf", "ur5_robot.urdf"),
-        ("ur5_robto.urdf", "ur5_robot.urdf"),  # a swap is one edit
+        ("ur5_robto.urdf", "ur5_robot.urdf"),
         ("pandra.urdf", "panda.urdf"),
-        ("PANDA.URDF", "panda.urdf"),  # capitals are no edits
+        ("PANDA.URDF", "panda.urdf"),
         ("nowhere.urdf", None),
-        ("iiwa14.urdf", None),
+        ("iiwa14.urdf", None),  # whose ending alone is that of all
         ("", None),
         ("x" * 5000, None),
     ],
 )
-def test_a_suggestion_is_at_most_a_third_of_the_word_away(word, meant):
+def test_a_near_name_is_suggested(word, meant):
     assert nearest(word, URDFS) == meant
-
-
-@pytest.mark.parametrize(
-    ("word", "edits"), [("seed", 0), ("sede", 1), ("sead", 1), ("sd", 2), ("deed", 1), ("dees", 2)]
-)
-def test_edits_are_counted(word, edits):
-    found = nearest(word, ["seed"])
-    assert (found == "seed") == (3 * edits <= len(word))
 
 
 def test_few_names_are_listed_and_of_many_some():

@@ -9,10 +9,10 @@ import csv
 
 import numpy as np
 import pinocchio as pin
+from simulated_arm import Gears
+from simulated_camera import PicturedStation
 
 from recalib import DamagedArm, load_arm
-from recalib.station.camera import PicturedStation
-from recalib.station.physics import Gears
 from recalib.vision.boards import read_board
 
 HOME = np.array([0, 0.1, 0, -1.9, 0, 3.0, 0.8])  # rad; the flange shows the board to the camera

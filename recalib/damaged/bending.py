@@ -9,7 +9,7 @@ from recalib.damaged.damage import Damage, DamagedArm, end_of
 from recalib.damaged.imperfections import Link
 from recalib.errors import InvalidSetting
 from recalib.files.bounded import Direction, SignedTurn
-from recalib.nominal.robots import Robot
+from recalib.nominal.kinematics import Arm
 
 
 @dataclass(frozen=True)
@@ -22,8 +22,8 @@ class LinkBend(Damage, words=("bend",)):
     towards: Direction = 0.0
     """Where its outer half goes: the angle about the line from the axis that is most across it."""
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        end = end_of(robot, self.link, damaged)
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        end = end_of(arm, self.link, damaged)
         line = _line(end.translation, self.link)
         # rounded: of two axes that are equally far across, the first
         across = np.eye(3)[np.abs(line).round(6).argmin()]
@@ -43,8 +43,8 @@ class LinkTwist(Damage, words=("twist",)):
     twist: SignedTurn
     """Angle by which its end is turned."""
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        end = end_of(robot, self.link, damaged)
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        end = end_of(arm, self.link, damaged)
         line = _line(end.translation, self.link)
         end.rotation = Rotation.from_rotvec(self.twist * line).as_matrix() @ end.rotation
 

@@ -12,6 +12,7 @@ import numpy as np
 import pinocchio as pin
 from scipy.spatial.transform import Rotation
 
+from recalib.arrays import array_of
 from recalib.damaged.imperfections import Imperfection, Joint, Link
 from recalib.errors import InvalidSetting, UnknownName
 from recalib.files.bounded import Amount, Length, SignedTurn
@@ -44,8 +45,11 @@ class DamagedArm:
 
         Args:
             angles: (n, joint) rad that the controller assumes.
+
+        Raises InvalidSetting: another shape.
         """
-        return self.chain.forward(self._deflected(angles)[None])[0]
+        joints = array_of("angles", angles, ("n", len(self.offsets)))
+        return self.chain.forward(self._deflected(joints)[None])[0]
 
     @cached_property
     def chain(self) -> Chain:
@@ -78,10 +82,10 @@ class DamagedArm:
 class Damage(Imperfection):
     """Anything that can happen to an arm. A new kind is a class in a module of this package."""
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        """Do it to the damaged arm; `robot` is the nominal one, which stays as it is.
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        """Do it to the damaged arm; `arm` is the nominal one, which stays as it is.
 
-        Raises UnknownName (link, joint) and InvalidSetting (more than the robot can lose).
+        Raises UnknownName (link, joint) and InvalidSetting (more than the arm can lose).
         """
         raise NotImplementedError
 
@@ -104,7 +108,12 @@ class BaseShift(Damage, words=("translate", "rotate")):
     rotate: tuple[SignedTurn, SignedTurn, SignedTurn] = (0.0, 0.0, 0.0)
     """Of the whole robot: roll, pitch and yaw about the base's axes, R = Rz Ry Rx."""
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("translate", "rotate"):
+            array_of(f"BaseShift.{name}", getattr(self, name), (3,))
+
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
         turn = Rotation.from_euler("xyz", self.rotate).as_matrix()
         placements = damaged.arm.model.jointPlacements
         placements[1] = pin.SE3(turn, np.array(self.translate)) * placements[1]
@@ -125,8 +134,8 @@ class LinkShortening(Damage, words=("shorten",)):
         if self.along not in get_args(Along):
             raise UnknownName("direction in which a link is shortened", self.along, get_args(Along))
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        end = end_of(robot, self.link, damaged).translation
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        end = end_of(arm, self.link, damaged).translation
         longest = np.abs(end).argmax()
         part = end if self.along == "line" else end[longest : longest + 1]
         whole = np.linalg.norm(part)
@@ -144,36 +153,35 @@ class EncoderShift(Damage, words=("encoder", "shift")):
     shift: SignedTurn
     """Angle by which the joint stands beyond what its encoder reports."""
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        damaged.offsets[joint_index(robot, self.encoder)] += self.shift
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        damaged.offsets[joint_index(arm, self.encoder)] += self.shift
 
 
-def end_of(robot: Robot, link: str, damaged: DamagedArm) -> pin.SE3:
+def end_of(arm: Arm, link: str, damaged: DamagedArm) -> pin.SE3:
     """Where a link ends in the frame of the joint that moves it; changing it changes the arm.
 
     Raises UnknownName.
     """
-    if link not in robot.links:
-        raise UnknownName(f"link of {robot.name}", link, robot.links)
-    return link_end(damaged.arm.model, damaged.arm.tool, robot.links[link])
+    if link not in arm.links:
+        raise UnknownName("link", link, arm.links)
+    return link_end(damaged.arm.model, damaged.arm.tool, arm.links[link])
 
 
-def joint_index(robot: Robot, joint: str) -> int:
-    """Which joint of the robot has this name. Raises UnknownName: none, or one that slides."""
-    turning = [
-        name for name, slides in zip(robot.joints, robot.arm.slides, strict=True) if not slides
-    ]
+def joint_index(arm: Arm, joint: str) -> int:
+    """Which joint of the arm has this name. Raises UnknownName: none, or one that slides."""
+    turning = [name for name, slides in zip(arm.joints, arm.slides, strict=True) if not slides]
     if joint not in turning:
-        raise UnknownName(f"turning joint of {robot.name}", joint, turning)
-    return robot.joints.index(joint)
+        raise UnknownName("turning joint", joint, turning)
+    return arm.joints.index(joint)
 
 
-def apply(robot: Robot, damages: Iterable[Damage]) -> DamagedArm:
-    """The arm of the nominal robot with the damages done to it, one after the other.
+def apply(nominal: Robot | Arm, damages: Iterable[Damage]) -> DamagedArm:
+    """The nominal arm with the damages done to it, one after the other.
 
     Raises what they raise: see `Damage.apply`.
     """
-    damaged = DamagedArm(robot.arm.copy(), np.zeros(len(robot.home)))
+    arm = nominal.arm if isinstance(nominal, Robot) else nominal
+    damaged = DamagedArm(arm.copy(), np.zeros(len(arm.joints)))
     for damage in damages:
-        damage.apply(robot, damaged)
+        damage.apply(arm, damaged)
     return damaged

@@ -12,7 +12,7 @@ import numpy as np
 from recalib.damaged.damage import Damage, DamagedArm, joint_index
 from recalib.damaged.imperfections import Joint
 from recalib.files.bounded import Compliance, Direction, Turn
-from recalib.nominal.robots import Robot
+from recalib.nominal.kinematics import Arm
 
 # N m below which gravity does not decide to which side of its gap a joint falls: rounding of a
 # vertical axis, no load.
@@ -25,8 +25,8 @@ class Deflection(Damage):
 
     joint: Joint
 
-    def apply(self, robot: Robot, damaged: DamagedArm) -> None:
-        damaged.deflections.append(partial(self._deflections, joint_index(robot, self.joint)))
+    def apply(self, arm: Arm, damaged: DamagedArm) -> None:
+        damaged.deflections.append(partial(self._deflections, joint_index(arm, self.joint)))
 
     def _deflections(self, joint: int, angles: np.ndarray, torques: np.ndarray) -> np.ndarray:
         deflections = np.zeros_like(angles)

@@ -14,16 +14,13 @@ import numpy as np
 from recalib.errors import InvalidFile, RecalibError
 from recalib.files.storage import read_file, whole
 
-MOST = 256_000_000  # bytes, also of what is packed
-Arrays = Mapping[str, Any]  # by name, in groups of groups
+MOST = 256_000_000  # bytes of an archive, packed and unpacked
+Arrays = Mapping[str, Any]  # arrays, or further groups, by name
 
 
 @contextmanager
 def refused(path: str | PathLike[str], writer: str) -> Iterator[None]:
-    """Blame the file for whatever is raised while it is read: it may hold anything.
-
-    Raises InvalidFile, or what was raised on purpose.
-    """
+    """Raise InvalidFile in place of any exception that is not ours: a file may hold anything."""
     try:
         yield
     except RecalibError:
@@ -33,30 +30,44 @@ def refused(path: str | PathLike[str], writer: str) -> Iterator[None]:
 
 
 def write_archive(path: str | PathLike[str], header: Mapping[str, Any], groups: Arrays) -> None:
-    """Write arrays, named by their groups as in position/theta.
+    """Write an archive; see `archive_of`."""
+    with whole(path) as temporary:
+        temporary.write_bytes(archive_of(header, groups))
+
+
+def archive_of(header: Mapping[str, Any], groups: Arrays) -> bytes:
+    """The archive of arrays, named by their groups as in position/theta.
 
     Args:
         header: of JSON's types, with the `format` and its `version`.
     """
     arrays = flat(groups)
     sealed = {**header, "sha256": _digest(header, arrays)}
-    with whole(path) as temporary:
-        members: dict[str, Any] = {"header": json.dumps(sealed), **arrays}
-        np.savez(temporary, **members)
+    content, members = io.BytesIO(), {"header": np.array(json.dumps(sealed)), **arrays}
+    np.savez(content, **members)  # type: ignore[arg-type]  # mypy takes a member for an option
+    return content.getvalue()
 
 
 def read_archive(
     path: str | PathLike[str], kind: tuple[str, int], writer: str
 ) -> tuple[dict[str, Any], Arrays]:
+    """Header and groups of the archive at `path`; see `opened`. Raises InvalidFile."""
+    return opened(read_file(path, MOST), path, kind, writer)
+
+
+def opened(
+    archive: bytes, path: str | PathLike[str], kind: tuple[str, int], writer: str
+) -> tuple[dict[str, Any], Arrays]:
     """Header and groups of an archive.
 
     Args:
-        kind: its format and version, as they must be.
+        path: of the file, for messages.
+        kind: the format and the version that it must have.
         writer: what writes such archives, for messages.
 
-    Raises InvalidFile: not there, not whole, or not of this format.
+    Raises InvalidFile: not whole, or of another format.
     """
-    content = io.BytesIO(read_file(path, MOST))
+    content = io.BytesIO(archive)
     with refused(path, writer):
         with zipfile.ZipFile(content) as packed:
             size = sum(member.file_size for member in packed.infolist())
@@ -77,7 +88,7 @@ def read_archive(
 
 
 def _digest(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> str:
-    """Of all that an archive holds: its sums tell a damaged part, not one that was replaced."""
+    """The SHA-256 of all members: a zip's own sums notice damage, not another member."""
     digest = hashlib.sha256(json.dumps(header, sort_keys=True).encode())
     for name, array in sorted(arrays.items()):
         digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
@@ -86,7 +97,7 @@ def _digest(header: Mapping[str, Any], arrays: Mapping[str, np.ndarray]) -> str:
 
 
 def flat(state: Arrays, prefix: str = "") -> dict[str, np.ndarray]:
-    """The arrays of a state by their paths, such as position/theta."""
+    """Arrays by their paths in groups, such as position/theta."""
     arrays: dict[str, np.ndarray] = {}
     for name, value in state.items():
         if isinstance(value, Mapping):

@@ -1,39 +1,45 @@
-"""The output of a command: complete, at once, and never in place of an existing file."""
+"""The output of a command: new, complete at once, and read back before it appears."""
 
-import fcntl
+import csv
+import io
+import json
 import os
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+import tempfile
+import tomllib
+import zipfile
+from collections.abc import Callable, Mapping
 from pathlib import Path
+
+import yaml
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.storage import IN_THE_MAKING
+from recalib.files.xml import read_xml
 
-MARK = "made-by-recalib"  # a file in the folder of what is in the making: what lies there is ours
+AnyPath = str | os.PathLike[str]
+HIDDEN = ".recalib-"  # how the folder begins in which outputs are made; a process's number follows
 
 
-def check_new(path: str | os.PathLike[str], folder: bool = False) -> None:
-    """Raise unless `new` may put a file, or a folder, at `path`.
+def check_new(path: AnyPath, folder: bool = False) -> None:
+    """Raise unless `write_new` may put a file, or a folder, at `path`.
 
-    Raises InvalidSetting (no name), InvalidFile (something is there, or nothing can be put there),
-    OSError (a name that no file can have).
+    Raises InvalidSetting (a name that no file can have), InvalidFile (the path exists, or nothing
+    can be written there), OSError (a name that is too long).
     """
     if not os.fspath(path) or "\0" in os.fspath(path):
         raise InvalidSetting("--out", os.fspath(path), "the name of a file or folder")
     if is_taken(path, folder):
-        raise InvalidFile(path, "it is there already, and nothing is replaced; try: another --out")
-    top, making = _places(path)
-    if not top.parent.is_dir() or not os.access(top.parent, os.W_OK):
-        raise InvalidFile(path, f"nothing can be made in {top.parent}; try: another --out")
-    if os.path.lexists(making) and not _is_ours(making):
-        raise InvalidFile(making, "it is in the way of what will be made; try: another --out")
+        raise InvalidFile(path, "it exists already, and nothing is replaced; try: another --out")
+    home = _home(path)
+    if not home.is_dir() or not os.access(home, os.W_OK):
+        raise InvalidFile(path, f"nothing can be written in {home}; try: another --out")
 
 
-def is_taken(path: str | os.PathLike[str], folder: bool = False) -> bool:
-    """Whether something is there that a file, or a folder, may not replace.
+def is_taken(path: AnyPath, folder: bool = False) -> bool:
+    """Whether something exists that a file, or a folder, may not replace.
 
-    A folder may replace an empty one, but not a link, another disk, or the one we are in.
+    A folder may replace an empty one, but not a link, another disk, or the working folder.
     """
     path = Path(path)
     if not folder or path.is_symlink() or not path.is_dir() or os.path.ismount(path):
@@ -41,75 +47,105 @@ def is_taken(path: str | os.PathLike[str], folder: bool = False) -> bool:
     return any(path.iterdir()) or path.samefile(Path.cwd())
 
 
-@contextmanager
-def new(path: str | os.PathLike[str], folder: bool = False) -> Iterator[Path]:
-    """Where to make a file, or a folder, which appears at `path` when the block ends well.
+def write_new(path: AnyPath, content: bytes | Mapping[str, bytes], suffix: str = "") -> None:
+    """Write a new file, or a new folder of files by their names, with missing parents.
 
-    It appears at once, with those of its parents that are not there, and replaces nothing. What a
-    killed process left in the making goes when the next one makes the same.
+    Args:
+        suffix: the format of a single file, whatever it is called.
 
-    Raises as `check_new`, and InvalidFile where another process makes the same.
+    Everything is read back by a parser of its format before it appears. It appears at once and
+    replaces nothing. What a killed process left is removed by the next one that writes there.
+
+    Raises as `check_new`, and InvalidFile: a file that cannot be written or read back.
     """
+    folder = not isinstance(content, bytes)
     check_new(path, folder)
-    top, making = _places(path)
-    made = making / Path(os.path.abspath(path)).relative_to(top.parent)
+    home, target = _home(path), Path(os.path.abspath(path))
     try:
-        making.mkdir(exist_ok=True)
-    except OSError as error:
-        reason = f"nothing can be made in {top.parent}: {error.strerror}; try: another --out"
-        raise InvalidFile(path, reason) from None
-    with _held(making):
-        try:
-            (making / MARK).touch()
-            _remove(making / top.name)
-            (made if folder else made.parent).mkdir(parents=True, exist_ok=True)
-            yield made
+        _remove_leftovers(home)
+        with tempfile.TemporaryDirectory(
+            prefix=f"{HIDDEN}{os.getpid()}-", suffix=IN_THE_MAKING, dir=home
+        ) as temporary:
+            made = Path(temporary, "made")
+            if isinstance(content, bytes):
+                _write(made, content, path, suffix)
+            else:
+                made.mkdir()
+                for name, part in content.items():
+                    _write(made / name, part, Path(path, name), Path(name).suffix)
+            target.parent.mkdir(parents=True, exist_ok=True)
             check_new(path, folder)
-            os.rename(making / top.name, top)
-        finally:
-            with suppress(OSError):
-                _remove(making / top.name)  # before the mark, which says that it may be removed
-            shutil.rmtree(making, ignore_errors=True)
+            os.rename(made, target)
+    except OSError as error:
+        raise InvalidFile(path, f"it cannot be written: {error.strerror}") from None
 
 
-def _places(path: str | os.PathLike[str]) -> tuple[Path, Path]:
-    """The uppermost part of a path that is not there, and the hidden folder in which it is made."""
-    top = Path(os.path.abspath(path))
-    while not os.path.lexists(top.parent):
-        top = top.parent
-    return top, top.with_name(f".{top.name}{IN_THE_MAKING}")
+def _home(path: AnyPath) -> Path:
+    """The nearest folder above a path that exists."""
+    return next(parent for parent in Path(os.path.abspath(path)).parents if os.path.lexists(parent))
 
 
-def _is_ours(making: Path) -> bool:
-    """Whether a killed process left this folder: it is marked, or was not yet and is empty."""
-    if making.is_symlink() or not making.is_dir():
-        return False
-    names = [path.name for path in making.iterdir()]
-    return not names or MARK in names
-
-
-def _remove(path: Path) -> None:
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path)
-    else:
-        path.unlink(missing_ok=True)
-
-
-@contextmanager
-def _held(folder: Path) -> Iterator[None]:
-    """Keep other processes out of a folder; the system lets go of it however this one ends."""
-    other = InvalidFile(folder, "another process fills it; try: another --out")
-    try:
-        descriptor = os.open(folder, os.O_RDONLY)
-    except FileNotFoundError:
-        raise other from None
-    try:
+def _remove_leftovers(home: Path) -> None:
+    """Remove folders of processes that have ended."""
+    for left in home.glob(f"{HIDDEN}*{IN_THE_MAKING}"):
+        number = left.name.removeprefix(HIDDEN).partition("-")[0]
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise other from None
-        if not os.fstat(descriptor).st_nlink:  # whoever filled it has removed it
-            raise other
-        yield
-    finally:
-        os.close(descriptor)
+            os.kill(int(number), 0)
+        except (ProcessLookupError, ValueError):
+            shutil.rmtree(left, ignore_errors=True)
+        except OSError:  # a process of somebody else
+            pass
+
+
+def _write(made: Path, content: bytes, path: AnyPath, suffix: str) -> None:
+    """Write a file, and read it back; messages name the path at which it will appear."""
+    try:
+        made.write_bytes(content)
+        same = made.read_bytes() == content
+    except OSError as error:
+        raise InvalidFile(path, f"it cannot be written: {error.strerror}") from None
+    if not same:
+        raise InvalidFile(path, "the disk gives back something else than was written")
+    try:
+        READERS.get(suffix, bytes.decode)(content)
+    except Exception as error:  # whatever a parser finds wrong
+        reason = f"what was computed for it cannot be read back: {error}; please report this"
+        raise InvalidFile(path, reason) from None
+
+
+def _read_csv(content: bytes) -> None:
+    heading, *rows = csv.reader(io.StringIO(content.decode("utf-8"), newline=""), strict=True)
+    if {len(row) for row in rows} - {len(heading)}:
+        raise ValueError("its rows have different lengths")
+
+
+def _read_npz(content: bytes) -> None:
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        if damaged := archive.testzip():
+            raise ValueError(f"{damaged} is damaged")
+
+
+def _read_xml(content: bytes) -> None:
+    read_xml(content, Path("it"))
+
+
+def _read_ending(ending: bytes) -> Callable[[bytes], None]:
+    def read(content: bytes) -> None:
+        if ending not in content[-64:]:
+            raise ValueError("its end is missing")
+
+    return read
+
+
+# A newcomer's format needs a line here; any other file has to be text in UTF-8.
+READERS: Mapping[str, Callable[[bytes], object]] = {
+    ".csv": _read_csv,
+    ".json": json.loads,
+    ".npz": _read_npz,
+    ".pdf": _read_ending(b"%%EOF"),
+    ".rrd": _read_ending(b"RRF2FOOT"),
+    ".svg": _read_xml,
+    ".toml": lambda content: tomllib.loads(content.decode("utf-8")),
+    ".urdf": _read_xml,
+    ".yaml": yaml.safe_load,
+}

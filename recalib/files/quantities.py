@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from recalib.errors import InvalidQuantity, InvalidSetting
 
 _TEXT = re.compile(r"\s*([-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?)\s*([a-zA-Z/]+)\s*", re.ASCII)
-_DIGITS = 15, 16, 17  # what rounding leaves as it was written; what tells all floats apart
+_DIGITS = 15, 16, 17  # 15 hide rounding, 17 give each float back
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,10 +18,12 @@ class Quantity:
     Attributes:
         name: with its article.
         units: the size of each in SI units; that of size 1 is among them.
+        farthest: the largest number of SI units in tables and descriptions of an arm.
     """
 
     name: str
     units: Mapping[str, float]
+    farthest: float = math.inf
 
     def read(self, text: object) -> float:
         """The number of SI units that the text means. Raises InvalidQuantity."""
@@ -31,7 +33,7 @@ class Quantity:
         return float(match[1]) * self.units[match[2]]
 
     def value_of(self, key: str, text: object) -> float:
-        """As `read`, of what a key or an option is given. Raises InvalidSetting, which names it."""
+        """The same for a key or an option, which the message names. Raises InvalidSetting."""
         try:
             return self.read(text)
         except InvalidQuantity:
@@ -49,7 +51,8 @@ class Quantity:
 
 
 _DEGREE = math.pi / 180
-LENGTH = Quantity("a length", {"mm": 1e-3, "cm": 1e-2, "m": 1.0})
-ANGLE = Quantity("an angle", {"deg": _DEGREE, "rad": 1.0})
+NUMBER = Quantity("a number", {"": 1.0})
+LENGTH = Quantity("a length", {"mm": 1e-3, "cm": 1e-2, "m": 1.0}, farthest=10.0)
+ANGLE = Quantity("an angle", {"deg": _DEGREE, "rad": 1.0}, farthest=4 * math.pi)
 COMPLIANCE = Quantity("a compliance", {"deg/Nm": _DEGREE, "rad/Nm": 1.0})
-TIME = Quantity("a time", {"ms": 1e-3, "s": 1.0, "min": 60.0})
+TIME = Quantity("a time", {"ms": 1e-3, "s": 1.0, "min": 60.0}, farthest=1e10)

@@ -16,9 +16,9 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
     """The bytes of a file.
 
     Args:
-        most: of them; no such file has more.
+        most: the largest size that is read [bytes].
 
-    Raises InvalidFile: not there, not to be read, without an end, or larger.
+    Raises InvalidFile: no such file, one that cannot be read or has no end, or a larger one.
     """
     try:
         mode = os.stat(path).st_mode
@@ -37,15 +37,15 @@ def read_file(path: str | os.PathLike[str], most: int) -> bytes:
 
 
 def digest(content: bytes) -> str:
-    """Sixteen digits that tell what a file holds from anything else."""
+    """The first sixteen digits of the SHA-256 of a file's content."""
     return hashlib.sha256(content).hexdigest()[:16]
 
 
 @contextmanager
 def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path beside `path`, with its suffix.
+    """A temporary path in the folder of `path`, with the same suffix.
 
-    It takes the place of `path` when the block ends without an error.
+    It replaces `path` when the block ends without an error.
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -58,5 +58,5 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def is_temporary(name: str) -> bool:
-    """Whether a file of this name was in the making when its process was killed."""
+    """Whether a file of this name was not complete when its process was killed."""
     return name.startswith(".") and IN_THE_MAKING in name

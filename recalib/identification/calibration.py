@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
+from recalib.arrays import array_of
 from recalib.identification.estimation import DOUBTFUL, LEAST_NOISE, Identification, identify
 from recalib.identification.model.error_model import JOINT_WAVES, ErrorModel, JointTerms, by_sight
 from recalib.identification.model.frames import HELD, Frames
@@ -47,8 +48,11 @@ class Calibration:
 
         Args:
             joints: (n, joints) rad, m that the controller assumes.
+
+        Raises InvalidSetting: another shape, NaN.
         """
-        return self._moved(self._arm.forward(self._standing(joints)), joints)
+        angles = array_of("joints", joints, ("n", self._arm.model.nv))
+        return self._moved(self._arm.forward(self._standing(angles)), angles)
 
     def forward_and_jacobian(self, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and Jacobians (n, 6, joints) of the arm standing there.
@@ -64,9 +68,12 @@ class Calibration:
         Args:
             joints: (n, joints) rad, m that the controller assumes.
             targets: (n,) the numbers of the sights; the first unless given.
+
+        Raises InvalidSetting: another shape, NaN.
         """
-        poses = self.model.predict(self.estimate.parameters, joints, targets)
-        return self._shifted(poses, joints, targets)
+        angles = array_of("joints", joints, ("n", self._arm.model.nv))
+        poses = self.model.predict(self.estimate.parameters, angles, targets)
+        return self._shifted(poses, angles, targets)
 
     def predict_and_jacobian(
         self, joints: np.ndarray, targets: np.ndarray
@@ -79,6 +86,36 @@ class Calibration:
             arm = self._arms_to_targets[target]
             poses[rows], jacobians[rows] = arm.forward_and_jacobian(standing[rows])
         return self._shifted(poses, joints, targets), jacobians
+
+    def position_covariances(
+        self, joints: np.ndarray, shifted: bool, targets: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Covariances (n, 3, 3) [m^2] of predicted positions of targets.
+
+        Args:
+            joints: (n, joints) rad, m.
+            shifted: whether one shift and turn of instrument and target is taken out, of all rows
+                together: how far away a camera is, no picture tells better than its board and lens
+                are known.
+            targets: (n,) the numbers of the sights; the first unless given.
+        """
+        model, estimate = self.model, self.estimate
+        _, jacobians = model.linearise(estimate.parameters, joints, model.terms(joints), targets)
+        by_position = jacobians[:, :3].reshape(-1, model.deviations.size)
+        if shifted:
+            ends = np.flatnonzero(model.free[: model.optics_columns.start])
+            shifts = np.linalg.qr(by_position[:, ends]).Q
+            by_position = by_position - shifts @ (shifts.T @ by_position)
+        rows = by_position.reshape(len(joints), 3, -1)
+        return rows @ estimate.covariance @ rows.swapaxes(1, 2)
+
+    def unseen(self, observations: Observations) -> float | np.ndarray:
+        """Deviations (n,) [m] of predicted positions along lines of sight; 0 without cameras."""
+        if observations.optics is None:
+            return 0.0
+        lines = observations.optics.lines
+        spread = self.position_covariances(observations.joints, True, observations.targets)
+        return np.sqrt(np.einsum("ni,nij,nj->n", lines, spread, lines))
 
     def residuals(self, observations: Observations) -> np.ndarray:
         """Measured minus predicted: (n, 3) m, or (n, 6) m and rad, along the instrument's axes."""

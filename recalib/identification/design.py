@@ -22,6 +22,20 @@ def information_gains(calibration: Calibration, joints: np.ndarray) -> np.ndarra
     return _gains(_spreads(_rows(calibration, joints), calibration.estimate.covariance))
 
 
+def surprises(calibration: Calibration, observations: Observations) -> np.ndarray:
+    """How unexpected measurements of the first target are (n,), of which none was learned from.
+
+    The mean square of what is measured beside its prediction, over the covariance of both (the
+    normalised innovation of a Kalman filter): about 1 where model and noise are right.
+    """
+    rows = _rows(calibration, observations.joints, observations.optics)
+    noise = np.repeat(calibration.estimate.noise, 3)
+    residuals = calibration.residuals(observations)
+    off = observations.whitened(residuals)[:, : len(noise)] / noise
+    spreads = _spreads(rows, calibration.estimate.covariance)
+    return np.einsum("ni,ni->n", off, np.linalg.solve(spreads, off[..., None])[..., 0]) / len(noise)
+
+
 def most_informative(
     calibration: Calibration, joints: np.ndarray, count: int, optics: Optics | None = None
 ) -> Iterator[tuple[int, np.ndarray]]:

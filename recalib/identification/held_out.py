@@ -15,6 +15,7 @@ from recalib.identification.calibration import Calibration
 from recalib.identification.checks.postures import Postures
 from recalib.identification.model.linearisation import LEVER
 from recalib.identification.model.observations import Observations
+from recalib.identification.model.optics import Optics
 from recalib.numerics.randomness import generator
 
 FOLDS = 5
@@ -31,18 +32,32 @@ class HeldOut:
     Attributes:
         residuals: (n, 3) m, or (n, 6) m and rad, along the axes of the instrument.
         folds: (n,) the number of the part in which a row was held out.
+        optics: of rows by cameras.
+        unseen: (n,) m, how uncertain predicted positions are along the line of sight.
     """
 
     residuals: np.ndarray
     folds: np.ndarray
+    optics: Optics | None = None
+    unseen: float | np.ndarray = 0.0
 
     def __getitem__(self, rows: np.ndarray) -> "HeldOut":
-        return HeldOut(self.residuals[rows], self.folds[rows])
+        unseen = np.broadcast_to(self.unseen, len(self.folds))[rows]
+        optics = None if self.optics is None else self.optics[rows]
+        return HeldOut(self.residuals[rows], self.folds[rows], optics, unseen)
 
     @property
     def errors(self) -> np.ndarray:
-        """(n, 1) m or (n, 2) m and rad: how far off, and how far turned."""
-        return np.linalg.norm(self.residuals.reshape(len(self.residuals), -1, 3), axis=2)
+        """(n, 1) m or (n, 2) m and rad: how far off, and how far turned.
+
+        By cameras, how far corners are off across the line of sight, and how uncertain the
+        calibration is along it: what a picture measures there is mostly its own noise.
+        """
+        errors = np.linalg.norm(self.residuals.reshape(len(self.residuals), -1, 3), axis=2)
+        if self.optics is not None:
+            across = self.optics.across(self.optics.moved(self.residuals))
+            errors[:, 0] = np.hypot(across, self.unseen)
+        return errors
 
     @property
     def losses(self) -> np.ndarray:
@@ -129,4 +144,4 @@ def hold_out(fit: Fit, observations: Observations, folds: np.ndarray) -> dict[st
         for kind, calibration in fit(held).items():
             every = residuals.setdefault(kind, np.empty((len(held), 3 * observations.kinds)))
             every[held] = calibration.residuals(observations[held])
-    return {kind: HeldOut(every, folds) for kind, every in residuals.items()}
+    return {kind: HeldOut(every, folds, observations.optics) for kind, every in residuals.items()}

@@ -4,7 +4,7 @@ The residuals of the fit are no measure: a Gaussian process interpolates.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -159,11 +159,15 @@ def validate(
             found[HYBRID] = with_pattern(found[HYBRID], observations[~rows], process)
         return {kind: found[kind] for kind in full}
 
+    unseen = {kind: calibration.unseen(observations) for kind, calibration in full.items()}
     held_out, lost = {}, {}
     for way, divide in zip(WAYS, (blocks, random_folds), strict=True):
         on_progress(f"errors {way}")
         folds = divide(observations, postures)
-        held_out[way] = hold_out(without, observations, folds)
+        held_out[way] = {
+            kind: replace(errors, unseen=unseen[kind])
+            for kind, errors in hold_out(without, observations, folds).items()
+        }
         lost[way] = _lost(candidates[0].model, observations, folds)
     judged = counted & ~lost[BLOCKWISE]
     chosen = _choice(held_out[BLOCKWISE], judged if judged.any() else counted, postures)

@@ -1,47 +1,71 @@
 """The options of each command of `recalib`."""
 
 import argparse
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NoReturn
+
+from recalib import __version__
+from recalib.errors import InvalidQuantity, UnknownName
+from recalib.files.quantities import LENGTH
+from recalib.laboratory.tables.columns import described
 
 CAMERAS = "fixed", "hand"
-MAKING_FOLDERS = "calibrate", "live", "board", "observe"  # the other commands make a file
-DONE, REFUSED, NO_BETTER = 0, 1, 3  # exit codes; argparse's own is 2
+FILES = "correct", "next", "urdf"  # commands that write a file
+FOLDERS = "calibrate", "live", "board", "observe"  # commands that write a folder
+DONE, REFUSED, NO_BETTER = 0, 1, 3
 EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
-Command = Callable[[argparse.Namespace], int]
-Kind = Callable[[str], object]
+URDF = "URDF file, or the name of an arm of example-robot-data"
+CALIBRATION = "folder of calibrate, or its correction.npz"
 
 
-def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
-    """What reads the command line, and calls one of these commands."""
-    parser = argparse.ArgumentParser(
+class Parser(argparse.ArgumentParser):
+    """Refuses as commands do: in one sentence, with the same exit code."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print what is wrong, and leave."""
+        self.exit(REFUSED, f"recalib: {message}; try: {self.prog} --help\n")
+
+    def add(
+        self, name: str, text: str, kind: Callable[[str], object] = str, default: object = None
+    ) -> None:
+        """An argument, or an option with its default."""
+        shown = "" if default is None else f" (default: {default})"
+        self.add_argument(name, type=kind, default=default, help=text + shown)
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """The options on a command line; leaves with an exit code if there is a mistake."""
+    parser = Parser(
         prog="recalib", description="Recalibrate a robot arm from measurements.", epilog=EPILOGUE
     )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    parser.add_argument("--version", action="version", version=f"recalib {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def add(name: str, text: str) -> argparse.ArgumentParser:
-        own = commands.add_parser(name, help=text, description=text, epilog=EPILOGUE)
-        own.set_defaults(command=functions[name], makes_folder=name in MAKING_FOLDERS)
+    def add(name: str, text: str, out: str, epilog: str = "") -> Parser:
+        own = commands.add_parser(
+            name,
+            help=text,
+            description=text,
+            epilog=f"{epilog}{EPILOGUE}",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        kind = "folder" if name in FOLDERS else "file"
+        own.add("--out", f"new {kind} to write", Path, out)
         return own
 
-    def add_default(
-        own: argparse.ArgumentParser, name: str, default: object, text: str, kind: Kind = str
-    ) -> None:
-        own.add_argument(name, default=default, type=kind, help=f"{text} (default: {default})")
-
-    def add_arm(own: argparse.ArgumentParser) -> None:
+    def add_arm(own: Parser) -> None:
+        own.add("--tool", "tool link; needed only if the arm has several ends", _name)
+        own.add("--base", "link whose frame poses are given in (default: the root)", _name)
+        own.add("--description", "frames, columns and distances (TOML)", _path)
         own.add_argument(
-            "--tool", type=_name, help="tool link; needed only if the arm has several ends"
+            "--recording", action="store_true", help="also write recording.rrd, for rerun"
         )
-        own.add_argument(
-            "--base", type=_name, help="link whose frame poses are given in (default: the root)"
-        )
-        own.add_argument("--description", type=_path, help="frames, columns and distances (TOML)")
-        add_default(own, "--out", "calibration", "new folder to write")
 
-    urdf = "URDF file, or the name of an arm of example-robot-data"
-    own = add("calibrate", "identify the arm's parameters from measurements")
-    own.add_argument("urdf", type=_name, help=urdf)
+    own = add(
+        "calibrate", "identify the arm's parameters from measurements", "calibration", _columns()
+    )
+    own.add("urdf", URDF, _name)
     own.add_argument(
         "measurements",
         type=_path,
@@ -50,83 +74,81 @@ def parser_of(functions: Mapping[str, Command]) -> argparse.ArgumentParser:
     )
     add_arm(own)
 
-    own = add("live", "move, measure and calibrate until the predicted error is small enough")
+    text = "move, measure and calibrate until the predicted error is small enough"
+    own = add("live", text, "calibration")
+    own.add("station", "FILE.py:NAME, MODULE:NAME, or a quoted command line", _name)
+    own.add("urdf", URDF, _name)
+    own.add("--error", "predicted error to end at, such as '0.3 mm'")
+    own.add("--most", "rows to end at in any case", int, 60)
+    own.add("--span", "range of each joint about the first posture, either way", str, "45 deg")
     own.add_argument(
-        "station", type=_name, help="FILE.py:NAME, MODULE:NAME, or a quoted command line"
+        "--box",
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="ranges of the tool's position: '-40 cm to 40 cm' '30 cm to 80 cm' '0 m to 1 m'",
     )
-    own.add_argument("urdf", type=_name, help=urdf)
-    own.add_argument("--error", help="predicted error to end at, such as '0.3 mm'")
-    add_default(own, "--most", 60, "rows to end at in any case", int)
-    add_default(own, "--span", "45 deg", "range of each joint about the first posture, either way")
+    own.add("--speed", "share of the possible speed", float, 0.1)
+    own.add("--floor", "height in the arm's base that all stays above, or none", str, "0 mm")
     own.add_argument(
-        "--box", help="ranges of the tool's x, y, z: '-40 cm to 40 cm, 30 cm to 80 cm, 0 m to 1 m'"
+        "--no-self-collision", action="store_true", help="let links come near each other"
     )
-    add_default(own, "--speed", 0.1, "share of the possible speed", float)
-    add_default(own, "--patience", "60 s", "time limit of a move or measurement")
-    own.add_argument("--board", type=_path, help="board in the station's pictures (TOML)")
-    own.add_argument("--lens", type=_path, help="lens calibration (YAML), with --board")
-    own.add_argument("--camera", choices=CAMERAS, help="where it is (default: fixed)")
+    own.add("--board", "board in the station's pictures (TOML)", _path)
+    own.add("--lens", "lens calibration (YAML), with --board", _path)
+    own.add_argument("--camera", choices=CAMERAS, help="where the camera is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")
-    own.add_argument("--view", action="store_true", help="show it in a window of rerun")
-    add_default(own, "--table", "measurements.csv", "new, or begun by live", _path)
+    own.add("--table", "new, or begun by live", _path, "measurements.csv")
     add_arm(own)
 
-    own = add("correct", "compute commands that reach the desired poses")
-    own.add_argument("calibration", type=_path, help="folder of calibrate, or its correction.npz")
-    own.add_argument("desired", type=_path, help="desired poses or joint coordinates (CSV)")
+    own = add("correct", "compute commands that reach the desired poses", "commands.csv")
+    own.add("calibration", CALIBRATION, _path)
+    own.add("desired", "desired poses or joint coordinates (CSV)", _path)
     own.add_argument(
         "--frame",
         choices=("base", "instrument"),
-        default="base",
-        help="frame of the poses: the tool link in the base, or a target in the instrument's frame"
-        " (default: %(default)s)",
+        help="frame of the poses: a target in the instrument's frame, as measured, or the tool"
+        " link in the base, if [instrument] was given (default: instrument; of joints alone, and"
+        " of balls in sockets: base)",
     )
-    add_default(own, "--out", "commands.csv", "new file to write")
 
-    own = add(
-        "next",
-        "propose the most informative postures, and say whether more are worth measuring",
-    )
-    own.add_argument("calibration", type=_path, help="folder of calibrate, or its correction.npz")
-    own.add_argument(
-        "candidates",
-        type=_path,
-        nargs="?",
-        help="postures to choose from (CSV); drawn unless given",
-    )
-    add_default(own, "--count", 10, "number of postures", _positive)
-    add_default(own, "--out", "next.csv", "new file to write")
+    text = "propose the most informative postures, and say whether more are worth measuring"
+    own = add("next", text, "next.csv")
+    own.add("calibration", CALIBRATION, _path)
+    candidates = "postures to choose from (CSV; default: drawn at random)"
+    own.add_argument("candidates", type=_path, nargs="?", help=candidates)
+    own.add("--count", "number of postures", _positive, 10)
 
-    own = add("urdf", "write a URDF from Denavit-Hartenberg parameters")
-    own.add_argument("links", type=_path, help="table (CSV): joint, a, alpha, d, theta, kind")
-    add_default(own, "--convention", "standard", "standard or modified")
-    add_default(own, "--out", "arm.urdf", "new file to write")
+    own = add("urdf", "write a URDF from Denavit-Hartenberg parameters", "arm.urdf")
+    own.add("links", "table (CSV): joint, a, alpha, d, theta, kind", _path)
+    own.add("--convention", "standard or modified", str, "standard")
 
-    own = add("board", "draw a calibration board to print")
-    add_default(own, "--kind", "charuco", "charuco or apriltag")
-    add_default(own, "--columns", 7, "squares in a row", int)
-    add_default(own, "--rows", 5, "rows of squares", int)
-    add_default(own, "--square", "36 mm", "width of a square")
-    add_default(own, "--out", "board", "new folder to write")
+    own = add("board", "draw a ChArUco board to print", "board")
+    own.add("--columns", "squares in a row", int, 7)
+    own.add("--rows", "rows of squares", int, 5)
+    own.add("--square", "width of a square", _length, "36 mm")
 
-    own = add("observe", "find the board in pictures, and calibrate the lens")
-    own.add_argument("pictures", type=_path, help="folder of pictures")
-    own.add_argument(
-        "joints", type=_path, help="table (CSV) of joint coordinates, with a column picture"
-    )
-    own.add_argument("--board", type=_path, default="board/board.toml", help="its description")
-    own.add_argument(
-        "--lens", type=_path, help="lens calibration (YAML); from the pictures unless given"
-    )
-    own.add_argument("--camera", choices=CAMERAS, default="fixed", help="where it is")
-    own.add_argument("--name", default="camera", help="its name, if there are several cameras")
-    add_default(own, "--out", "observed", "new folder to write")
-    return parser
+    own = add("observe", "find the board in pictures, and calibrate the lens", "observed")
+    own.add("pictures", "folder of pictures", _path)
+    own.add("joints", "table (CSV) of joint coordinates, with a column picture", _path)
+    own.add("--board", "description of the board", _path, "board/board.toml")
+    own.add("--lens", "lens calibration (YAML; default: estimated)", _path)
+    where = "where the camera is (default: fixed)"
+    own.add_argument("--camera", choices=CAMERAS, default="fixed", help=where)
+    own.add("--name", "name of the camera, if there are several", str, "camera")
+
+    if words and not words[0].startswith("-") and words[0] not in FILES + FOLDERS:
+        parser.error(str(UnknownName("command", words[0], FILES + FOLDERS)))
+    return parser.parse_args(words)
+
+
+def _columns() -> str:
+    """The columns of a table of measurements, for `recalib calibrate --help`."""
+    lines = (f"  {headings:<46}{meaning}" for headings, meaning in described())
+    return "\n".join(["columns of a table of measurements:", *lines, "", ""])
 
 
 def _name(text: str) -> str:
     if not text:
-        raise argparse.ArgumentTypeError("'' is no name")
+        raise argparse.ArgumentTypeError("'' is not a name")
     return text
 
 
@@ -136,5 +158,12 @@ def _path(text: str) -> Path:
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(f"{text!r} is no number from 1 on")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 on")
     return int(text)
+
+
+def _length(text: str) -> float:
+    try:
+        return LENGTH.read(text)
+    except InvalidQuantity as error:
+        raise argparse.ArgumentTypeError(str(error)) from None

@@ -16,22 +16,23 @@ from recalib.identification.checks.identifiability import Unidentifiable
 from recalib.identification.model.error_model import ErrorModel
 from recalib.identification.model.frames import HELD, Frames
 from recalib.identification.model.linearisation import displacements
+from recalib.laboratory.urdf.origins import angles_of
 
-INSTRUMENT: tuple[str, ...] = ("the instrument",)
 STEP = 1e-4  # of a parameter's prior deviation, to either side
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where something is that was found.
+    """The identified pose of an instrument, a target or a socket.
 
     Attributes:
-        name: of it, in words.
-        link: in whose frame it is.
-        turned: whether its rotation is known.
+        name: in words.
+        link: in whose frame the pose is.
+        turned: whether the rotation is known.
         pose: (4, 4) m.
-        deviations: m and rad, along the worst axis, relative to the calibrated arm.
-        real_deviations: likewise, relative to the real one.
+        deviations: standard deviations [m, rad] along the worst axis, relative to the calibrated
+            arm.
+        real_deviations: the same, relative to the real arm.
     """
 
     name: str
@@ -41,6 +42,16 @@ class Place:
     deviations: tuple[float, float]
     real_deviations: tuple[float, float]
 
+    @property
+    def position(self) -> np.ndarray:
+        """(3,) m."""
+        return self.pose[:3, 3]
+
+    @property
+    def degrees(self) -> np.ndarray:
+        """Roll, pitch and yaw (3,) [deg], as a URDF has them."""
+        return np.degrees(angles_of(self.pose))
+
 
 def found_places(
     calibration: Calibration,
@@ -48,9 +59,9 @@ def found_places(
     targets: Sequence[str],
     sockets: Sequence[str],
     tool: str,
-    instruments: Sequence[str] = INSTRUMENT,
+    instruments: Sequence[str] = ("the instrument",),
 ) -> list[Place]:
-    """All that were not given.
+    """The places that were not given.
 
     Args:
         unidentifiable: see `unidentifiable_parameters`.
@@ -80,12 +91,12 @@ def found_places(
 
 
 def _has_instrument(frames: Frames) -> bool:
-    """Whether the instrument is to be found; a ball in sockets has none."""
+    """Whether the instrument's pose is identified; a ball in sockets has none."""
     return frames.base_unknown and not len(frames.sockets)
 
 
 def _poses(model: ErrorModel, parameters: np.ndarray) -> np.ndarray:
-    """Poses (place, 4, 4) [m] of all that was not given."""
+    """Poses (place, 4, 4) [m] of everything that was not given."""
     frames = model.found(parameters)
     poses = [*np.linalg.inv(frames.bases)] * _has_instrument(frames)
     poses += [*frames.targets] * frames.targets_unknown

@@ -1,7 +1,7 @@
-"""The most informative postures to measure next, and when more are not worthwhile.
+"""The most informative postures to measure next, and whether more are worthwhile.
 
-Candidates come from the user, or are drawn from the measured range of joints and a little beyond:
-there the instrument saw the target and nothing was hit, which joint limits do not promise. Postures
+Candidates come from the user, or are drawn from the measured range of joints and a little beyond.
+There the instrument saw the target and nothing was hit, which joint limits do not promise. Postures
 near the ends of joint ranges are left out.
 """
 
@@ -11,18 +11,17 @@ import numpy as np
 
 from recalib.errors import InvalidSetting, RecalibError
 from recalib.identification.design import most_informative
-from recalib.laboratory.correction.archive import Correction
-from recalib.laboratory.correction.correct import solve
-from recalib.laboratory.tables.measurements import Measurements
+from recalib.laboratory.correction import Correction
+from recalib.laboratory.reaching import Goals
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
 from recalib.spelling import counted
 
 DRAWN = 400  # candidates
 BEYOND = 0.1  # of the measured range, on either side
-OUTERMOST = 0.05  # of a joint's range at either end, a tenth in all: there arms behave otherwise
-PROBES = 200  # postures whose predictions are judged
-ENOUGH = 0.05  # a part of the uncertainty: what gains less is hardly worth measuring
+OUTERMOST = 0.05  # of a joint's range at either end, where joints behave otherwise
+PROBES = 200  # postures at which the uncertainty is computed
+ENOUGH = 0.05  # a part of the uncertainty: a smaller gain is not worth the measurements
 
 
 class NoUsefulPosture(RecalibError):
@@ -34,7 +33,7 @@ class Proposal:
     """Postures to measure, the most informative first.
 
     Attributes:
-        joints: (n, joints) rad, or m where a joint slides.
+        joints: (n, columns) rad, or m where a joint slides, as the controller reports.
         uncertainty: (n + 1,) m, the mean deviation of predicted positions before and after each.
     """
 
@@ -47,16 +46,18 @@ class Proposal:
         return bool(self.uncertainty[-1] < (1 - ENOUGH) * self.uncertainty[0])
 
 
-def propose(correction: Correction, count: int, candidates: Measurements | None = None) -> Proposal:
-    """The postures that would teach the most of the arm, each given those before it.
+def propose(
+    correction: Correction, count: int, candidates: np.ndarray | Goals | None = None
+) -> Proposal:
+    """The most informative postures to measure, each given those before it.
 
     Args:
         count: how many.
-        candidates: joint coordinates, or poses of the tool in the arm's base, of which those that
-            are out of reach or near the end of a joint's range are left out; drawn unless given.
+        candidates: joint coordinates (n, columns), or poses of the tool in the arm's base (default:
+            drawn at random). Those out of reach or near the end of a joint's range are left out.
 
-    Raises InvalidSetting where they would have to be drawn for a ball in sockets, and
-    NoUsefulPosture where none is left.
+    Raises InvalidSetting if they would have to be drawn for a ball in sockets, and NoUsefulPosture
+    if none is left.
     """
     if candidates is not None:
         postures = _useful(correction, candidates)
@@ -66,17 +67,18 @@ def propose(correction: Correction, count: int, candidates: Measurements | None 
         postures = _drawn(correction)
     calibration = correction.calibration
     model, estimate = calibration.model, calibration.estimate
-    probes = _drawn(correction)[:PROBES]
+    coupling = correction.arm.coupling
+    probes = coupling.joints(_drawn(correction)[:PROBES])
     _, jacobians = model.linearise(estimate.parameters, probes, model.terms(probes))
     chosen, uncertainty = [], [_uncertainty(jacobians, estimate.covariance)]
-    for best, covariance in most_informative(calibration, postures, count):
+    for best, covariance in most_informative(calibration, coupling.joints(postures), count):
         chosen.append(best)
         uncertainty.append(_uncertainty(jacobians, covariance))
     return Proposal(postures[chosen], np.array(uncertainty))
 
 
 def variances(jacobians: np.ndarray, covariance: np.ndarray) -> np.ndarray:
-    """Of positions (n,) [m^2], all axes together, from their Jacobians (n, 6, P)."""
+    """Variances (n,) [m^2] of positions, all axes together, from their Jacobians (n, 6, P)."""
     rows = jacobians[:, :3]
     return np.sum((rows @ covariance) * rows, axis=(1, 2))
 
@@ -87,7 +89,7 @@ def _uncertainty(jacobians: np.ndarray, covariance: np.ndarray) -> float:
 
 
 def _drawn(correction: Correction) -> np.ndarray:
-    low, high = correction.learned.min(axis=0), correction.learned.max(axis=0)
+    low, high = correction.postures.min(axis=0), correction.postures.max(axis=0)
     margin = BEYOND * (high - low)
     lower, upper = joint_limits(correction.arm)
     low, high = (np.clip(end, lower, upper) for end in (low - margin, high + margin))
@@ -95,19 +97,19 @@ def _drawn(correction: Correction) -> np.ndarray:
 
 
 def joint_limits(arm: Arm) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper (joints,) [rad, m] of an arm, without the outermost part of each range."""
-    model = arm.model
-    lower, upper = model.lowerPositionLimit, model.upperPositionLimit
+    """Lower and upper (columns,) [rad, m] of an arm, without the outermost parts of ranges."""
+    lower, upper = arm.coupling.limits
     margin = np.where(np.isfinite(upper - lower), OUTERMOST * (upper - lower), 0.0)
     return lower + margin, upper - margin
 
 
-def _useful(correction: Correction, candidates: Measurements) -> np.ndarray:
-    """Candidates (n, joints) within reach, and off the ends of joint ranges."""
-    if candidates.positions is None:
-        found, reached = candidates.joints, np.ones(len(candidates), dtype=bool)
+def _useful(correction: Correction, candidates: np.ndarray | Goals) -> np.ndarray:
+    """Candidates (n, columns) within reach, and off the ends of joint ranges."""
+    if isinstance(candidates, Goals):
+        solved = correction.solve(candidates)
+        found, reached = solved.joints, solved.reached
     else:
-        found, _, reached = solve(correction, candidates)
+        found, reached = candidates, np.ones(len(candidates), dtype=bool)
     lower, upper = joint_limits(correction.arm)
     useful = reached & ((found >= lower) & (found <= upper)).all(axis=1)
     if not reached.any():

@@ -1,6 +1,5 @@
 """Serial arms from URDFs: the joints between a base link and a tool link, all others locked."""
 
-from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,14 +9,16 @@ import pinocchio as pin
 
 from recalib.errors import InvalidSetting, UnknownName, UnsuitableRobot
 from recalib.files.storage import read_file
+from recalib.nominal.coupling import coupling_of
 from recalib.nominal.descriptions import MOST, find_urdf, link_of, parsed
 from recalib.nominal.foreign_messages import caught_messages
 from recalib.nominal.kinematics import Arm, tool_frame
+from recalib.nominal.urdf_checks import check_description, mistakes
 
 KINDS = "fixed", "revolute", "continuous", "prismatic"
 NAMESAKE = " (joint)"  # after the name of one that is called like a link
+MOST_MOVING = 100  # joints between base and tool: the time for more grows with their cube
 UNBOUNDED = 1e300  # a limit that urdfdom can read, beyond which there is none
-ERROR = "Error:"  # before what urdfdom finds wrong; where in its code stands on another line
 FARTHEST, HEAVIEST = 1e3, 1e6  # m from a joint to the next, to the tool or a link's centre; kg
 
 
@@ -53,17 +54,15 @@ def arm_of(source: bytes, path: Path, tool: str | None = None, base: str | None 
         model.names[index] = name.removesuffix(NAMESAKE)
     if base != tree.root:
         _stand_on(model, model.frames[tool_frame(model, base)].placement.copy())
-    arm = Arm(model, tool, base)
+    limits = np.array([model.lowerPositionLimit, model.upperPositionLimit])
+    arm = Arm(model, tool, base, coupling_of(tree.joints, list(model.names)[1:], limits))
     _check(arm, path)
     return arm
 
 
 def _check(arm: Arm, path: Path) -> None:
-    """Raise UnsuitableRobot where a number of an arm is none of an arm."""
+    """Raise UnsuitableRobot if a number of an arm is implausible."""
     model = arm.model
-    for joint, axis in zip(arm.joints, arm.axes, strict=True):
-        if not axis.any():
-            raise UnsuitableRobot(f"the axis of {joint} has no length in {path}")
     limits = model.lowerPositionLimit, model.upperPositionLimit
     for joint, lower, upper in zip(arm.joints, *limits, strict=True):
         if not lower <= upper:
@@ -76,7 +75,7 @@ def _check(arm: Arm, path: Path) -> None:
             far = f"{FARTHEST:g} m or more from what carries it"
             raise UnsuitableRobot(f"{name} is {far} in {path}")
     for name, inertia in zip(arm.joints, list(model.inertias)[1:], strict=True):
-        if not (abs(inertia.mass) < HEAVIEST and np.abs(inertia.lever).max() < FARTHEST):
+        if not (0 <= inertia.mass < HEAVIEST and np.abs(inertia.lever).max() < FARTHEST):
             raise UnsuitableRobot(f"what {name} carries has no mass of an arm's link in {path}")
 
 
@@ -87,6 +86,7 @@ class _Tree:
         model: Pinocchio's, each continuous joint a revolute one with limits out of reach: else it
             would have two coordinates, a cosine and a sine.
         root: the link that no joint carries.
+        joints: elements by their names.
     """
 
     def __init__(self, source: bytes, path: Path):
@@ -102,14 +102,18 @@ class _Tree:
             name = joint.get("name", "")
             if name in links:  # Pinocchio takes frames of one name for another
                 joint.set("name", name + NAMESAKE)
+        check_description(robot, path)
         try:
             with caught_messages() as messages:
                 self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
         except (ValueError, RecursionError):
-            reasons = [f"{path} is no URDF that Pinocchio can read", *_mistakes(robot, messages)]
+            reasons = [f"{path} is no URDF that Pinocchio can read", *mistakes(robot, messages)]
             raise UnsuitableRobot(": ".join(reasons[:2])) from None
         self._name = path.name
         self._joints = {link_of(joint, "child"): joint for joint in robot.iterfind("joint")}
+        self.joints = {
+            joint.get("name", "").removesuffix(NAMESAKE): joint for joint in robot.iterfind("joint")
+        }
         # of links in a circle, which hang on nothing, Pinocchio knows nothing
         bodies = [frame for frame in self.model.frames if frame.type == pin.FrameType.BODY]
         self._links = [frame.name for frame in bodies]
@@ -144,16 +148,17 @@ class _Tree:
             raise UnsuitableRobot(f"{base} does not carry {tool} in {self._name}")
         moving = []
         for joint in self._joints_up(tool, base):
-            kind = "mimic" if joint.find("mimic") is not None else joint.get("type")
+            kind = joint.get("type")
             if kind not in KINDS:
                 raise UnsuitableRobot(
                     f"the joint {joint.get('name')} between {base} and {tool} of {self._name} is"
                     f" {kind}; expected: {', '.join(KINDS)}"
-                    + "; try: without <mimic>, and a column of its own"
-                    * (kind == "mimic")
                 )
             if kind != "fixed":
                 moving.append(joint.attrib["name"])
+        if len(moving) > MOST_MOVING:
+            found = f"{len(moving)} joints of {self._name} move {tool} against {base}"
+            raise UnsuitableRobot(f"{found}; expected: at most {MOST_MOVING}")
         if not moving:
             raise UnsuitableRobot(f"no joint of {self._name} moves {tool} against {base}")
         return moving
@@ -168,27 +173,6 @@ class _Tree:
             joints.append(self._joints[link])
             link = link_of(joints[-1], "parent")
         return joints
-
-
-def _mistakes(robot: ElementTree.Element, messages: list[str]) -> Iterator[str]:
-    """What is wrong with a URDF: vectors that are none, and then what urdfdom wrote."""
-    for part in robot:
-        vectors = ((its, key, its.get(key)) for its in part.iter() for key in ("xyz", "rpy"))
-        for element, key, text in vectors:
-            if text is not None and not _is_vector(text):
-                where = f"the {element.tag} of {part.get('name')}"
-                yield f"{where} has {key} {text!r}; expected: three numbers"
-    for line in messages:
-        if line.startswith(ERROR):
-            yield line.removeprefix(ERROR).strip().rstrip(".")
-
-
-def _is_vector(text: str) -> bool:
-    try:
-        numbers = [float(number) for number in text.split()]
-    except ValueError:
-        return False
-    return len(numbers) == 3 and bool(np.isfinite(numbers).all())
 
 
 def _bound(joint: ElementTree.Element) -> None:

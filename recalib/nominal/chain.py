@@ -10,6 +10,7 @@ from typing import Self
 import numpy as np
 import pinocchio as pin
 
+from recalib.errors import InvalidSetting
 from recalib.nominal import kernels
 from recalib.nominal.kinematics import Arm, tool_frame
 
@@ -49,7 +50,7 @@ class Chain(kernels.Arms):
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (arm, posture, 4, 4) of the tools [m] at joint angles (arm, posture, n) [rad].
 
-        Raises ValueError: angles of other arms or joints.
+        Raises InvalidSetting: angles of other arms or joints.
         """
         self._check(angles, len(self.slides))
         return kernels.forward(tuple(self), angles)
@@ -58,7 +59,7 @@ class Chain(kernels.Arms):
         """Jacobians (posture, 6, n) of the first arm at joint angles (posture, n) [rad].
 
         From joint velocities to linear [m/s] and angular [rad/s] velocity of the tool along the
-        base's axes. Raises ValueError: angles of other joints.
+        base's axes. Raises InvalidSetting: angles of other joints.
         """
         self._check(angles)
         return kernels.jacobians(tuple(self), angles)
@@ -77,18 +78,20 @@ class Chain(kernels.Arms):
         in m and rad: above TOLERANCE, the pose was not reached. It is infinite where the pose or
         the start holds nan.
 
-        Raises ValueError: angles of other joints, or not one start for each pose.
+        Raises InvalidSetting: angles of other joints, or not one start for each pose.
         """
         self._check(start)
         if poses.shape != (len(start), 4, 4):
-            raise ValueError(f"poses are {poses.shape}; expected: ({len(start)}, 4, 4)")
+            valid = f"an array ({len(start)}, 4, 4)"
+            raise InvalidSetting("poses", f"of shape {poses.shape}", valid)
         return kernels.solve(tuple(self), poses, start.astype(float))
 
     def _check(self, angles: np.ndarray, *arms: int) -> None:
-        """Raise ValueError unless angles are (*arms, posture, n): compiled loops do not look."""
+        """Raise InvalidSetting unless angles are (*arms, posture, n): compiled loops cannot."""
         expected = *arms, np.atleast_2d(angles).shape[-2], self.slides.shape[1]
         if angles.shape != expected:
-            raise ValueError(f"joint angles are {angles.shape}; expected: {expected}")
+            found, valid = f"of shape {angles.shape}", f"an array {expected}"
+            raise InvalidSetting("joint angles", found, valid)
 
 
 def _motion(angle: float, slides: bool) -> pin.SE3:

@@ -22,6 +22,7 @@ from recalib.errors import InvalidSetting, UnknownName
 from recalib.nominal.kinematics import Arm
 
 CONVENTIONS = "standard", "modified"
+MOST = 100  # joints of a serial arm: the time for more grows with their cube
 BASE, TOOL = "base", "tool"
 
 
@@ -50,8 +51,8 @@ def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
     It has no masses, and limits at infinity. Links are called base, after the joints that move
     them, and tool.
 
-    Raises UnknownName (a convention), and InvalidSetting (no rows, joints of one name, a parameter
-    that is no number).
+    Raises UnknownName (a convention), and InvalidSetting (no rows or too many, joints of one name,
+    a parameter that is not a number).
     """
     if convention not in CONVENTIONS:
         raise UnknownName("convention of Denavit-Hartenberg parameters", convention, CONVENTIONS)
@@ -79,8 +80,8 @@ def arm_of_table(rows: Sequence[Row], convention: str = "standard") -> Arm:
 
 
 def _check(rows: Sequence[Row]) -> None:
-    if not rows:
-        raise InvalidSetting("rows", [], "a row for each joint, at least one")
+    if not 0 < len(rows) <= MOST:
+        raise InvalidSetting("rows", f"{len(rows)} joints", f"1 to {MOST}")
     names = [row.name for row in rows]
     for row in rows:
         if names.count(row.name) > 1:

@@ -1,25 +1,23 @@
 """Files that describe robots (URDF): where they are, what they are called, and what they say."""
 
-import codecs
 import hashlib
 import importlib
 import importlib.metadata
 import os
-import re
+from dataclasses import dataclass
 from functools import cache
 from os import PathLike, fspath
 from pathlib import Path
 from xml.etree import ElementTree
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName, UnsuitableRobot
+from recalib.files.storage import read_file
+from recalib.files.xml import read_xml
 
 DATA = "example-robot-data"
 FETCHED = "robot_descriptions"  # of robot_descriptions.py, which fetches and keeps them
 MOST = 16_000_000  # bytes
 MOST_JOINTS = 1000  # Pinocchio takes one after the other by recursion, on a stack that ends
-_DECLARED = re.compile(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([\w.-]+)["']""")
-_MARKED = dict.fromkeys((codecs.BOM_UTF16_LE, b"<\0"), "utf-16-le")
-_MARKED |= dict.fromkeys((codecs.BOM_UTF16_BE, b"\0<"), "utf-16-be")
 
 
 def find_urdf(urdf: str | PathLike[str]) -> Path:
@@ -66,18 +64,27 @@ def _packaged_urdfs() -> dict[str, Path]:
     return {file.name: Path(file.locate()) for file in files if file.suffix == ".urdf"}
 
 
-def origin(urdf: str | PathLike[str], source: bytes) -> str:
-    """Which file it is, for people: its name, its package if it is of one, and its digest."""
-    package = package_of(urdf)
-    name = f"{find_urdf(urdf).name} of the package {package}" if package else fspath(urdf)
-    return f"{name} (sha256 {hashlib.sha256(source).hexdigest()[:12]})"
+@dataclass(frozen=True)
+class UrdfFile:
+    """The URDF of an arm.
 
+    Attributes:
+        path: of the file.
+        content: its bytes.
+        origin: for people: its name, its package if it is of one, and its digest.
+    """
 
-def encoding(source: bytes) -> str:
-    """The encoding that a URDF is in: what its first bytes mark or declare, or else UTF-8."""
-    if declared := _DECLARED.match(source):
-        return declared[1].decode("ascii")
-    return _MARKED.get(source[:2], "utf-8")
+    path: Path
+    content: bytes
+    origin: str
+
+    @classmethod
+    def read(cls, urdf: str | PathLike[str]) -> "UrdfFile":
+        """The file that a path or a name means. Raises as `find_urdf`, and InvalidFile."""
+        path, package = find_urdf(urdf), package_of(urdf)
+        content = read_file(path, MOST)
+        name = f"{path.name} of the package {package}" if package else fspath(urdf)
+        return cls(path, content, f"{name} (sha256 {hashlib.sha256(content).hexdigest()[:12]})")
 
 
 def parsed(source: bytes, path: Path) -> ElementTree.Element:
@@ -86,20 +93,23 @@ def parsed(source: bytes, path: Path) -> ElementTree.Element:
     Args:
         path: of the file, for messages.
 
-    Raises UnsuitableRobot: not XML, in another encoding than it says, or a robot of too many parts.
+    Raises UnsuitableRobot: not XML, in another encoding than it declares, or of too many joints.
     """
     try:
-        text = source.decode(encoding(source))
-        if text.encode(encoding(source)) != source:  # a corrected one could not keep its bytes
-            raise UnicodeError
-        robot = ElementTree.fromstring(text)
-    except (LookupError, UnicodeError):
-        raise UnsuitableRobot(f"{path} is no URDF: its text is not {encoding(source)}") from None
-    except ElementTree.ParseError:
-        raise UnsuitableRobot(f"{path} is no URDF: it is not XML") from None
+        robot = read_xml(source, path)
+    except InvalidFile as error:
+        raise UnsuitableRobot(f"{path} is not a URDF: {error.reason}") from None
+    root = robot.tag
+    for element in robot.iter() if "}" in root else ():
+        element.tag = local_name(element.tag, root)
     if (count := len(robot.findall("joint"))) > MOST_JOINTS:
         raise UnsuitableRobot(f"{path} has {count} joints; expected: at most {MOST_JOINTS}")
     return robot
+
+
+def local_name(name: str, root: str) -> str:
+    """An element's name without its namespace, if that is the root's: `http://...}joint`."""
+    return name.removeprefix(root[: root.rfind("}") + 1])
 
 
 def link_of(joint: ElementTree.Element, role: str) -> str:

@@ -8,6 +8,10 @@ from typing import Self
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import ArrayLike
+
+from recalib.arrays import array_of
+from recalib.nominal.coupling import Coupling
 
 
 def tool_frame(model: pin.Model, tool: str) -> int:
@@ -22,21 +26,43 @@ class Arm:
         model: the model, a chain of joints that turn or slide about or along one axis.
         tool: name of the link that is the tool.
         base: name of the link in whose frame poses are, which is that of the model's world.
+        coupling: of joints that follow others; None if each joint has a motor.
     """
 
-    def __init__(self, model: pin.Model, tool: str, base: str):
-        self.model, self.tool, self.base = model, tool, base
+    def __init__(self, model: pin.Model, tool: str, base: str, coupling: Coupling | None = None):
+        self.model, self.tool, self.base, self._coupling = model, tool, base, coupling
         self._data = model.createData()
         self._frame = tool_frame(model, tool)
 
     def copy(self) -> Self:
         """The same with a model of its own."""
-        return type(self)(pin.Model(self.model), self.tool, self.base)
+        return type(self)(pin.Model(self.model), self.tool, self.base, self._coupling)
+
+    @cached_property
+    def coupling(self) -> Coupling:
+        """From the joints that a controller reports to all joints."""
+        limits = np.array([self.model.lowerPositionLimit, self.model.upperPositionLimit])
+        each, count = np.eye(len(self.joints)), len(self.joints)
+        alone = Coupling(self.joints, self.slides, each, np.zeros(count), limits)
+        return self._coupling or alone
 
     @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints, from the base to the tool."""
         return tuple(self.model.names)[1:]
+
+    @property
+    def links(self) -> dict[str, int]:
+        """Each link, with the joint that moves it (0: the base).
+
+        A link ends at the next joint, the last one at the tool.
+        """
+        links: dict[str, int] = {}
+        for frame in self.model.frames:
+            is_link = frame.type == pin.FrameType.BODY and frame.name != "world"
+            if is_link and frame.parentJoint not in links.values():
+                links[frame.name] = frame.parentJoint
+        return links
 
     @cached_property
     def slides(self) -> np.ndarray:
@@ -63,39 +89,52 @@ class Arm:
         """Whether its links have no masses, so that nobody knows what gravity does to it."""
         return not any(inertia.mass for inertia in list(self.model.inertias)[1:])
 
-    def forward(self, angles: np.ndarray) -> np.ndarray:
-        """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad]."""
+    def forward(self, angles: ArrayLike) -> np.ndarray:
+        """Poses (n, 4, 4) of the tool in the base frame [m] at joint angles (n, joint) [rad].
+
+        Or one (4, 4) at those of one posture (joint,). Raises InvalidSetting, as the methods below:
+        another shape.
+        """
+        postures, shape = self._postures(angles)
         poses = []
-        for q in angles:
+        for q in postures:
             pin.forwardKinematics(self.model, self._data, q)
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
-        return np.array(poses).reshape(-1, 4, 4)
+        return np.array(poses).reshape(*shape, 4, 4)
 
-    def skeleton(self, angles: np.ndarray) -> np.ndarray:
+    def _postures(self, angles: ArrayLike) -> tuple[np.ndarray, tuple[int, ...]]:
+        """Joint angles (n, joint), and the shape of the results: (n,), or () of one posture."""
+        count = self.model.nv
+        array = array_of("joint angles", angles, ("n", count), (count,))
+        return array.reshape(-1, count), array.shape[:-1]
+
+    def skeleton(self, angles: ArrayLike) -> np.ndarray:
         """Base, joints and tool (n, joint + 2, 3) [m] at joint angles (n, joint) [rad]."""
-        points = np.zeros((len(angles), self.model.njoints + 1, 3))
-        points[:, -1] = self.forward(angles)[:, :3, 3]
-        for own, q in zip(points, angles, strict=True):
+        postures, shape = self._postures(angles)
+        points = np.zeros((len(postures), self.model.njoints + 1, 3))
+        points[:, -1] = self.forward(postures)[:, :3, 3]
+        for own, q in zip(points, postures, strict=True):
             pin.forwardKinematics(self.model, self._data, q)
             own[1:-1] = [placement.translation for placement in list(self._data.oMi)[1:]]
-        return points
+        return points.reshape(*shape, -1, 3)
 
-    def forward_and_jacobian(self, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def forward_and_jacobian(self, angles: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Poses (n, 4, 4) as `forward`, and the tool's Jacobians (n, 6, joint).
 
         A Jacobian maps joint velocities to the tool's linear [m/s] and angular [rad/s] velocity
         along the base's axes.
         """
+        postures, shape = self._postures(angles)
         poses, jacobians = [], []
-        for q in angles:
+        for q in postures:
             jacobians.append(
                 pin.computeFrameJacobian(
                     self.model, self._data, q, self._frame, pin.LOCAL_WORLD_ALIGNED
                 )
             )
             poses.append(pin.updateFramePlacement(self.model, self._data, self._frame).homogeneous)
-        shape = -1, 6, self.model.nv
-        return np.array(poses).reshape(-1, 4, 4), np.array(jacobians).reshape(shape)
+        of_all = np.array(jacobians).reshape(*shape, 6, self.model.nv)
+        return np.array(poses).reshape(*shape, 4, 4), of_all
 
     def forward_and_all_jacobians(
         self, angles: np.ndarray
@@ -122,8 +161,8 @@ class Arm:
         by_joint = np.array(joints).reshape(len(angles), 6, self.model.nv)  # of one joint, too
         return reached, by_joint, np.concatenate([np.array(placements), tools], axis=-1)
 
-    def gravity_torque(self, angles: np.ndarray) -> np.ndarray:
+    def gravity_torque(self, angles: ArrayLike) -> np.ndarray:
         """Torques (n, joint) [N m] that hold the arm against gravity at angles (n, joint) [rad]."""
-        return np.array(
-            [pin.computeGeneralizedGravity(self.model, self._data, q) for q in angles]
-        ).reshape(-1, self.model.nv)
+        postures, shape = self._postures(angles)
+        torques = [pin.computeGeneralizedGravity(self.model, self._data, q) for q in postures]
+        return np.array(torques).reshape(*shape, self.model.nv)

@@ -12,22 +12,24 @@ MOST = 100_000_000  # bytes of one
 PACKAGE = "package://"
 
 
-def with_own_meshes(source: bytes, urdf: Path) -> tuple[bytes, list[str]]:
-    """A URDF to be drawn, whose meshes are named by where they lie.
+def with_own_meshes(
+    source: bytes, urdf: Path, role: str = "visual", other: str = "collision"
+) -> tuple[bytes, list[str]]:
+    """A URDF with the shapes of one role alone, whose meshes are named by where they lie.
 
-    It may name any file, so what lies elsewhere is left out, and so is what nobody draws: shapes
-    for collisions and textures.
+    It may name any file, so what lies elsewhere is left out, and so are textures.
 
     Args:
         source: what was read of the URDF at `urdf`.
+        role, other: of shapes that stay, and of those that go.
 
     Returns it in UTF-8, and the names of the meshes that were left out.
     """
     robot, left_out = parsed(source, urdf), []
     for link in robot.iter("link"):
-        for shape in link.findall("collision"):
+        for shape in link.findall(other):
             link.remove(shape)
-        for shape in link.findall("visual"):
+        for shape in link.findall(role):
             if (mesh := shape.find("geometry/mesh")) is None:
                 continue
             name = mesh.get("filename", "")

@@ -44,17 +44,8 @@ class Robot:
 
     @property
     def links(self) -> dict[str, int]:
-        """Each link, with the joint that moves it (0: the base).
-
-        A link ends at the next joint, the last one at the tool.
-        """
-        model = self.arm.model
-        links: dict[str, int] = {}
-        for frame in model.frames:
-            is_link = frame.type == pin.FrameType.BODY and frame.name != "world"
-            if is_link and frame.parentJoint not in links.values():
-                links[frame.name] = frame.parentJoint
-        return links
+        """Each link, with the joint that moves it (0: the base)."""
+        return self.arm.links
 
 
 def shown(coordinate: float, slides: bool, digits: str = ".1f") -> str:
@@ -111,6 +102,9 @@ def load_robot(
     arm = load_arm(path, tool)
     _lengthen(arm, beyond)
     joints = arm.joints
+    if len(arm.coupling.columns) < len(joints):
+        followers = f"of {', '.join(joints)} some follow others by <mimic>"
+        raise UnsuitableRobot(f"{path.name}: {followers}; expected: a motor for each joint")
     if len(joints) < 6:
         raise UnsuitableRobot(
             f"{path.name} moves {tool!r} with {len(joints)} joints: {', '.join(joints)}; expected:"

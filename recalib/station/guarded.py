@@ -9,13 +9,21 @@ from typing import Any
 
 import numpy as np
 
+from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station, StationFailed
 
+PATIENCE = 120.0  # s that each call may take: a slow move of all joints, a long exposure
 REACHED = 0.01  # rad, m: how far from its goal a joint may stand
-STILL = 1e-3  # rad, m: between two readings of an arm that stands
-APART = 0.05  # s from one of these readings to the next
+STILL = 1e-4  # m by which a point on the tool may move while it stands, and while it is measured
+BESIDE = 0.1  # m from the tool link's origin to such a point: a target sits there
+READINGS, APART = 4, 0.05  # of an arm that stands, and s from one to the next
 SETTLING = 5.0  # s within which it has to stand
 STOPPING = 10.0  # s that are given to a stop
+
+
+class StationRaised(StationFailed):
+    """A station raised an exception of its own: it was not made to fail so."""
+
 
 # What to call, and where to put what it returned and what it raised.
 Call = tuple[Callable[[], Any], queue.SimpleQueue[Any]]
@@ -29,26 +37,25 @@ class Guarded:
 
     Args:
         opening: makes the station.
-        joints: names of the arm's joints.
-        patience: s that each call may take.
+        arm: the nominal one.
 
     Raises StationFailed here and in all that asks it: what it should not have done, in a sentence.
     """
 
-    def __init__(self, opening: Callable[[], Station], joints: Sequence[str], patience: float):
-        self._patience, self._stopped, self._hangs = patience, False, False
+    def __init__(self, opening: Callable[[], Station], arm: Arm):
+        self._arm, self._stopped, self._hangs = arm, False, False
         self._calls: queue.SimpleQueue[Call | None] = queue.SimpleQueue()
         self._station: Station | None = None
         threading.Thread(target=self._work, name="station", daemon=True).start()
         self._station = self._ask("open", opening)
         names = self._ask("name its joints", lambda station: [*station.joints])
+        joints = arm.joints
         if sorted(map(str, names)) != sorted(joints):
             raise StationFailed(
                 f"the station's joints are {', '.join(map(str, names))}; expected: those of the"
                 f" arm, {', '.join(joints)}"
             )
         self._order = [names.index(joint) for joint in joints]
-        self._joints = joints
 
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
         """The lowest and highest angles (joints,) that it allows [rad, m]."""
@@ -60,13 +67,15 @@ class Guarded:
         lower, upper = self._ask("tell its limits", both)
         low, high = self._numbers("lower limits", lower), self._numbers("upper limits", upper)
         if (wrong := low >= high).any():
-            joint = self._joints[int(wrong.argmax())]
+            joint = self._arm.joints[int(wrong.argmax())]
             raise StationFailed(f"the station's limits of {joint} are the wrong way round")
         return low, high
 
     def angles(self) -> np.ndarray:
         """Where it stands: (joints,) rad, m."""
-        return self._numbers("angles", self._ask("tell its angles", lambda its: its.angles()))
+        return self._numbers(
+            "angles", self._ask("tell its angles", lambda station: station.angles())
+        )
 
     def move(self, goal: np.ndarray, speed: float) -> None:
         """Move to joint angles (joints,) [rad, m], and wait until it stands there."""
@@ -75,17 +84,20 @@ class Guarded:
         self._ask("move", lambda station: station.move(own, speed))
         off = np.abs(self._standing() - goal)
         if off.max() > REACHED:
-            joint = self._joints[int(off.argmax())]
+            joint = self._arm.joints[int(off.argmax())]
             raise StationFailed(
                 f"after a move, {joint} stands {off.max():.3g} rad or m from where it was sent"
             )
 
     def measure(self) -> tuple[np.ndarray, Mapping[str, float | str] | None]:
-        """Where it stands (joints,) [rad, m], and what the instrument sees there."""
+        """Where it stands (joints,) [rad, m], and what is measured there, if the target is seen."""
         angles = self._standing()
         cells = self._ask("measure", lambda station: station.measure())
-        if (np.abs(self.angles() - angles) > STILL).any():
-            raise StationFailed("the arm moved while it was measured")
+        if (moved := self._moved([angles, self.angles()])) > STILL:
+            raise StationFailed(
+                f"while it was measured, the arm moved its tool by {1e3 * moved:.2g} mm; expected:"
+                f" at most {1e3 * STILL:g} mm"
+            )
         if cells is None:
             return angles, None
         if not isinstance(cells, Mapping) or not cells:
@@ -142,30 +154,40 @@ class Guarded:
         arguments = () if self._station is None else (self._station,)
         self._calls.put((lambda: call(*arguments), answer))
         try:
-            value, error = answer.get(timeout=self._patience)
+            value, error = answer.get(timeout=PATIENCE)
         except queue.Empty:
             self._hangs = True
             raise StationFailed(
-                f"for {self._patience:g} s the station has not answered when asked to {what}"
+                f"for {PATIENCE:g} s the station has not answered when asked to {what}"
             ) from None
         if isinstance(error, StationFailed):
             raise error
         if error is not None:
-            raise StationFailed(
+            raise StationRaised(
                 f"asked to {what}, the station raised {type(error).__name__}: {error}"
             ) from error
         return value
 
     def _standing(self) -> np.ndarray:
-        """The angles (joints,) at which two readings agree."""
-        last, until = self.angles(), time.monotonic() + SETTLING
-        while time.monotonic() < until:
+        """The angles (joints,) at which some readings agree."""
+        readings, until = [self.angles()], time.monotonic() + SETTLING
+        while time.monotonic() < until or len(readings) < READINGS:
             time.sleep(APART)
-            now = self.angles()
-            if (np.abs(now - last) <= STILL).all():
-                return now
-            last = now
-        raise StationFailed(f"the arm still moves, {SETTLING:g} s after it should stand")
+            readings = [*readings[1 - READINGS :], self.angles()]
+            if len(readings) == READINGS and self._moved(readings) <= STILL:
+                return readings[-1]
+        raise StationFailed(
+            f"{SETTLING:g} s after it should stand, the arm still moves its tool by"
+            f" {1e3 * self._moved(readings):.2g} mm; expected: at most {1e3 * STILL:g} mm"
+        )
+
+    def _moved(self, readings: Sequence[np.ndarray]) -> float:
+        """How far [m] a point beside the tool moves between readings (joints,), at most."""
+        poses = self._arm.forward(np.array(readings))
+        gaps = poses[:, None, :3, 3] - poses[:, :3, 3]
+        turns = np.linalg.norm(poses[:, None, :3, :3] - poses[:, :3, :3], axis=(2, 3)) / np.sqrt(2)
+        moved: float = (np.linalg.norm(gaps, axis=2) + BESIDE * turns).max()
+        return moved
 
     def _numbers(self, name: str, given: Any) -> np.ndarray:
         """An answer (joints,), in the arm's order."""

@@ -5,6 +5,7 @@ import importlib.util
 import re
 import shlex
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -56,6 +57,7 @@ def _module(home: str) -> ModuleType:
         raise StationFailed(f"there is no file {home}; expected: FILE.py:NAME")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec and spec.loader
+    sys.path.insert(0, str(path.parent.resolve()))  # as of a script: it may import its neighbours
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

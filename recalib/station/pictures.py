@@ -12,9 +12,18 @@ from recalib.station.interface import Station, StationFailed, cells_of
 from recalib.vision.boards import Board
 from recalib.vision.detection import FEWEST, Corners, Unusable, find_corners, read_picture
 from recalib.vision.lenses import Lens
-from recalib.vision.views import Sighting, good_corners, optics_of, predicted_views, sighting
+from recalib.vision.views import (
+    Sighting,
+    board_pose,
+    good_corners,
+    optics_of,
+    predicted_views,
+    reprojection,
+    sighting,
+)
 
 PICTURE = "picture"
+WRONG = 5.0  # px by which corners are off: so far, by no lens that is near the true one
 
 
 class BoardInPictures:
@@ -24,19 +33,31 @@ class BoardInPictures:
         board: which is in them.
         lens: of the camera, near the true one.
         in_hand: whether the camera is on the hand.
+
+    Attributes:
+        tool_radius: m that a board around the tool link's origin takes, however it is turned.
     """
 
     def __init__(self, board: Board, lens: Lens, in_hand: bool):
         self.lens, self._setup = lens, (board, lens, in_hand)
+        self.tool_radius = 0.0 if in_hand else float(np.linalg.norm(board.size)) / 2
         self._sightings: dict[str, Sighting] = {}
 
     def search(self, path: str, grey: np.ndarray) -> Sighting | None:
-        """What a picture (height, width) at a path says; None where the board is not found."""
+        """What a picture (height, width) at a path says; None if the board is not found.
+
+        Raises InvalidFile: the lens cannot be that of the picture.
+        """
         board, lens, _ = self._setup
         try:
-            corners = good_corners(board, lens, find_corners(board, grey))
+            found = find_corners(board, grey)
         except Unusable:
             return None
+        off = reprojection(board, lens, found, board_pose(board, lens, found))
+        if not (typical := float(np.median(np.linalg.norm(off, axis=1)))) < WRONG:
+            reason = f"by the lens that was given, its corners are off by {typical:.3g} px"
+            raise InvalidFile(path, f"{reason}; is it this camera's?")
+        corners = good_corners(board, lens, found)
         return self.add(path, corners) if len(corners.numbers) >= FEWEST else None
 
     def add(self, path: str, corners: Corners) -> Sighting:
@@ -53,14 +74,17 @@ class BoardInPictures:
         for path in paths:
             if path in self._sightings:
                 continue
-            grey = read_picture(Path(path)) if Path(path).is_file() else None
-            if grey is None or grey.shape[::-1] != self.lens.size or not self.search(path, grey):
+            try:
+                grey = read_picture(Path(path))
+            except Unusable as error:
+                raise InvalidFile(path, f"{error}; its row in the table needs it") from None
+            if grey.shape[::-1] != self.lens.size or not self.search(path, grey):
                 size = " x ".join(map(str, self.lens.size))
                 reason = (
                     f"it does not show the board in {size} pixels, as its row in the table says"
                 )
                 raise InvalidFile(path, reason)
-        return optics_of([self._sightings[path] for path in paths])
+        return optics_of(self.lens, [self._sightings[path] for path in paths])
 
     def predict(self, poses: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """See `predicted_views`."""
@@ -86,22 +110,26 @@ class PicturesOfABoard:
         return getattr(self._station, name)
 
     def measure(self) -> Mapping[str, float | str] | None:
-        """See `Station.measure`: the picture and the pose; None where the board is not found."""
+        """See `Station.measure`: the picture and the pose; None if the board is not found.
+
+        Raises InvalidFile: it is no picture of this camera.
+        """
         cells = self._station.measure()
         if cells is None:
             return None
         if PICTURE not in cells:
             raise StationFailed(f"the station measured {', '.join(cells)}; expected: {PICTURE}")
         path = str(cells[PICTURE])
-        grey = read_picture(Path(path))
-        if grey is None:
-            raise StationFailed(f"{path} is no picture")
+        try:
+            grey = read_picture(Path(path))
+        except Unusable as error:
+            raise InvalidFile(path, str(error)) from None
         if grey.shape[::-1] != (size := self._pictures.lens.size):
-            its, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
-            raise StationFailed(f"{path} has {its} pixels; expected, as by the lens: {valid}")
-        if (found := self._pictures.search(path, grey)) is None:
+            found, valid = (f"{w} x {h}" for w, h in (grey.shape[::-1], size))
+            raise StationFailed(f"{path} has {found} pixels; expected, as by the lens: {valid}")
+        if (shown := self._pictures.search(path, grey)) is None:
             return None
         if np.array_equal(grey, self._last):
             raise StationFailed(f"{path} is the same picture as the one before: is it an old one?")
         self._last = grey
-        return {PICTURE: path} | cells_of(found.pose)
+        return {PICTURE: path} | cells_of(shown.pose)

@@ -1,6 +1,6 @@
 """Boards of markers that a camera can measure, and the TOML that describes them."""
 
-import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from os import PathLike
@@ -11,14 +11,13 @@ import numpy as np
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import LENGTH
-from recalib.files.storage import read_file
+from recalib.files.toml import read_toml
 
 CHARUCO, APRILTAG = KINDS = "charuco", "apriltag"
-DICTIONARIES = {CHARUCO: "4X4_100", APRILTAG: "APRILTAG_36H11"}  # of the boards that we print
-BORDER = 1  # modules of black about the bits of a marker
-WHITE = 2  # modules without a marker in a square, or between tags: so much white it needs
+DICTIONARY = "4X4_100"  # of the boards that we print
+BORDER = 1  # modules of black around the bits of a marker
+WHITE = 2  # modules of white in a square, or between tags
 SMALLEST, LARGEST = 1e-3, 1.0  # m, of a square
-MOST = 16_000  # bytes of a description
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,7 @@ class Board:
 
     @property
     def modules(self) -> np.ndarray:
-        """Which modules (down, across) are black, if it is one that `printable` makes."""
+        """Which modules (down, across) are black, if gaps are as wide as two modules."""
         pitch = self.alphabet.markerSize + 2 * BORDER + WHITE
         size = pitch * np.array([self.columns, self.rows])
         if self.kind == APRILTAG:
@@ -103,31 +102,34 @@ class Board:
         """The part of a TOML that `read_board` reads."""
         lengths = {name: f'"{1e3 * getattr(self, name):.6g} mm"' for name in ("square", "marker")}
         lines = [
-            f"{its.name} = {lengths.get(its.name) or repr(getattr(self, its.name))}"
-            for its in fields(self)
+            f"{part.name} = {lengths.get(part.name) or repr(getattr(self, part.name))}"
+            for part in fields(self)
         ]
         return "\n".join(["[board]", *lines, ""]).replace("'", '"')
 
 
-def printable(kind: str, columns: int, rows: int, square: float) -> Board:
-    """A board whose markers are of as many modules as its gaps are. Raises InvalidSetting."""
-    name = DICTIONARIES.get(kind, "")
-    if not name:
-        raise InvalidSetting("kind", kind, " or ".join(KINDS))
-    modules = (4 if kind == CHARUCO else 6) + 2 * BORDER
-    return Board(kind, columns, rows, square, square * modules / (modules + WHITE), name)
+def printable(columns: int, rows: int, square: float) -> Board:
+    """A ChArUco board whose markers are of as many modules as its gaps are.
+
+    Raises InvalidSetting.
+    """
+    modules = 4 + 2 * BORDER
+    marker = square * modules / (modules + WHITE)
+    return Board(CHARUCO, columns, rows, square, marker, DICTIONARY)
 
 
 def read_board(path: str | PathLike[str]) -> Board:
     """The board in the TOML at `path`. Raises InvalidFile, which names the key."""
+    return board_in(read_toml(path), path)
+
+
+def board_in(parts: Mapping[str, Any], path: str | PathLike[str]) -> Board:
+    """The board in what was read of a TOML; its path is for messages. Raises InvalidFile."""
+    given, names = parts.get("board"), [part.name for part in fields(Board)]
     try:
-        given = tomllib.loads(read_file(path, MOST).decode("utf-8")).get("board")
-        names = [its.name for its in fields(Board)]
         if not isinstance(given, dict) or sorted(given) != sorted(names):
             raise InvalidSetting("[board]", given, ", ".join(names))
         lengths = {name: LENGTH.value_of(name, given[name]) for name in ("square", "marker")}
         return Board(**given | lengths | {"dictionary": str(given["dictionary"]).upper()})
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
-    except ValueError as error:  # not UTF-8, or not TOML
-        raise InvalidFile(path, f"it is no TOML: {error}") from None

@@ -1,10 +1,13 @@
 """The corners of a board in a picture, or why the picture is of no use."""
 
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
 import numpy as np
+from PIL import Image
 
 from recalib.errors import RecalibError
 from recalib.vision.boards import CHARUCO, Board
@@ -19,6 +22,7 @@ BLURRED = 0.75  # a quantile of edges: motion leaves those along it sharp
 CLEAR = 0.7  # of the highest contrast: so high it is about the edges to look at
 SMOOTHED = 1.0  # px, against noise
 SOFT = 1.3  # px: a picture that is softer may show nothing because it is blurred
+SMALLEST, LARGEST = 32, 100_000_000  # px: the shorter side of a picture; all of it
 
 
 class Unusable(RecalibError):
@@ -40,32 +44,59 @@ class Corners:
     softness: float
 
 
-def read_picture(path: Path) -> np.ndarray | None:
-    """A file's grey picture (height, width) as the sensor has it; None where it is no picture.
+def read_picture(path: Path) -> np.ndarray:
+    """A file's grey picture (height, width) as the sensor has it. Raises Unusable.
 
     A phone on the hand says in its files how it was held, by which viewers turn them. Its lens does
     not turn with them.
     """
-    return cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
+    try:
+        if not path.is_file():
+            raise Unusable("there is no such file")
+        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:  # its head alone
+            width, height = image.size
+    except (OSError, ValueError, Image.DecompressionBombError) as error:
+        large = isinstance(error, Image.DecompressionBombError)
+        raise Unusable("it is too large" if large else "it is no picture") from None
+    if min(width, height) < SMALLEST or width * height > LARGEST:
+        valid = f"at least {SMALLEST} x {SMALLEST}, and {LARGEST / 1e6:.0f} million in all at most"
+        raise Unusable(f"it has {width} x {height} pixels; expected: {valid}")
+    picture = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
+    if picture is None:
+        raise Unusable("it is no picture")
+    grey: np.ndarray = picture
+    return grey
 
 
 def find_corners(board: Board, picture: np.ndarray) -> Corners:
     """The corners of a board in a grey picture (height, width). Raises Unusable."""
-    markers, ids = _markers(board.alphabet, picture)
-    if problem := _problem(board, markers, ids):
-        raise Unusable(_mistake(board, picture) or problem)
+    numbers: np.ndarray = np.zeros(0, int)
+    pixels: np.ndarray = np.zeros((0, 2))
     if board.kind == CHARUCO:
-        found, numbers, _, _ = cv2.aruco.CharucoDetector(board.drawn).detectBoard(picture)
-        pixels = np.zeros((0, 2)) if numbers is None else found.reshape(-1, 2)
-        numbers = np.zeros(0, int) if numbers is None else numbers.ravel()
+        settings = cv2.aruco.CharucoParameters()
+        settings.tryRefineMarkers = True  # by where the others are: it finds more if out of focus
+        found = cv2.aruco.CharucoDetector(board.drawn, settings).detectBoard(picture)
+        markers, ids = _as_arrays(*found[2:])
+        if found[1] is not None:
+            numbers, pixels = found[1].ravel(), found[0].reshape(-1, 2)
     else:
         markers, ids = _markers(board.alphabet, picture, exact=True)
         numbers, pixels = (4 * ids[:, None] + np.arange(4)).ravel(), markers.reshape(-1, 2)
+    if problem := _problem(board, markers, ids):
+        raise Unusable(_mistake(board, picture) or problem)
     if len(numbers) < FEWEST:
         raise Unusable(f"it shows {len(numbers)} corners; expected: at least {FEWEST}")
+    if are_on_a_line(board, numbers):
+        raise Unusable("its corners lie on a line; expected: some beside it")
     pixels = pixels.astype(float)
     (left, top), (right, bottom) = pixels.min(axis=0).astype(int), pixels.max(axis=0).astype(int)
     return Corners(numbers, pixels, _softness(picture[top : bottom + 1, left : right + 1]))
+
+
+def are_on_a_line(board: Board, numbers: np.ndarray) -> bool:
+    """Whether no corner (c,) lies beside the line through others: they tell no pose."""
+    points = board.points[numbers]
+    return bool(np.linalg.matrix_rank(points - points.mean(axis=0), tol=board.square / 10) < 2)
 
 
 def _problem(board: Board, markers: np.ndarray, ids: np.ndarray) -> str | None:
@@ -104,9 +135,15 @@ def _markers(
     if exact:
         settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_APRILTAG
     corners, ids, _ = cv2.aruco.ArucoDetector(alphabet, settings).detectMarkers(picture)
+    markers, numbers = _as_arrays(corners, ids)
+    return markers - HALF * exact, numbers
+
+
+def _as_arrays(corners: Sequence[np.ndarray], ids: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners (m, 4, 2) [px] and numbers (m,) of markers, as OpenCV returns them."""
     if ids is None:
         return np.zeros((0, 4, 2)), np.zeros(0, int)
-    return np.array(corners).reshape(-1, 4, 2) - HALF * exact, ids.ravel()
+    return np.array(corners).reshape(-1, 4, 2), ids.ravel()
 
 
 def _misplaced(places: np.ndarray, markers: np.ndarray) -> float:

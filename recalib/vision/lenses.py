@@ -12,40 +12,55 @@ from recalib.errors import InvalidFile
 from recalib.files.storage import read_file
 
 MOST = 100_000  # bytes of a file
-MODELS = {"plumb_bob": 5, "rational_polynomial": 8}  # numbers of distortion
+FISHEYE = "equidistant"  # ROS' name for OpenCV's fisheye
+MODELS = {"plumb_bob": 5, "rational_polynomial": 8, FISHEYE: 4}  # numbers of distortion in a file
 # As files of a calibration have them, and messages: `ros2 topic echo --once .../camera_info`.
 MATRICES = "camera_matrix", "k", "K"
 DISTORTIONS = "distortion_coefficients", "dist_coeffs", "distCoeffs", "d", "D"
 OF_OPENCV = re.compile(r"!!opencv-[\w-]+")  # a tag, which other readers do not know
 SIZES = ("image_width", "image_height"), ("width", "height")
+LONGEST = (
+    0.05,
+    50.0,
+)  # focal lengths over the larger side of a picture: from a fisheye to a telescope
 
 
 @dataclass(frozen=True)
 class Lens:
-    """A pinhole with distortion, as OpenCV has it.
+    """A pinhole with distortion, or a fisheye, as OpenCV has them.
 
     Attributes:
         size: of a picture, width and height [px].
         matrix: (3, 3) px.
-        distortion: (5,) or (8,) k1, k2, p1, p2, k3, ...
+        distortion: (4,), (5,) or (8,) k1, k2, p1, p2, k3, ...; k1 to k4 of a fisheye.
+        fisheye: whether it is one.
     """
 
     size: tuple[int, int]
     matrix: np.ndarray
     distortion: np.ndarray
+    fisheye: bool = False
+
+    @property
+    def model(self) -> str:
+        """ROS' name of the model."""
+        if self.fisheye:
+            return FISHEYE
+        return "plumb_bob" if len(self.distortion) <= MODELS["plumb_bob"] else "rational_polynomial"
 
     def as_ros(self) -> str:
         """ROS' camera_info."""
         (fx, _, cx), (_, fy, cy) = self.matrix[:2]
-        model = {count: name for name, count in MODELS.items()}[len(self.distortion)]
+        distortion = np.zeros(MODELS[self.model])
+        distortion[: len(self.distortion)] = self.distortion
         parts = {
             MATRICES[0]: (3, 3, self.matrix.ravel()),
-            DISTORTIONS[0]: (1, len(self.distortion), self.distortion),
+            DISTORTIONS[0]: (1, len(distortion), distortion),
             "rectification_matrix": (3, 3, np.eye(3).ravel()),
             "projection_matrix": (3, 4, np.array([fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0])),
         }
         lines = [f"image_width: {self.size[0]}", f"image_height: {self.size[1]}"]
-        lines += ["camera_name: camera", f"distortion_model: {model}"]
+        lines += ["camera_name: camera", f"distortion_model: {self.model}"]
         for name, (rows, columns, numbers) in parts.items():
             data = ", ".join(f"{number:.12g}" for number in numbers)
             lines += [f"{name}:", f"  rows: {rows}", f"  cols: {columns}", f"  data: [{data}]"]
@@ -53,7 +68,10 @@ class Lens:
 
 
 def read_lens(path: str | PathLike[str]) -> Lens:
-    """The lens in the YAML at `path`. Raises InvalidFile."""
+    """The lens in the YAML at `path`. Coefficients that are zero at the end are no part of it.
+
+    Raises InvalidFile.
+    """
     content = read_file(path, MOST)
     try:
         lines = content.decode("utf-8").splitlines()
@@ -63,21 +81,35 @@ def read_lens(path: str | PathLike[str]) -> Lens:
         tree = None
     if not isinstance(tree, dict):
         raise InvalidFile(path, "it is no YAML of OpenCV or ROS")
-    if (model := tree.get("distortion_model", "plumb_bob")) not in tuple(MODELS):
-        valid = " or ".join(MODELS)
-        raise InvalidFile(path, f"distortion_model is {model!r}; expected: {valid}")
     matrix, distortion = (_numbers(tree, names) for names in (MATRICES, DISTORTIONS))
     sides = next((names for names in SIZES if tree.keys() >= {*names}), SIZES[0])
     size = np.concatenate([_numbers(tree, [side]) for side in sides])
-    if len(matrix) != 9 or not np.isfinite(matrix).all() or min(matrix[0], matrix[4]) <= 0:
-        raise InvalidFile(path, f"{MATRICES[0]} has no 9 numbers with focal lengths above zero")
-    if len(distortion) not in (4, *MODELS.values()) or not np.isfinite(distortion).all():
-        raise InvalidFile(path, f"{DISTORTIONS[0]} has no 4, 5 or 8 numbers")
     if len(size) != 2 or not ((size > 0) & (size < MOST) & (size % 1 == 0)).all():
         raise InvalidFile(path, f"{' and '.join(sides)} are no numbers of pixels")
     width, height = size.astype(int).tolist()
-    padded = np.append(distortion, [0.0]) if len(distortion) == 4 else distortion
-    return Lens((width, height), matrix.reshape(3, 3), padded)
+    if len(matrix) != 9 or not np.isfinite(matrix).all():
+        raise InvalidFile(path, f"{MATRICES[0]} has no 9 numbers")
+    fx, _, cx, _, fy, cy, *_ = matrix
+    if not np.array_equal(matrix, [fx, 0, cx, 0, fy, cy, 0, 0, 1]):
+        raise InvalidFile(
+            path, f"{MATRICES[0]} is {matrix.tolist()}; expected: fx 0 cx 0 fy cy 0 0 1"
+        )
+    least, most = (share * max(width, height) for share in LONGEST)
+    if not least <= min(fx, fy) <= max(fx, fy) <= most:
+        valid = f"{least:.0f} to {most:.0f} px for pictures of {width} x {height}"
+        raise InvalidFile(path, f"its focal lengths are {fx:g} and {fy:g}; expected: {valid}")
+    default = "rational_polynomial" if len(distortion) == 8 else "plumb_bob"
+    if (model := tree.get("distortion_model", default)) not in tuple(MODELS):
+        valid = ", ".join(MODELS)
+        raise InvalidFile(path, f"distortion_model is {model!r}; expected: one of {valid}")
+    counts = (4, 5) if model == "plumb_bob" else (MODELS[model],)
+    if len(distortion) not in counts or not np.isfinite(distortion).all():
+        valid = " or ".join(map(str, counts))
+        raise InvalidFile(path, f"{DISTORTIONS[0]} has no {valid} numbers, as {model} needs")
+    if model != FISHEYE:
+        count = next(n for n in (4, 5, 8) if not distortion[n:].any())
+        distortion = distortion[:count]
+    return Lens((width, height), matrix.reshape(3, 3), distortion, model == FISHEYE)
 
 
 def _numbers(tree: Mapping[str, object], names: Sequence[str]) -> np.ndarray:

@@ -1,6 +1,6 @@
 """A board on paper: at true size, with a bar to check the printer by."""
 
-from pathlib import Path
+from io import BytesIO
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,10 +15,10 @@ BAR = 100.0  # mm
 INCH = 25.4  # mm
 
 
-def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
-    """Write a board at true size, in the formats of the paths' suffixes (PDF, SVG).
+def draw_board(board: Board, *formats: str) -> tuple[list[bytes], tuple[float, float], float]:
+    """A board at true size in formats such as pdf and svg, the paper's size, and a bar's [mm].
 
-    Returns width and height of the paper [mm]: the smallest sheet in landscape that is wide enough.
+    The paper is the smallest sheet in landscape that is wide enough.
     """
     size = 1e3 * board.size
     least = np.add(size, (2 * MARGIN, 2 * MARGIN + FOOT))
@@ -39,9 +39,11 @@ def draw_board(board: Board, *paths: Path) -> tuple[float, float]:
         f" {board.columns} x {board.rows}, {1e3 * board.square:g} mm, {board.dictionary}"
     )
     page.text(left, foot + 6, text, fontsize=8)
-    for path in paths:
-        figure.savefig(path)
-    return paper
+    contents = []
+    for name in formats:
+        figure.savefig(content := BytesIO(), format=name)
+        contents.append(content.getvalue())
+    return contents, paper, BAR
 
 
 def _outline(black: np.ndarray, size: np.ndarray) -> np.ndarray:

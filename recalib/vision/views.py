@@ -11,35 +11,66 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from recalib.identification.model.optics import BOARD, OPTICS, Optics
+from recalib.identification.model.optics import BOARD, Optics
 from recalib.vision.boards import Board
 from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 
-FEWEST = 6  # pictures, to know a lens by
-LENS_SIZE = len(OPTICS) - len(BOARD)  # parameters of a lens
-LENS = slice(6, 6 + LENS_SIZE)  # among OpenCV's derivatives, behind those of the pose
 FAR = 4.0  # standard deviations: a corner farther out is no part of the board
 NARROW = 12.0  # px of a marker's shorter side: if it has less, hardly half of them are found
-CONVERGED = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 100, 1e-12)
+STEPS, SMALL = 30, 1e-9  # of a search for a pose; m, rad
+STRAIGHT = 4  # parameters of a lens without distortion: focal lengths and principal point
+RADIAL = [0, 1, 4, 5]  # which of OpenCV's coefficients of a pinhole are like those of a fisheye
 
 
-def find_lens(board: Board, views: Sequence[Corners], size: tuple[int, int]) -> Lens:
-    """The lens by the pictures (at least `FEWEST`) of a board anywhere."""
-    points = [board.points[view.numbers].astype(np.float32) for view in views]
-    pixels = [view.pixels.astype(np.float32) for view in views]
-    _, matrix, distortion, _, _ = cv2.calibrateCamera(
-        points, pixels, size, None, None, flags=cv2.CALIB_FIX_K3, criteria=CONVERGED
-    )
-    return Lens(size, matrix, distortion.ravel()[:5])
+def optics_kinds(lens: Lens) -> np.ndarray:
+    """Which of `OPTICS` the parameters (k,) of a lens are: focal lengths, and what follows."""
+    count = len(lens.distortion)
+    coefficients = RADIAL if lens.fisheye else [*range(count)]
+    return len(BOARD) + np.array([*range(STRAIGHT), *(STRAIGHT + n for n in coefficients)])
 
 
-def board_pose(board: Board, lens: Lens, view: Corners) -> np.ndarray:
-    """The pose (4, 4) [m] of the board in the camera: the camera's z axis goes into the picture."""
-    points, optics = board.points[view.numbers], (lens.matrix, lens.distortion)
-    _, turn, place = cv2.solvePnP(points, view.pixels, *optics, flags=cv2.SOLVEPNP_IPPE)
-    turn, place = cv2.solvePnPRefineLM(points, view.pixels, *optics, turn, place, CONVERGED)
+def board_pose(
+    board: Board, lens: Lens, view: Corners, start: np.ndarray | None = None
+) -> np.ndarray:
+    """The pose (4, 4) [m] of the board in the camera: the camera's z axis goes into the picture.
+
+    It is that at which the corners are nearest to where they should be; without numbers by a lens
+    that cannot see them.
+
+    Args:
+        start: a pose nearby, for speed.
+    """
+    points, pixels = board.points[view.numbers], view.pixels
+    pose = _first_pose(points, lens, pixels) if start is None else start
+    expected, slopes = projected(points, lens, pose)
+    residuals = (pixels - expected).ravel()
+    for _ in range(STEPS):
+        by_pose = _derivatives(points, slopes, pose, False)[0]
+        information = by_pose.T @ by_pose
+        if not np.isfinite(information).all():
+            return np.full((4, 4), np.nan)
+        step = np.linalg.lstsq(information, by_pose.T @ residuals, rcond=None)[0]
+        moved = pose.copy()
+        moved[:3, 3] += step[:3]
+        moved[:3, :3] = Rotation.from_rotvec(step[3:]).as_matrix() @ pose[:3, :3]
+        expected, slopes_there = projected(points, lens, moved)
+        there = (pixels - expected).ravel()
+        if not there @ there < residuals @ residuals:
+            break
+        pose, residuals, slopes = moved, there, slopes_there
+        if np.abs(step).max() < SMALL:
+            break
+    return pose
+
+
+def _first_pose(points: np.ndarray, lens: Lens, pixels: np.ndarray) -> np.ndarray:
+    """Roughly, by the directions in which the lens sees the pixels."""
+    module = cv2.fisheye if lens.fisheye else cv2
+    rays = module.undistortPoints(pixels[:, None], lens.matrix, lens.distortion)
+    _, turn, place = cv2.solvePnP(points, rays, np.eye(3), None, flags=cv2.SOLVEPNP_IPPE)
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = cv2.Rodrigues(turn)[0], place.ravel()
     return pose
@@ -47,7 +78,7 @@ def board_pose(board: Board, lens: Lens, view: Corners) -> np.ndarray:
 
 def reprojection(board: Board, lens: Lens, view: Corners, pose: np.ndarray) -> np.ndarray:
     """Of each corner, where it is less where it should be (c, 2) [px]."""
-    expected, _ = _projected(board.points[view.numbers], lens, pose)
+    expected, _ = projected(board.points[view.numbers], lens, pose)
     return view.pixels - expected
 
 
@@ -78,18 +109,27 @@ class Sighting(NamedTuple):
     free: int
 
 
-def sighting(board: Board, lens: Lens, view: Corners, fitted: bool, in_hand: bool) -> Sighting:
+def sighting(
+    board: Board,
+    lens: Lens,
+    view: Corners,
+    fitted: bool,
+    in_hand: bool,
+    start: np.ndarray | None = None,
+) -> Sighting:
     """What a view says.
 
     Args:
         fitted: whether the lens is sought, too; otherwise it is known.
         in_hand: whether the camera is on the hand.
+        start: a pose of the board in the camera nearby, for speed.
     """
-    pose, points = board_pose(board, lens, view), board.points[view.numbers]
-    expected, slopes = _projected(points, lens, pose)
+    pose, points = board_pose(board, lens, view, start), board.points[view.numbers]
+    expected, slopes = projected(points, lens, pose)
     residuals = (view.pixels - expected).ravel()
     by_pose, by_optics = _derivatives(points, slopes, pose, in_hand)
-    by_optics = by_optics[:, : len(OPTICS if fitted else BOARD)]
+    if not fitted:
+        by_optics = by_optics[:, : len(BOARD)]
     root = np.linalg.qr(by_pose).R
     compensation = _compensation(by_pose, by_optics)
     left = by_optics + by_pose @ compensation
@@ -113,9 +153,10 @@ def predicted_views(
     Returns the slopes (n, 6, o) of `Optics`, with zeros where the board would not be found, and
     whether most of its corners would be (n,). Arguments are those of `sighting`.
     """
-    slopes, visible = np.zeros((len(poses), 6, len(OPTICS))), np.zeros(len(poses), dtype=bool)
+    count = len(BOARD) + len(optics_kinds(lens))
+    slopes, visible = np.zeros((len(poses), 6, count)), np.zeros(len(poses), dtype=bool)
     for number, pose in enumerate(np.linalg.inv(poses) if in_hand else poses):
-        pixels, by_all = _projected(board.points, lens, pose)
+        pixels, by_all = projected(board.points, lens, pose)
         found = _found(board, lens, pose, pixels, by_all)
         if found.mean() > 0.5:
             by_all = by_all[np.repeat(found, 2)]
@@ -124,14 +165,14 @@ def predicted_views(
     return slopes, visible
 
 
-def optics_of(sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
-    """Measured poses (n, 4, 4) [m], and what is known of them."""
+def optics_of(lens: Lens, sightings: Sequence[Sighting]) -> tuple[np.ndarray, Optics]:
+    """Measured poses (n, 4, 4) [m] by a lens, and what is known of them."""
     poses, *parts, squares, free = map(np.array, zip(*sightings, strict=True))
     spread, slopes, information, gradient, pixels = parts
-    fitted = slopes.shape[-1] == len(OPTICS)
-    variance = squares.sum() / (free.sum() - LENS_SIZE * fitted)
+    kinds = np.concatenate([np.arange(len(BOARD)), optics_kinds(lens)])[: slopes.shape[-1]]
+    variance = squares.sum() / (free.sum() - (len(kinds) - len(BOARD)))
     knowledge = information / variance, gradient / variance
-    return poses, Optics(variance * spread, slopes, *knowledge, pixels)
+    return poses, Optics(variance * spread, slopes, *knowledge, pixels, kinds=kinds)
 
 
 def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
@@ -140,10 +181,18 @@ def _compensation(by_pose: np.ndarray, by_optics: np.ndarray) -> np.ndarray:
     return slopes
 
 
-def _projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pixels (c, 2) of points (c, 3) [m] of a board at a pose, and their derivatives (2 c, k)."""
+def projected(points: np.ndarray, lens: Lens, pose: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pixels (c, 2) of points (c, 3) [m] of a board at a pose, and their derivatives (2 c, 6 + k).
+
+    These are by the pose, as OpenCV has them, and by the parameters of the lens.
+    """
     turn, place = cv2.Rodrigues(pose[:3, :3])[0], pose[:3, 3]
-    pixels, slopes = cv2.projectPoints(points, turn, place, lens.matrix, lens.distortion)
+    if lens.fisheye:
+        args = points[:, None], turn, place, lens.matrix, lens.distortion
+        pixels, slopes = cv2.fisheye.projectPoints(*args)
+        slopes = np.concatenate([slopes[:, 8:14], slopes[:, :8]], axis=1)
+    else:
+        pixels, slopes = cv2.projectPoints(points, turn, place, lens.matrix, lens.distortion)
     return pixels.reshape(-1, 2), slopes
 
 
@@ -167,7 +216,7 @@ def _derivatives(
     """Of pixels (2 c, 6) by a displacement of the measured pose, and by optics (2 c, o).
 
     Args:
-        points, slopes: as in `_projected`.
+        points, slopes: as in `projected`.
         pose: of the board in the camera.
     """
     by_place = slopes[:, 3:6].reshape(-1, 2, 3)
@@ -180,4 +229,4 @@ def _derivatives(
     by_pose = np.concatenate([by_place, by_turn], axis=-1).reshape(-1, 6)
     by_point = slopes[:, 3:6].reshape(-1, 2, 3) @ pose[:3, :3]
     by_scale = by_point[..., :2] * points[:, None, :2]
-    return by_pose, np.concatenate([by_scale.reshape(-1, 2), slopes[:, LENS]], axis=1)
+    return by_pose, np.concatenate([by_scale.reshape(-1, 2), slopes[:, 6:]], axis=1)

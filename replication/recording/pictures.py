@@ -16,7 +16,7 @@ from rerun.experimental import ViewerClient
 
 from recalib.errors import RecalibError
 from recalib.files.storage import whole
-from recalib.laboratory.viewer.program import HERE, PATIENCE, answer, free_port, viewer
+from recalib.laboratory.viewer.process import HERE, PATIENCE, answer, free_port, viewer
 from replication.recording.phases import ARM, BEFORE, CLOCK, VISIT
 
 WINDOW = 1400, 800  # pixels

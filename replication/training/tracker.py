@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from recalib.errors import InvalidFile, RecalibError
+from recalib.laboratory.plausibility.mistakes import check_nominal
+from recalib.laboratory.tables.columns import NOMINAL
 from recalib.laboratory.tables.description import Description, read_description
-from recalib.laboratory.tables.measurements import NOMINAL, read_measurements
-from recalib.laboratory.tables.nominal_checks import check_nominal
+from recalib.laboratory.tables.measurements import read_measurements
 from recalib.nominal.kinematics import Arm
 from replication.config.study import Source, Study
 
@@ -65,16 +66,17 @@ def read_of(arm: Arm, path: str | PathLike[str], description: Description) -> Tr
     it does not get to the nominal positions in the table).
     """
     rows = read_measurements(path, arm, description)
-    if rows.coordinates is None or rows.positions is None or rows.nominal is None:
+    nominal = rows.columns.get(NOMINAL.name)
+    if rows.joints is None or rows.positions is None or nominal is None:
         raise InvalidFile(
-            path, f"it lacks {', '.join(NOMINAL)} or what was measured; expected: both"
+            path, f"it lacks {', '.join(NOMINAL.headings)} or what was measured; expected: both"
         )
     instrument = description.instrument
     assert instrument is not None  # `read_whole_description` has both frames
-    check_nominal(arm, rows.coordinates, rows.nominal, np.linalg.inv(instrument), np.eye(4))
+    check_nominal(arm, rows.joints, nominal, np.linalg.inv(instrument), np.eye(4))
     turn, place = instrument[:3, :3], instrument[:3, 3]
     return TrackerMeasurements(
-        rows.coordinates, rows.nominal @ turn.T + place, rows.positions @ turn.T + place
+        rows.joints, nominal @ turn.T + place, rows.positions @ turn.T + place
     )
 
 

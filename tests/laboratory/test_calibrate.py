@@ -8,12 +8,10 @@ import pytest
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.identification.checks.diagnostics import Untrustworthy
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
-from recalib.laboratory.correction.correct import correct, unidentifiable_ends
+from recalib.laboratory.plausibility.knowledge import WrongKnowledge
 from recalib.laboratory.propose import propose
-from recalib.laboratory.report.parameters import described
+from recalib.laboratory.report.identified import identified_parameters
 from recalib.laboratory.report.summary import summary
-from recalib.laboratory.tables.knowledge import WrongKnowledge
-from recalib.laboratory.tables.measurements import Measurements
 from tests.arms import SCARA
 from tests.laboratory.conftest import (
     NOISE,
@@ -72,7 +70,7 @@ def by_ball(text: str, table) -> Calibrated:
 def test_frames_that_are_known_leave_base_and_tool_to_the_arm(arm, table):
     result = calibrated_with(INSTRUMENT + TARGET, table)
     assert not result.frames.base_unknown and not result.frames.targets_unknown
-    assert unidentifiable_ends(result.correction) == "how the tool link is turned"
+    assert result.correction.unidentifiable_ends == "the rotation of the tool link"
     assert result.worthwhile
     tests = postures(14, 20, part=0.8)
     gap = (result.calibration.forward(tests) - arm.forward(tests + OFFSETS)) @ POINT
@@ -85,7 +83,7 @@ def test_one_frame_alone_may_be_known(known, table):
     assert result.worthwhile
     unknown = result.frames.base_unknown, result.frames.targets_unknown
     assert unknown == (known == TARGET, known == INSTRUMENT)
-    told = result.between
+    told = result.offset
     assert "a tool point at (0, 0, 50) mm" in told and "the base moved by (-1000, 0, 0) mm" in told
     frames = result.calibration.frames
     assert np.allclose(frames.base[:3, 3], [-1, 0, 0], atol=0.02)
@@ -100,10 +98,7 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (
-            TURNED + TARGET,
-            r"\[instrument\] is \d\d mm and 9\d deg .* position = \[\"999 mm\", ",
-        ),
+        (TURNED + TARGET, r"\[instrument\] is \d\d mm and 9\d deg .* position = \[\"999 mm\", "),
         (INVERTED + TARGET, r"\[instrument\] is 1999 mm and 1 deg from where the measurements put"),
         (INSTRUMENT + ELSEWHERE, r"\[target\] is 396 mm and 0 deg from where the measurements put"),
         (TURNED, r"\[instrument\] is \d\d mm and 9\d deg from"),
@@ -121,18 +116,17 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     result = by_ball(DISTANCE.format("left", 300), in_sockets)
     one, other = result.calibration.frames.sockets
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
-    assert result.worthwhile and result.sockets == ("left", "right")
+    assert result.worthwhile and result.data.sockets == ("left", "right")
     text = summary(result)
     assert "a ball in sockets shows errors there" in text and "the instrument" not in text
     assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
-    names = [row.name for row in described(result)]
+    names = [row["name"] for row in identified_parameters(result)]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
     with pytest.raises(InvalidSetting, match="candidates is missing; expected: postures in which"):
         propose(result.correction, 3)
-    assert unidentifiable_ends(result.correction) == "the arm's base and the tool link"
-    desired = Measurements(1, positions=np.zeros((1, 3)))
+    assert result.correction.unidentifiable_ends == "the arm's base and the tool link"
     with pytest.raises(InvalidSetting, match="base: a ball in sockets had no instrument"):
-        correct(result.correction, desired, in_instrument=True)
+        result.correct(np.zeros(3), frame="instrument")
 
 
 def test_a_range_beyond_the_limits_of_the_urdf_is_told(folder, calibrated):

@@ -6,13 +6,16 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from recalib.laboratory import command_line
+from recalib.identification.model.error_model import OFFSETS as TERMS
+from recalib.identification.model.error_model import ErrorModel
+from recalib.laboratory import commands
 from recalib.laboratory.command_line import CACHE, DONE, NO_BETTER, REFUSED, main
-from recalib.laboratory.correction.archive import load_correction
+from recalib.laboratory.correction import load_correction
 from recalib.nominal.arms import load_arm
 from tests.laboratory.conftest import (
     ARM,
@@ -30,16 +33,15 @@ from tests.laboratory.conftest import (
 
 def test_a_calibration_is_a_folder_of_files(calibrated):
     files = {path.name for path in calibrated.iterdir()}
-    expected = {"summary.txt", "arm.urdf", "correction.npz", "parameters.csv", "parameters.json"}
-    expected |= {"joint_offsets.csv", "rows.csv", "page.html", "recording.rrd", "frames.csv"}
-    assert expected == files
-    told = json.loads((calibrated / "parameters.json").read_text())
-    best = [row for row in told["errors"] if row["chosen"] and row["folds"] == "at random"]
+    expected = {"summary.txt", "arm.urdf", "correction.npz", "parameters.json", "frames.csv"}
+    assert files == expected | {"rows.csv", "page.html", "recording.rrd"}
+    values = json.loads((calibrated / "parameters.json").read_text())
+    best = [row for row in values["errors"] if row["chosen"] and row["folds"] == "at random"]
     assert best[0]["mean"] < 4e3 * NOISE
     first, verdict, *others = (calibrated / "summary.txt").read_text().splitlines()
     digest = hashlib.sha256(ARM.encode()).hexdigest()[:12]
     assert first == f"{calibrated.parent / 'arm.urdf'} (sha256 {digest}), link_4 in base"
-    errors = {row["folds"]: row["mean"] for row in told["errors"] if row["chosen"]}
+    errors = {row["folds"]: row["mean"] for row in values["errors"] if row["chosen"]}
     assert verdict.startswith("On postures away from those measured, the mean error falls from ")
     assert f" to {errors['in blocks']:.3g} mm, 95 % within " in verdict
     assert verdict.endswith(f"; near them, to {errors['at random']:.3g} mm.")
@@ -48,10 +50,10 @@ def test_a_calibration_is_a_folder_of_files(calibrated):
 
 def test_data_decide_no_more_parameters_than_they_can_tell_apart(calibrated):
     """Four for each joint and six at the ends, without how the target is turned."""
-    told = json.loads((calibrated / "parameters.json").read_text())
-    decided = [row["name"] for row in told["parameters"] if row["decided_by"] == "data"]
+    values = json.loads((calibrated / "parameters.json").read_text())
+    decided = [row["name"] for row in values["parameters"] if row["decided_by"] == "data"]
     assert 9 < len(decided) <= 4 * 3 + 3
-    assert f"{len(decided)} of the {len(told['parameters'])} parameters" in (
+    assert f"{len(decided)} of the {len(values['parameters'])} parameters" in (
         calibrated / "page.html"
     ).read_text().replace("\n", " ")
 
@@ -62,9 +64,9 @@ def test_the_page_asks_for_nothing_from_elsewhere(calibrated):
     assert "<script" not in page and "<link" not in page and 'src="http' not in page
 
 
-def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, folder, capsys):
+def test_commands_take_the_calibrated_arm_to_what_is_desired(calibrated, arm, folder, capsys):
     joints = postures(10, 10, part=0.8)
-    goals = load_correction(calibrated / "correction.npz").calibration.forward(joints)[:, :3, 3]
+    goals = load_correction(calibrated / "correction.npz").calibration.predict(joints)[:, :3, 3]
     write(folder / "desired.csv", in_millimetres(goals))
     out = folder / "commands.csv"
     assert main(["correct", str(calibrated), str(folder / "desired.csv"), f"--out={out}"]) == DONE
@@ -73,9 +75,9 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert np.allclose(commanded, joints, atol=1e-6)
     fake = 1e-3 * np.array([sent[f"{axis}_fake [mm]"] for axis in "xyz"]).T
     assert np.allclose(fake, arm.forward(commanded)[:, :3, 3], atol=1e-9)
-    told = capsys.readouterr()
-    assert "leave the measured range" not in told.err
-    assert told.out == (
+    printed = capsys.readouterr()
+    assert "leave the measured range" not in printed.err
+    assert printed.out == (
         f"10 commands in {out}: joint coordinates, and the poses that\n"
         "the nominal kinematics give them, of link_4 in base\n"
     )
@@ -85,7 +87,7 @@ def test_commands_take_the_identified_arm_to_what_is_desired(calibrated, arm, fo
     assert "its commands are corrected already; expected: des" in capsys.readouterr().err
 
 
-def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
+def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_in_the_base(
     calibrated, arm, folder, capsys
 ):
     joints = postures(10, 10, part=0.8)
@@ -93,7 +95,7 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     write(folder / "seen.csv", in_millimetres(goals))
     desired, out = str(folder / "seen.csv"), folder / "seen_commands.csv"
     arguments = ["correct", str(calibrated / "correction.npz"), desired, f"--out={out}"]
-    assert main([*arguments, "--frame=instrument"]) == DONE
+    assert main(arguments) == DONE
     sent = read(out)
     commanded = np.radians([sent[f"{joint} [deg]"] for joint in arm.joints]).T
     reached = to_instrument(true_positions(arm, commanded))
@@ -101,46 +103,63 @@ def test_to_the_instrument_commands_are_right_where_the_base_is_not_known(
     assert "not identifiable" not in capsys.readouterr().err
     turned = dict.fromkeys(["rx [deg]", "ry [deg]", "rz [deg]"], np.zeros(10))
     write(folder / "turned.csv", in_millimetres(goals) | turned)
-    arguments[2:] = [str(folder / "turned.csv"), "--frame=instrument", f"--out={folder / 'no.csv'}"]
+    arguments[2:] = [str(folder / "turned.csv"), f"--out={folder / 'no.csv'}"]
     assert main(arguments) == REFUSED
-    assert "nobody knows how a target is turned" in capsys.readouterr().err
-    write(folder / "base.csv", {"x [m]": [0.6], "y [m]": [0.0], "z [m]": [0.4]})
-    other = folder / "base_commands.csv"
-    main(["correct", str(calibrated), str(folder / "base.csv"), f"--out={other}"])
-    told = capsys.readouterr().err
-    assert "warning: errors of the arm's base and the tool link are not identifiable" in told
+    assert "measured positions do not determine a target's rotation" in capsys.readouterr().err
+    assert main([*arguments, "--frame=base"]) == REFUSED
+    assert "do not determine where the arm's base is; try: a cal" in capsys.readouterr().err
+    assert not (folder / "no.csv").exists()
+
+
+@pytest.fixture(scope="module")
+def in_base(arm, folder):
+    """A calibration whose instrument and target are known: poses may be desired in the base."""
+    joints = postures(12)
+    noise = NOISE * np.random.default_rng(13).standard_normal((ROWS, 3))
+    write(folder / "known.csv", table(arm, joints, true_positions(arm, joints) + noise))
+    lines = '[instrument]\nposition = ["0 m", "0 m", "0 m"]\n'
+    (folder / "known.toml").write_text(lines + lines.replace("instrument", "target"))
+    files = [str(folder / name) for name in ("arm.urdf", "known.csv")]
+    options = f"--description={folder / 'known.toml'}", f"--out={folder / 'known'}"
+    assert main(["calibrate", *files, *options]) == DONE
+    return folder / "known"
 
 
 @pytest.mark.parametrize("given", ["base", "instrument"])
 def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
-    given, calibrated, arm, tmp_path, capsys
+    given, in_base, arm, tmp_path, capsys
 ):
     """As measurements, which are in the instrument's frame, that are desired in the base."""
+    correction = load_correction(in_base)
+    elsewhere = np.diag([-1.0, -1.0, 1.0, 1.0])
+    frames = replace(correction.calibration.model.frames, base=elsewhere)
+    model = ErrorModel(correction.arm, TERMS, frames)
+    calibration = replace(correction.calibration, model=model)
+    replace(correction, calibration=calibration).save(tmp_path / "correction.npz")
     joints = postures(10, 10, part=0.8)
-    its = load_correction(calibrated / "correction.npz").calibration
-    places = {"base": its.forward(joints), "instrument": its.predict(joints)}
+    places = {"base": calibration.forward(joints), "instrument": calibration.predict(joints)}
     for frame, poses in places.items():
         write(tmp_path / "desired.csv", table(arm, joints, poses[:, :3, 3]))
-        arguments = ["correct", str(calibrated), f"{tmp_path}/desired.csv", f"--frame={given}"]
+        arguments = ["correct", str(tmp_path), f"{tmp_path}/desired.csv", f"--frame={given}"]
         code = main([*arguments, f"--out={tmp_path}/{frame}.csv"])
         assert code == (DONE if frame == given else REFUSED)
     (other,) = places.keys() - {given}
-    said = f"recalib: frame is '{given}'; expected: {other}, where the joints in the table take the"
-    assert said in capsys.readouterr().err
+    message = f"recalib: frame is '{given}'; expected: {other}, in which the joints take the arm"
+    assert message in capsys.readouterr().err
 
 
-def test_beyond_what_was_learned_it_warns(calibrated, folder, capsys):
+def test_beyond_what_was_learned_it_warns(in_base, folder, capsys):
     columns = {"swing [deg]": [0, 60, 100], "lift [deg]": [-40] * 3, "elbow [deg]": [63] * 3}
     last = {name: angles[2:] for name, angles in columns.items()}
     write(folder / "far.csv", last)
     out = folder / "far_commands.csv"
-    assert main(["correct", str(calibrated), str(folder / "far.csv"), f"--out={out}"]) == DONE
+    assert main(["correct", str(in_base), str(folder / "far.csv"), f"--out={out}"]) == DONE
     said = capsys.readouterr()
     assert "1 of 1 command leaves the measured range of swing; the farthest is row 1" in said.err
     assert said.out.startswith("1 command in ")
     write(folder / "wide.csv", columns)
     out = folder / "wide_commands.csv"
-    assert main(["correct", str(calibrated), str(folder / "wide.csv"), f"--out={out}"]) == DONE
+    assert main(["correct", str(in_base), str(folder / "wide.csv"), f"--out={out}"]) == DONE
     told = capsys.readouterr().err
     assert "2 of 3 commands leave the measured range of swing; the farthest is row 3" in told
     beyond, low, high = re.search(r", with swing (.*) deg beyond (.*) to (.*) deg\n", told).groups()
@@ -153,9 +172,11 @@ def test_the_next_postures_are_within_limits_and_teach(calibrated, arm, folder, 
     assert main(["next", str(calibrated), "--count=4", f"--out={out}"]) == DONE
     proposed = np.radians([read(out)[f"{joint} [deg]"] for joint in arm.joints])
     assert proposed.shape == (3, 4) and np.abs(proposed).max() < 0.95 * 2
-    said = r"4 postures in .*, the most informative first\.\nThey would make the uncertainty of"
-    said += r" predicted positions fall from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
-    assert re.match(said, capsys.readouterr().out)
+    message = (
+        r"4 postures in .*, the most informative first\.\nThey would reduce the uncertainty of"
+    )
+    message += r" predicted positions from 0\.0\d+ mm to 0\.0\d+ mm[.:]"
+    assert re.match(message, capsys.readouterr().out)
 
 
 def test_an_arm_without_errors_is_left_alone(arm, folder):
@@ -192,10 +213,10 @@ def test_a_parked_joint_is_held_at_any_angle_and_named(angle, tmp_path, capsys):
     arguments = ["ur10_robot.urdf", f"{tmp_path}/rows.csv", "--tool=tool0", f"--out={tmp_path}/out"]
     assert main(["calibrate", *arguments]) == DONE
     at = f"{np.degrees(angle):.1f} deg"
-    said = f"shoulder_pan_joint stood still at {at}: nothing is known of its own errors"
+    said = f"shoulder_pan_joint stood still at {at}: its own errors are not identifiable"
     assert said in capsys.readouterr().out.splitlines()
-    told = json.loads((tmp_path / "out" / "parameters.json").read_text())
-    values = [row["value"] for row in told["parameters"] if row["name"].startswith("offset of ")]
+    values = json.loads((tmp_path / "out" / "parameters.json").read_text())
+    values = [row["value"] for row in values["parameters"] if row["name"].startswith("offset of ")]
     assert abs(values[0]) < 1e-9 < 1e-2 < np.abs(values[1:]).max()
 
 
@@ -216,7 +237,7 @@ def test_a_calibration_writes_nothing_at_home_and_leaves_nothing_temporary(calib
 
 def test_a_folder_that_is_set_for_the_list_of_fonts_is_used(monkeypatch):
     used = []
-    monkeypatch.setitem(command_line.COMMANDS, "next", lambda _: used.append(os.environ[CACHE]))
+    monkeypatch.setitem(commands.COMMANDS, "next", lambda _: used.append(os.environ[CACHE]))
     monkeypatch.setenv(CACHE, "mine")
     main(["next", "calibration"])
     monkeypatch.delenv(CACHE)

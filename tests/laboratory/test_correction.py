@@ -10,16 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile, InvalidSetting
+from recalib.errors import InvalidFile, RecalibError
 from recalib.files.archives import write_archive
 from recalib.identification.calibration import calibrate
 from recalib.identification.model.error_model import JOINT_ERRORS, OFFSETS
 from recalib.identification.model.frames import Frames
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correction.archive import Correction, load_correction
-from recalib.laboratory.correction.correct import NotReached, correct
-from recalib.laboratory.tables.measurements import Measurements
+from recalib.laboratory.correction import Correction, NotReached, load_correction
 from recalib.nominal.arms import find_urdf, load_arm
 from recalib.nominal.poses import position_error
 from tests.arms import SCARA
@@ -53,8 +51,7 @@ def test_a_redundant_arm_stays_near_the_posture_that_is_given(correction):
     joints = HOME + np.random.default_rng(7).uniform(-0.4, 0.4, (10, 7))
     goals = correction.calibration.forward(joints)
     beside = joints + np.random.default_rng(8).uniform(-0.05, 0.05, joints.shape)
-    desired = Measurements(10, beside, goals[:, :3, 3], goals[:, :3, :3])
-    commands = correct(correction, desired)
+    commands = correction.correct(goals, beside, frame="base")
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7
     assert np.abs(commands.joints - beside).max() < 0.1
@@ -69,26 +66,24 @@ def test_postures_from_which_the_arm_approaches_are_in_the_frame_given(correctio
     calibration = calibrate(arm, (OFFSETS,), seen, Frames(np.eye(4), target[None]))
     before = joints[:10]
     goals = calibration.forward(before) @ ahead
-    desired = Measurements(10, before, goals[:, :3, 3], goals[:, :3, :3])
-    commands = correct(replace(correction, calibration=calibration), desired)
+    ahead_of_tool = replace(correction, calibration=calibration)
+    commands = ahead_of_tool.correct(goals, before, frame="base")
     assert np.abs(calibration.forward(commands.joints) - goals).max() < 1e-7
 
 
-def test_joint_coordinates_mean_the_pose_that_the_nominal_arm_would_take(correction):
-    commands = correct(correction, Measurements(1, HOME[None]))
+def test_one_pose_will_do(correction):
+    goal = correction.arm.forward(HOME[None])[0]
+    commands = correction.correct(goal, HOME, frame="base")
     reached = correction.calibration.forward(commands.joints)
-    assert np.abs(reached - correction.arm.forward(HOME[None])).max() < 1e-7
+    assert np.abs(reached - goal).max() < 1e-7
     assert not np.allclose(commands.joints, HOME, atol=1e-3)
-
-
-def test_nothing_that_is_desired_is_refused_by_what_is_missing(correction):
-    with pytest.raises(InvalidSetting, match="joint coordinates is missing"):
-        correct(correction, Measurements(1))
+    in_loop = correction.command(goal, HOME, frame="base")
+    assert np.array_equal(in_loop, commands.joints[0])
 
 
 def test_a_pose_alone_is_reached_from_what_was_learned(correction):
     goals = correction.calibration.forward(correction.learned[:5] + 0.02)
-    commands = correct(correction, Measurements(5, None, goals[:, :3, 3], goals[:, :3, :3]))
+    commands = correction.correct(goals, frame="base")
     reached = correction.calibration.forward(commands.joints)
     assert np.abs(reached - goals).max() < 1e-7 and not commands.beyond.any()
 
@@ -102,17 +97,53 @@ def test_an_arm_of_four_joints_turns_its_tool_as_near_as_it_can(load):
     correction = Correction(SCARA.encode(), calibration, joints[10:])
     goals = calibration.forward(joints[:10])
     goals[:, :3, :3] @= Rotation.from_rotvec([0.003, 0, 0]).as_matrix()  # which no joint makes
-    commands = correct(correction, Measurements(10, None, goals[:, :3, 3], goals[:, :3, :3]))
+    commands = correction.correct(goals, frame="base")
     gaps = position_error(calibration.forward(commands.joints), goals)
     assert gaps.max() < 1e-7 and np.allclose(commands.turned, 0.003, rtol=0.05)
 
 
-@pytest.mark.parametrize("in_instrument", [False, True])
-def test_how_far_off_an_arm_stays_is_told_in_millimetres_and_degrees(correction, in_instrument):
-    turned = np.diag([1.0, -1.0, -1.0])[None]
-    far = Measurements(1, None, np.array([[9.0, 0.0, 0.0]]), turned)
+@pytest.mark.parametrize("frame", ["base", "instrument"])
+def test_the_distance_to_a_pose_out_of_reach_is_reported(correction, frame):
+    far = np.diag([1.0, -1.0, -1.0, 1.0])
+    far[0, 3] = 9.0
     with pytest.raises(NotReached, match=r"found is 8\d\d\d mm and [\d.]+ deg away"):
-        correct(correction, far, in_instrument)
+        correction.correct(far, frame=frame)
+
+
+@pytest.mark.parametrize(
+    ("poses", "options", "message"),
+    [
+        (
+            np.zeros((3, 7)),
+            {},
+            r"poses is 'of shape \(3, 7\)'; expected: an array of .* \(n, 4, 4\)",
+        ),
+        (np.full(3, np.nan), {}, "poses is 'NaN or infinity in places'"),
+        ("far", {}, "poses is 'str'; expected: an array of finite numbers"),
+        (
+            np.zeros((4, 4)),
+            {},
+            "poses is 'matrices of something else'; expected: poses: a rotation",
+        ),
+        (np.diag([1.0, 1.0, -1.0, 1.0]), {}, "matrices of something else"),
+        (np.zeros(3), {"near": np.zeros(6)}, r"near is 'of shape \(6,\)'; expected: .* \(1, 7\)"),
+        (np.zeros(3), {"frame": "camera"}, "unknown frame 'camera'"),
+        (np.zeros(3), {"target": "ball"}, "unknown target 'ball'"),
+        (
+            np.zeros(3),
+            {"target": "the target", "frame": "base"},
+            "frame is 'base'; expected: instr",
+        ),
+        (
+            np.zeros((3, 3)),
+            {"target": ["the target"] * 2},
+            "target is '2 names'; expected: one, or 3",
+        ),
+    ],
+)
+def test_wrong_arrays_are_refused_with_what_was_expected(poses, options, message, correction):
+    with pytest.raises(RecalibError, match=message):
+        correction.correct(poses, **options)
 
 
 def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correction):
@@ -122,8 +153,7 @@ def test_a_command_is_beyond_what_was_learned_from_a_twentieth_outside(correctio
         [-0.04, -0.06, 0.04, 0.06]
     ) * (high[2] - low[2])
     goals = correction.calibration.forward(outside)
-    desired = Measurements(4, outside, goals[:, :3, 3], goals[:, :3, :3])
-    commands = correct(correction, desired)
+    commands = correction.correct(goals, outside, frame="base")
     assert np.allclose(commands.joints, outside, atol=1e-6)
     away = 0.06 * (high[2] - low[2])
     assert commands.beyond[:, 2] == pytest.approx([0, away, 0, away], rel=1e-3)

@@ -1,7 +1,6 @@
 """What makes a calibration doubtful stands in its first line."""
 
 import re
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,6 +16,7 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.parameters import parameters_of
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
 from recalib.laboratory.calibrate import Calibrated, calibrate_arm
+from recalib.laboratory.data_set import DataSet
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.summary import summary
 from recalib.nominal.arms import load_arm
@@ -25,15 +25,6 @@ from tests.laboratory.conftest import MIDDLE, NOISE, SEEN, postures, table, true
 ROWS = 60
 LATE = "try to measure at rest, or to synchronise both"
 PARTS = "try rows 1 to 21 and 22 to 60 each by themselves"
-NAMES = {
-    "instruments": ["the instrument"],
-    "targets": ["the target"],
-    "sockets": [],
-    "ends": ["the target"],
-    "sights": ["the target"],
-    "frames": Frames(),
-    "tables": ["rows.csv"],
-}
 
 
 MODEL = ErrorModel(load_arm("ur10_robot.urdf", "tool0"), OFFSETS)
@@ -48,22 +39,18 @@ def result(
         parameters=np.zeros(size) if parameters is None else parameters, covariance=np.eye(size)
     )
     geometry = SimpleNamespace(model=MODEL, estimate=estimate)
-    validation = SimpleNamespace(
-        chosen=chosen,
-        mean_error=lambda way, kind: errors[way, kind],
-    )
-    rows = Observations(np.zeros((ROWS, 6)), times=times)
+    validation = SimpleNamespace(chosen=chosen, mean_error=lambda way, kind: errors[way, kind])
     return SimpleNamespace(
         validation=validation,
         faults=found,
-        observations=rows,
+        data=DataSet(Observations(np.zeros((ROWS, 6)), times=times)),
+        frames=Frames(),
         geometry=geometry,
         scales={},
         mistake=None,
-        coupling=None,
+        wrong_gain=None,
         unseen=0,
         unidentifiable=[],
-        **NAMES,
     )
 
 
@@ -146,7 +133,7 @@ def test_a_fault_is_told_with_its_rows_and_size(fault, times, said):
 )
 def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
     found = result({}, GEOMETRIC)
-    found.observations = replace(found.observations, measured=np.zeros((ROWS, 3)))
+    found.data = DataSet(Observations(np.zeros((ROWS, 6)), np.zeros((ROWS, 3))))
     found.scales = {"positions": scale}
     told = " ".join(doubts(found))
     assert said in told and bool(told) == bool(said)

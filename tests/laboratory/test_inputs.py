@@ -75,7 +75,7 @@ WRONG = {
     "another encoding than it says": (
         "arm.urdf",
         f'<?xml version="1.0" encoding="x-none"?>{ARM}',
-        "its text is not x-none",
+        "its text is not in x-none",
     ),
     "a table that is a pipe": ("rows.csv", pipe, "it is a pipe; expected: a file"),
     "a million rows": (
@@ -89,12 +89,12 @@ WRONG = {
         "it has 60 MB; expected: at most 32 MB",
     ),
     "a heading of many columns": ("rows.csv", 15_000_000 * "," + "\n", "it is empty"),
-    "a cell of many digits": ("rows.csv", TABLE + 10_000_000 * "1" + ROW, "it is no CSV"),
+    "a cell of many digits": ("rows.csv", TABLE + 10_000_000 * "1" + ROW, "it is not CSV"),
     "a description without an end": ("it.toml", endless, "it is a device; expected: a file"),
     "deep TOML": ("it.toml", "a = " + 7_000 * "[" + 7_000 * "]", "nested too deep"),
     "deep keys": ("it.toml", "instrument." + 7_900 * "a." + "a = 1", "nested too deep"),
     "a long description": ("it.toml", 100_000 * "[", "at most 0.016 MB"),
-    "a number of many digits": ("it.toml", "a = " + 10_000 * "9", "it is no TOML"),
+    "a number of many digits": ("it.toml", "a = " + 10_000 * "9", "it is not TOML"),
     "an instrument far away": (
         "it.toml",
         '[instrument]\nposition = ["1e300 m", "0 m", "0 m"]',

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile
 from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.correction.archive import load_correction
+from recalib.laboratory.correction import load_correction
 from recalib.laboratory.tables.description import read_description
 from tests.laboratory.conftest import NOISE, postures, table, to_instrument, true_positions, write
 
@@ -53,7 +53,7 @@ def test_a_frame_that_is_known_within_a_deviation_is_found_better(arm, folder, t
 
     result.correction.save(tmp_path / "correction.npz")
     again = load_correction(tmp_path / "correction.npz").calibration
-    joints = result.observations.joints
+    joints = result.data.observations.joints
     assert np.array_equal(again.forward(joints), result.calibration.forward(joints))
 
 

@@ -25,7 +25,7 @@ def test_the_first_line_and_the_table_say_how_many_rows_are_left_out(with_outlie
     _, first, *lines = summary(with_outliers).splitlines()
     assert f"4 of {ROWS} rows left out as outliers" in first
     (row,) = [line for line in lines if line.startswith("left out")]
-    largest = errors_table(with_outliers)[-1]["largest"]
+    largest = errors_table(with_outliers)[-1].largest
     assert "4 rows" in row and f"{largest:.3f}" in row and largest > 10
 
 
@@ -34,10 +34,10 @@ def test_95_percent_is_one_number_wherever_it_is_said(with_outliers):
     (used,) = [
         row
         for row in errors_table(with_outliers)
-        if row["chosen"] and row["folds"] == BLOCKWISE and row["unit"] == "mm"
+        if row.chosen and row.folds == BLOCKWISE and row.unit == "mm"
     ]
-    assert used["95 %"] == pytest.approx(1e3 * validation.radius)
-    assert text.count(f"95 % within {used['95 %']:.3g} mm") == 2
+    assert used.within == pytest.approx(1e3 * validation.radius)
+    assert text.count(f"95 % within {used.within:.3g} mm") == 2
 
 
 def test_a_part_without_which_a_direction_is_open_does_not_count(arm, folder):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from recalib.laboratory.arms.links import read_rows, urdf_of
 from recalib.laboratory.command_line import main
+from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
 from recalib.nominal.arms import load_arm
 from recalib.nominal.denavit_hartenberg import CONVENTIONS, Row, arm_of_table
 

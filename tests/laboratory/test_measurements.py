@@ -32,10 +32,7 @@ def write(tmp_path):
 
 
 def joints() -> dict:
-    return {
-        "rail [mm]": np.linspace(0, 1500, ROWS),
-        "wrist [deg]": np.linspace(-90, 90, ROWS),
-    }
+    return {"rail [mm]": np.linspace(0, 1500, ROWS), "wrist [deg]": np.linspace(-90, 90, ROWS)}
 
 
 def positions() -> dict:
@@ -44,9 +41,9 @@ def positions() -> dict:
 
 def test_units_become_metres_and_radians_and_columns_stand_in_any_order(gantry, write):
     read = read_measurements(write(positions() | {**joints()}), gantry)
-    assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
+    assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
     assert np.allclose(read.positions[-1], 0.002)
-    assert read.targets is read.sockets is read.nominal is None
+    assert read.columns.keys() == {"positions"}
 
 
 def test_a_table_that_was_pasted_twice_is_refused_and_a_row_that_repeats_is_not(gantry, write):
@@ -68,19 +65,23 @@ def test_the_three_ways_to_write_a_rotation_agree(gantry, write):
     ):
         cells = ([number] * ROWS for number in numbers)
         columns = joints() | positions() | dict(zip(names, cells, strict=True))
-        assert np.allclose(read_measurements(write(columns), gantry).rotations, turn.as_matrix())
+        assert np.allclose(
+            read_measurements(write(columns), gantry).measured[:, :3, :3], turn.as_matrix()
+        )
 
 
 def test_targets_and_sockets_are_named(gantry, write):
     names = ["left", "right"] * (ROWS // 2)
     read = read_measurements(write(joints() | {"socket": names, "target": names}), gantry)
-    assert [*read.sockets] == [*read.targets] == names and read.positions is None
+    assert [*read.columns["sockets"]] == [
+        *read.columns["targets"]
+    ] == names and read.positions is None
 
 
 def test_a_measured_table_may_be_desired_in_the_frame_in_which_it_was_measured(gantry, write):
     names = {"target": ["board"] * ROWS, "picture": ["a.png"] * ROWS}
-    read = read_desired(write(joints() | positions() | names), gantry, in_instrument=True)
-    assert [*read.targets] == names["target"] and np.allclose(read.positions[-1], 0.002)
+    read = read_desired(write(joints() | positions() | names), gantry, target=True)
+    assert [*read.columns["targets"]] == names["target"] and np.allclose(read.positions[-1], 0.002)
 
 
 def test_what_was_measured_at_commands_may_stand_beside_their_fake_poses(gantry, write):
@@ -93,7 +94,7 @@ def test_what_was_measured_at_commands_may_stand_beside_their_fake_poses(gantry,
 def test_what_is_no_text_is_refused(gantry, tmp_path):
     path = tmp_path / "table.csv"
     path.write_bytes(b"\xff\xfe\x00\x01")
-    with pytest.raises(InvalidFile, match="it is no CSV in UTF-8"):
+    with pytest.raises(InvalidFile, match="it is not CSV in UTF-8"):
         read_measurements(path, gantry)
 
 
@@ -104,9 +105,9 @@ j2 = "wrist [deg]"
 x_t = "x_nominal [mm]"
 y_t = "y_nominal [mm]"
 z_t = "z_nominal [mm]"
-x_dif = "x_missed [mm]"
-y_dif = "y_missed [mm]"
-z_dif = "z_missed [mm]"
+x_dif = "x_error [mm]"
+y_dif = "y_error [mm]"
+z_dif = "z_error [mm]"
 step = "ignored"
 [instrument]
 position = ["1 m", "-2 cm", "0.07 mm"]
@@ -131,9 +132,9 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
     columns |= {f"{axis}_t": range(ROWS) for axis in "xyz"}
     columns |= {f"{axis}_dif": [1] * ROWS for axis in "xyz"}
     read = read_measurements(write(columns), gantry, said)
-    assert np.allclose(read.coordinates[-1], [1.5, np.pi / 2])
-    assert np.allclose(read.nominal, 1e-3 * np.arange(ROWS)[:, None])
-    assert np.allclose(read.positions - read.nominal, 0.001)
+    assert np.allclose(read.joints[-1], [1.5, np.pi / 2])
+    assert np.allclose(read.columns["nominal"], 1e-3 * np.arange(ROWS)[:, None])
+    assert np.allclose(read.positions - read.columns["nominal"], 0.001)
     columns["j1"] = ["far"] * ROWS
     with pytest.raises(InvalidFile, match="row 1 of column 'j1' is 'far'"):
         read_measurements(write(columns), gantry, said)
@@ -145,7 +146,7 @@ def test_a_description_says_what_a_table_does_not(gantry, write, tmp_path):
 def test_rows_of_one_time_may_come_before_others(gantry, write):
     times = [0, 0, 1, 1, *range(2, ROWS - 2)]
     table = write(joints() | positions() | {"time [s]": times})
-    assert read_measurements(table, gantry).times == pytest.approx(times)
+    assert read_measurements(table, gantry).columns["times"] == pytest.approx(times)
 
 
 @pytest.mark.parametrize(
@@ -158,5 +159,7 @@ def test_rows_of_one_time_may_come_before_others(gantry, write):
     ],
 )
 def test_times_are_seconds_or_dates(column, cells, began, gantry, write):
-    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).times
+    times = read_measurements(write(joints() | positions() | {column: cells}), gantry).columns[
+        "times"
+    ]
     assert np.allclose(times, began + 1.5 * np.arange(ROWS), rtol=0, atol=1e-6)

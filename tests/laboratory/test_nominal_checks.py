@@ -5,8 +5,8 @@ from scipy.spatial.transform import Rotation
 
 from recalib.identification.initial_estimate import NoInitialEstimate, initial_frames
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.tables.knowledge import checked_frames, mistake_in
-from recalib.laboratory.tables.nominal_checks import WrongNominal, check_nominal, likely_mistake
+from recalib.laboratory.plausibility.knowledge import checked_frames, mistake_in
+from recalib.laboratory.plausibility.mistakes import WrongNominal, check_nominal, likely_mistake
 from recalib.nominal.arms import load_arm
 from tests.identification.real import Real
 

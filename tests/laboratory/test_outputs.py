@@ -1,12 +1,13 @@
-"""What commands write is new, whole and at once, and whatever was there before stays."""
+"""What commands write is new, whole and read back, and whatever was there before stays."""
 
 import os
 import re
+import resource
 import shutil
 import signal
 import sys
 import tempfile
-from contextlib import chdir, redirect_stderr, suppress
+from contextlib import chdir, redirect_stderr
 from io import StringIO
 from pathlib import Path
 
@@ -15,14 +16,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from recalib.errors import InvalidFile
-from recalib.files.outputs import MARK, new
-from recalib.laboratory import calibrate
+from recalib.files.outputs import write_new
+from recalib.laboratory import commands
+from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.report import files
-from recalib.laboratory.report.files import NAMES
 
 LINKS = "joint,a [mm],alpha [deg],d [mm],theta [deg]\nwaist,0,-90,412,0\nboom,300,0,0,0\n"
 INPUTS = "arm.urdf", "rows.csv", "links.csv"
+TWO = {"one.txt": b"1", "two.txt": b"2"}
 
 
 @pytest.fixture(scope="module")
@@ -35,30 +36,31 @@ def laboratory(calibrated, tmp_path_factory):
     shutil.copy(calibrated.parent / "arm.urdf", folder)
     shutil.copy(calibrated.parent / "measurements.csv", folder / "rows.csv")
     (folder / "links.csv").write_text(LINKS)
-    result = calibrate.calibrate_arm(folder / "arm.urdf", folder / "rows.csv")
+    result = calibrate_arm(folder / "arm.urdf", folder / "rows.csv")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(calibrate, "calibrate_arm", lambda *_: result)
-        patch.setattr(files, "optional_outputs", lambda: ([], []))
+        patch.setattr(commands, "calibrate_arm", lambda *_: result)
+        load, page = commands._load, lambda _: b"a page"
+        patch.setattr(commands, "_load", lambda *its: page if "page_of" in its else load(*its))
         assert run(folder, "calibrate", "arm.urdf", "rows.csv")[0] == DONE
         yield folder
 
 
 def run(folder, *arguments: str) -> tuple[int, str]:
-    """How a command ended, and what it said."""
-    with chdir(folder), redirect_stderr(StringIO()) as said:
-        return main(arguments), said.getvalue()
+    """How a command ended, and what it printed on stderr."""
+    with chdir(folder), redirect_stderr(StringIO()) as printed:
+        return main(arguments), printed.getvalue()
 
 
 def content(folder: Path) -> dict[str, object]:
     """What every path below a folder is: a link's goal, a file's bytes, or else its kind."""
-    its = {}
+    found = {}
     for path in folder.rglob("*"):
         name = str(path.relative_to(folder))
         if path.is_symlink():
-            its[name] = os.readlink(path)
+            found[name] = os.readlink(path)
         else:
-            its[name] = path.read_bytes() if path.is_file() else path.lstat().st_mode
-    return its
+            found[name] = path.read_bytes() if path.is_file() else path.lstat().st_mode
+    return found
 
 
 COMMANDS = {
@@ -72,30 +74,27 @@ COMMANDS = {
 @pytest.mark.parametrize(
     ("out", "sentence"),
     [
-        ("", "recalib: --out is ''; expected: the name of a file or folder"),
-        ("rows.csv/new", "nothing can be made in .*rows.csv; try: another --out"),
+        ("rows.csv/new", "nothing can be written in .*rows.csv; try: another --out"),
         ("x" * 300, "File name too long"),
-        ("/", "cannot use /: it is there already"),
+        ("/", "cannot use /: it exists already"),
     ],
 )
-def test_where_nothing_can_be_made_it_is_told_in_a_sentence(out, sentence, laboratory):
-    code, told = run(laboratory, *COMMANDS["urdf"], f"--out={out}")
+def test_a_place_where_nothing_can_be_written_is_refused(out, sentence, laboratory):
+    code, printed = run(laboratory, *COMMANDS["urdf"], f"--out={out}")
     assert code == REFUSED
-    assert re.search(sentence, told) and told.count("\n") == 1
+    assert re.search(sentence, printed) and printed.count("\n") == 1
 
 
-def test_an_empty_folder_will_do_and_parents_are_made(laboratory, tmp_path):
+def test_an_empty_folder_will_do_and_parents_are_made(tmp_path):
     (tmp_path / "empty").mkdir()
     for out in (tmp_path / "empty", tmp_path / "a" / "b"):
-        with new(out, folder=True) as made:
-            (made / "file").write_text("whole")
-        assert [path.name for path in out.iterdir()] == ["file"]
+        write_new(out, TWO)
+        assert content(out) == TWO
     assert {path.name for path in tmp_path.iterdir()} == {"empty", "a"}
 
 
-HIDDEN = ".calibration.part", ".commands.csv.part"  # where commands make their results
 NAME = st.sampled_from(
-    [*INPUTS, *NAMES, *HIDDEN, "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
+    [*INPUTS, "arm.urdf", "calibration", "notes.txt", ".hidden", "ä b", "commands.csv"]
 )
 ENTRY = st.one_of(
     st.tuples(st.just("file"), st.binary(max_size=4)),
@@ -106,17 +105,17 @@ ENTRY = st.one_of(
 
 
 def fill(folder: Path, entries: dict) -> None:
-    for name, (kind, its) in entries.items():
+    for name, (kind, value) in entries.items():
         path = folder / name
         if kind == "file":
-            path.write_bytes(its)
+            path.write_bytes(value)
         elif kind == "link":
-            path.symlink_to(its)
+            path.symlink_to(value)
         elif kind == "pipe":
             os.mkfifo(path)
         else:
             path.mkdir()
-            fill(path, {name: ("file", its) for name, its in its.items()})
+            fill(path, {name: ("file", part) for name, part in value.items()})
 
 
 @settings(max_examples=100)
@@ -126,13 +125,7 @@ def fill(folder: Path, entries: dict) -> None:
     out=st.one_of(st.none(), NAME, st.tuples(NAME, NAME).map("/".join), st.just(".")),
 )
 def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, command, out):
-    """Links and pipes among it, also to nothing: a run adds something, or says why it does not.
-
-    Only an empty folder where results are made is taken for what a killed run left.
-    """
-    for name in HIDDEN:
-        if entries.get(name) == ("folder", {}):
-            del entries[name]
+    """Links and pipes among it, also to nothing: a run adds something, or says why it does not."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         fill(folder, entries)
@@ -141,14 +134,14 @@ def test_after_any_run_all_that_was_there_is_as_it_was(laboratory, entries, comm
         if "calibration" not in entries and out != "calibration":
             shutil.copytree(laboratory / "calibration", folder / "calibration")
         before = content(folder)
-        code, told = run(folder, *COMMANDS[command], *([] if out is None else [f"--out={out}"]))
+        code, printed = run(folder, *COMMANDS[command], *([] if out is None else [f"--out={out}"]))
         after = content(folder)
         if out in entries and (entries[out][0] != "folder" or entries[out][1]):
-            assert f"recalib: cannot use {out}: it is there already, and nothing" in told
+            assert f"recalib: cannot use {out}: it exists already, and nothing" in printed
         assert {name: after.get(name) for name in before} == before
         added = after.keys() - before.keys()
         assert bool(added) == (code == DONE)
-        assert ".part" in str(out) or not [name for name in added if ".part" in name]
+        assert not [name for name in added if ".part" in name]
 
 
 @pytest.fixture
@@ -192,29 +185,23 @@ def test_killed_at_any_moment_it_leaves_all_or_nothing_and_the_next_run_tidies_u
         (folder / "mine").write_text("mine")
         if not (child := os.fork()):
             strike(number, lambda: os.kill(os.getpid(), signal.SIGKILL))
-            fill_two(folder / "out")
+            write_new(folder / "out", TWO)
             os._exit(0)
         _, status = os.waitpid(child, 0)
         killed = os.WIFSIGNALED(status)
-        names = {path.name for path in folder.iterdir()}
-        assert names <= {"mine", "out", ".out.part"}
+        names = {path.name for path in folder.iterdir() if not path.name.startswith(".recalib-")}
+        assert names <= {"mine", "out"}
         if "out" not in names:
             assert killed
-            fill_two(folder / "out")
+            write_new(folder / "out", TWO)
             assert {path.name for path in folder.iterdir()} == {"mine", "out"}
-        assert content(folder / "out") == {"one": b"1", "two": b"2"}
+        assert content(folder / "out") == TWO
         assert (folder / "mine").read_text() == "mine"
     assert number > 5
 
 
-def fill_two(folder: Path) -> None:
-    with new(folder, folder=True) as made:
-        (made / "one").write_text("1")
-        (made / "two").write_text("2")
-
-
 @pytest.mark.parametrize("command", ["calibrate", "urdf"])
-def test_what_is_told_of_an_interruption_is_true(command, laboratory, tmp_path, strike):
+def test_what_is_printed_of_an_interruption_is_true(command, laboratory, tmp_path, strike):
     def interrupt():
         raise KeyboardInterrupt
 
@@ -222,64 +209,55 @@ def test_what_is_told_of_an_interruption_is_true(command, laboratory, tmp_path, 
     while struck:
         number, out = number + 1, tmp_path / str(number)
         in_vain = strike(number, interrupt)
-        code, told = run(laboratory, *COMMANDS[command], f"--out={out}")
+        code, printed = run(laboratory, *COMMANDS[command], f"--out={out}")
         struck = not in_vain()
         if struck and code == REFUSED:
-            how = "there, and whole" if out.exists() else "not written"
-            assert told.splitlines()[-1] == f"recalib: interrupted; {out} is {how}"
+            how = "complete" if out.exists() else "not written"
+            assert printed.splitlines()[-1] == f"recalib: interrupted; {out} is {how}"
         if out.exists():
-            its = content(out) if out.is_dir() else out.read_bytes()
-            assert whole in (None, its)
-            whole = its
+            written = content(out) if out.is_dir() else out.read_bytes()
+            assert whole in (None, written)
+            whole = written
     assert number > 5 and whole is not None
 
 
-def test_what_lies_where_results_are_made_stays_unless_it_is_marked(tmp_path):
-    (tmp_path / ".out.part" / "out").mkdir(parents=True)
-    (tmp_path / ".out.part" / "out" / "mine").write_text("mine")
-    before = content(tmp_path)
-    with pytest.raises(InvalidFile, match=r"\.out\.part: it is in the way of what will be made"):
-        fill_two(tmp_path / "out")
-    assert content(tmp_path) == before
-    (tmp_path / ".out.part" / MARK).touch()
-    fill_two(tmp_path / "out")
-    assert {path.name for path in tmp_path.iterdir()} == {"out"}
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("arm.urdf", b"<robot><link name='\x01'/></robot>"),
+        ("arm.urdf", b"<robot>"),
+        ("a.csv", b"a,b\n1\n"),
+        ("a.json", b'{"a": 1'),
+        ("a.toml", b"a = \n"),
+        ("a.yaml", b"a: [1"),
+        ("a.npz", b"PK\x03\x04"),
+        ("a.rrd", b"RRF2"),
+        ("a.pdf", b"%PDF-1.4"),
+        ("a.txt", b"\xff"),
+    ],
+)
+def test_what_no_parser_reads_back_is_not_written(name, text, tmp_path):
+    for out, files in (("folder", {"good.txt": b"", name: text}), (name, text)):
+        with pytest.raises(InvalidFile, match=f"{name}: what was computed for it cannot be read"):
+            write_new(tmp_path / out, files, Path(name).suffix)
+    assert not [*tmp_path.iterdir()]
 
 
-def test_killed_while_it_cleans_up_after_an_error_the_next_run_tidies_up(tmp_path, strike):
-    number, killed = 0, True
-    while killed:
-        number += 1
-        out = tmp_path / str(number) / "out"
-        out.parent.mkdir()
-        if not (child := os.fork()):
-            with suppress(ZeroDivisionError), new(out, folder=True) as made:
-                (made / "one").touch()
-                strike(number, lambda: os.kill(os.getpid(), signal.SIGKILL))
-                1 / 0  # noqa: B018
-            os._exit(0)
-        _, status = os.waitpid(child, 0)
-        killed = os.WIFSIGNALED(status)
-        fill_two(out)
-        assert {path.name for path in out.parent.iterdir()} == {"out"}
-    assert number > 3
+def test_on_a_full_disk_the_file_is_named_and_nothing_stays(laboratory, tmp_path):
+    """A limit on the size of files fails in the same way as a disk without space."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for command, size in (("calibrate", 3000), ("urdf", 100), ("next", 10), ("correct", 0)):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+        try:
+            code, printed = run(laboratory, *COMMANDS[command], f"--out={tmp_path / 'out'}")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        last = printed.splitlines()[-1]
+        assert code == REFUSED and re.search(r"out\S*: it cannot be written: File too large", last)
+        assert not [*tmp_path.iterdir()]
 
 
-def test_two_at_once_do_not_mix(tmp_path):
-    with new(tmp_path / "out") as made:
-        made.write_text("whole")
-        with pytest.raises(InvalidFile, match="another process fills it; try: another --out"):
-            fill_two(tmp_path / "out")
-    assert content(tmp_path) == {"out": b"whole"}
-
-
-def test_where_nothing_can_be_made_one_is_told_of_the_name_that_was_asked_for(
-    tmp_path, monkeypatch
-):
-    def mkdir(path, **options):
-        raise FileNotFoundError(2, "No such file or directory", str(path))
-
-    monkeypatch.setattr(Path, "mkdir", mkdir)
-    said = "new: nothing can be made in .*: No such file"
-    with pytest.raises(InvalidFile, match=said), new(tmp_path / "new"):
-        pass
+def test_a_disk_that_gives_back_something_else_is_noticed(tmp_path, monkeypatch):
+    monkeypatch.setattr(Path, "read_bytes", lambda path: b"other")
+    with pytest.raises(InvalidFile, match=r"one\.txt: the disk gives back something else"):
+        write_new(tmp_path / "out", TWO)

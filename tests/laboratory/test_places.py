@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib.files.outputs import write_new
 from recalib.identification.calibration import Calibration
 from recalib.identification.checks.identifiability import unidentifiable_parameters
 from recalib.identification.estimation import identify
@@ -18,9 +19,8 @@ from recalib.identification.model.observations import Observations
 from recalib.identification.validation import HYBRID
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.places import found_places
-from recalib.laboratory.report.files import write_files
+from recalib.laboratory.report.folder import files_of
 from recalib.laboratory.report.summary import summary
-from recalib.laboratory.tables.measurements import POSITION
 from recalib.nominal.arms import load_arm
 from tests.arms import INDUSTRIAL
 from tests.conftest import few_folds
@@ -78,11 +78,11 @@ def calibrated(arm, tmp_path_factory):
     joints, numbers = np.repeat(real.postures(60), 2, axis=0), np.arange(120) % 2
     places = real.poses(joints, numbers)[:, :3, 3]
     columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
-    columns |= {f"{axis} [m]": places[:, index] for index, axis in enumerate(POSITION)}
+    columns |= {f"{axis} [m]": places[:, index] for index, axis in enumerate("xyz")}
     write(folder / "m.csv", columns | {"target": np.array(["left", "right"])[numbers]})
     result = calibrate_arm(URDF, folder / "m.csv", tool=TOOL)
     assert result.validation.chosen == HYBRID
-    write_files(result, folder / "out")
+    write_new(folder / "out", files_of(result))
     return result, folder / "out"
 
 
@@ -90,7 +90,7 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
     result, folder = calibrated
     told = json.loads((folder / "parameters.json").read_text())
     assert told["fit"] == "geometry, as in arm.urdf"
-    seen = result.observations
+    seen = result.data.observations
     poses = load_arm(folder / "arm.urdf", told["tool"], told["base"]).forward(seen.joints)
     targets = np.array(list(told["targets_in_tool"].values()))[seen.targets]
     there = np.array(told["base_in_instrument"]) @ poses @ targets
@@ -102,7 +102,7 @@ def test_urdf_parameters_and_frames_are_of_one_fit(calibrated):
         ("target right", told["tool"]),
     ]
     assert rows == [{k: str(v) for k, v in row.items()} for row in told["frames"]]
-    instrument, left, _ = ([float(row[f"{axis} [mm]"]) for axis in POSITION] for row in rows)
+    instrument, left, _ = ([float(row[f"{axis} [mm]"]) for axis in "xyz"] for row in rows)
     base = np.linalg.inv(told["base_in_instrument"])
     assert np.allclose(instrument, 1e3 * base[:3, 3], atol=0.01)
     assert np.allclose(left, 1e3 * np.array(told["targets_in_tool"]["left"])[:3, 3], atol=0.01)
@@ -117,7 +117,10 @@ def test_how_a_target_is_turned_is_not_said_where_positions_leave_it_open(calibr
     instrument, left, _ = read_places(calibrated[1])
     assert instrument["yaw [deg]"] and not left["yaw [deg]"] and not left["deviation [deg]"]
     assert (
-        0 < float(left["deviation [mm]"]) < 1 < float(left["deviation beside the real link [mm]"])
+        0
+        < float(left["deviation [mm]"])
+        < 1
+        < float(left["deviation relative to the real link [mm]"])
     )
 
 
@@ -130,7 +133,7 @@ def test_an_arm_that_is_left_alone_may_have_an_offset_that_nothing_tells(arm, tm
         scale=5e-5, size=(40, 3)
     )
     columns = {f"{joint} [rad]": joints[:, index] for index, joint in enumerate(arm.joints)}
-    columns |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate(POSITION)}
+    columns |= {f"{axis} [m]": seen[:, index] for index, axis in enumerate("xyz")}
     write(tmp_path / "m.csv", columns)
     result = calibrate_arm(URDF, tmp_path / "m.csv", tool=TOOL)
     instrument, _ = result.places

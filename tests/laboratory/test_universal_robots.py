@@ -3,7 +3,7 @@ import pinocchio as pin
 import pytest
 import yaml
 
-from recalib.laboratory.arms.universal_robots import LINKS, kinematics_yaml
+from recalib.laboratory.urdf.universal_robots import LINKS, kinematics_yaml
 from recalib.nominal.arms import load_arm
 from recalib.nominal.descriptions import find_urdf
 from tests.laboratory.test_urdf import postures, random_calibration

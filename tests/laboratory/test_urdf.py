@@ -6,7 +6,7 @@ import yourdfpy
 from recalib.identification.calibration import Calibration
 from recalib.identification.estimation import Identification
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
-from recalib.laboratory.arms.urdf import angles_of, corrected_urdf, with_origins
+from recalib.laboratory.urdf.origins import angles_of, corrected_urdf, with_origins
 from recalib.nominal.arms import find_urdf, load_arm
 from tests.nominal.test_arms import ARMS
 

@@ -70,5 +70,5 @@ def test_an_arm_on_a_rail_slides_and_its_slide_has_no_encoder_that_turns(tmp_pat
     assert np.ptp(slid[..., 0]) > 0.02  # m
     plant = Plant(controller, apply(robot, [EncoderShift("elbow", 0.05)]))
     assert np.all(left(GeometricLearner(controller, runs=2), plant, 12) < 1e-6)
-    with pytest.raises(UnknownName, match="unknown turning joint of railed 'rail'; expected: bend"):
+    with pytest.raises(UnknownName, match="unknown turning joint 'rail'; expected: bend"):
         apply(robot, [EncoderShift("rail", 0.05)])

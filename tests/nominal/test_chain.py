@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from recalib.damaged.damage import BaseShift, LinkShortening, apply
+from recalib.errors import InvalidSetting
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import Chain
 from recalib.nominal.kinematics import Arm
@@ -79,13 +80,13 @@ def test_angles_of_other_arms_or_joints_are_refused(arms):
     _, chain = arms[0]
     poses, start = chain.forward(np.zeros((1, 2, 6)))[0], np.zeros((2, 6))
     for wrong in ((1, 2, 5), (1, 2, 7), (2, 2, 6), (2, 6)):
-        with pytest.raises(ValueError, match=r"expected: \(1, 2, 6\)"):
+        with pytest.raises(InvalidSetting, match=r"expected: an array \(1, 2, 6\)"):
             chain.forward(np.zeros(wrong))
     for ask in (chain.jacobians, lambda angles: chain.solve(poses, angles)):
         for wrong in ((2, 7), (6,)):
-            with pytest.raises(ValueError, match=r"expected: \([12], 6\)"):
+            with pytest.raises(InvalidSetting, match=r"expected: an array \([12], 6\)"):
                 ask(np.zeros(wrong))
-    with pytest.raises(ValueError, match=r"expected: \(2, 4, 4\)"):
+    with pytest.raises(InvalidSetting, match=r"expected: an array \(2, 4, 4\)"):
         chain.solve(poses[:1], start)
 
 

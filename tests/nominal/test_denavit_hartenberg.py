@@ -62,7 +62,7 @@ def test_the_tool_is_where_the_product_of_the_rows_says(convention, rows, angle)
     ("rows", "convention", "error", "message"),
     [
         ([Row("a")], "craig", UnknownName, "'craig'; expected: modified or standard"),
-        ([], "standard", InvalidSetting, "at least one"),
+        ([], "standard", InvalidSetting, "1 to 100"),
         ([Row("a"), Row("a")], "standard", InvalidSetting, "'a'; expected: another name"),
         (
             [Row("a", alpha=np.nan)],

@@ -163,8 +163,8 @@ def recorded(folder: Path) -> Iterator[Task]:
     for count, subsets in SUBSETS.items():
         for subset in range(subsets):
             rows = np.sort(np.random.default_rng(subset).permutation(len(known))[:count])
-            seen = Observations(known.coordinates[rows], known.positions[rows])
-            fresh, truth = tests.coordinates, tests.positions
+            seen = Observations(known.joints[rows], known.positions[rows])
+            fresh, truth = tests.joints, tests.positions
             yield Task(f"ur5_{count}", subset, arm, urdf, seen, fresh, truth, told, known=False)
 
 

@@ -3,13 +3,13 @@
 python -m tests.station.film
 """
 
+import mujoco
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
+from simulated_arm import PhysicsStation
 
 from recalib.damaged.plant import Plant
 from recalib.nominal.poses import position_error
-from recalib.station.engine import mujoco
-from recalib.station.physics import PhysicsStation
 from replication.training.poses import Stream
 from tests.station.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tuned
 

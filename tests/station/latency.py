@@ -17,8 +17,7 @@ from recalib.identification.calibration import calibrate
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.observations import Observations
 from recalib.identification.validation import CANDIDATES
-from recalib.laboratory.correction.archive import Correction
-from recalib.laboratory.correction.corrector import Corrector
+from recalib.laboratory.correction import Correction
 from recalib.laboratory.live.allowed import AllowedPostures
 from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.running import RunningCalibration
@@ -94,22 +93,16 @@ def latencies(name: str) -> None:
     for its in (rows, uneven):
         frames = initial_frames(station.arm, its)
         calibration = calibrate(station.arm, CANDIDATES, its, frames)
-        corrector = Corrector(Correction(b"", calibration, joints))
+        correction = Correction(b"", calibration, joints)
         path = joints[:1] + np.linspace(0, 0.2, TIMES + 1)[:, None]
         pattern = "no pattern" if calibration.pattern is None else "a pattern"
-        for frame, target, poses in (
-            ("base", None, calibration.forward(path)),
-            ("instrument", "the target", calibration.predict(path)),
-        ):
-            near, goals = [joints[0]], iter(poses)
+        near, goals = [joints[0]], iter(calibration.predict(path))
 
-            def command():
-                near[0] = corrector.command(next(goals), near[0], target)  # noqa: B023
+        def command():
+            near[0] = correction.command(next(goals), near[0])  # noqa: B023
 
-            command()
-            print(
-                f"{name}, {pattern} of residuals: a command in the {frame} {median(command):.2f} ms"
-            )
+        command()
+        print(f"{name}, {pattern} of residuals: a command {median(command):.2f} ms")
 
 
 if __name__ == "__main__":

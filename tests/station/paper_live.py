@@ -17,6 +17,8 @@ import jinja2
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from simulated_arm import Gears, PhysicsStation
+from simulated_camera import UPWARDS, PicturedStation
 
 from recalib.damaged.damage import DamagedArm
 from recalib.damaged.disturbances import Disturbances, Noise
@@ -28,8 +30,6 @@ from recalib.loop.training import History, train
 from recalib.nominal.arms import load_arm
 from recalib.nominal.controller import Controller
 from recalib.nominal.poses import position_error
-from recalib.station.camera import UPWARDS, PicturedStation
-from recalib.station.physics import Gears, PhysicsStation
 from recalib.vision.boards import printable
 from recalib.vision.detection import find_corners
 from recalib.vision.views import board_pose
@@ -50,7 +50,7 @@ SEEDS, TESTS, NOISE = 5, 200, Noise(2e-4, np.radians(0.02))  # m, rad
 MAPS, TODAY = ("improved", "ritter"), ("geometric", "hybrid")
 ITERATIONS = {MAPS: range(0, 201, 10), TODAY: (0, 5, 10, 20, 30, 50, 100)}
 SHOWN = {MAPS: (0, 10, 50, 100, 200), TODAY: (0, 10, 20, 30, 100)}
-BOARD = printable("charuco", 7, 5, 0.05)
+BOARD = printable(7, 5, 0.05)
 SOFT = 3.7e3  # N m/rad, softer than joints in industry: so soft an arm droops by 12 mm
 ROUGH = {"friction": 2.0, "play": 3e-4}  # N m, rad
 KINEMATICS, NOISY = "kinematics", Disturbances(NOISE)

@@ -8,10 +8,11 @@ them; where the tool lands is where the physics takes it.
 
 from collections.abc import Sequence
 
+from simulated_arm import PhysicsStation
+
 from recalib.damaged.plant import Plant
 from recalib.nominal.controller import Controller
 from recalib.numerics.randomness import generator
-from recalib.station.physics import PhysicsStation
 from replication.recording.recorded import published_errors
 from replication.recording.writing import watch_all, write_recording
 from replication.scenarios.plants import Resolved

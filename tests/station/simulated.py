@@ -3,15 +3,24 @@
 import os
 import time
 import zlib
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
 from recalib.nominal.arms import load_arm
+from recalib.nominal.kinematics import Arm
 from recalib.station.interface import cells_of
 from tests.identification.real import ARMS, NOISE, Real
 
-HOMES = {"UR10": [0, -1.2, 1.9, -2.3, -1.6, 0], "Panda": [0, 0.2, 0, -2, 0, 2.2, 0.8]}  # rad
+HOMES = {"Panda": [0, 0.2, 0, -2, 0, 2.2, 0.8]}  # rad
+HOMES |= {name: [0, -1.2, 1.9, -2.3, -1.6, 0] for name in ("UR5", "UR10")}
+URDFS = ARMS | {"UR5": ("ur5_robot.urdf", "tool0")}
+
+
+@cache
+def known_arm(name: str) -> Arm:
+    return load_arm(*URDFS[name])
 
 
 class Simulated:
@@ -21,15 +30,17 @@ class Simulated:
     """
 
     def __init__(self, name: str = "UR10", seed: int = 1, noise=NOISE):
-        self.arm = load_arm(*ARMS[name])
+        self.arm = known_arm(name)
         self.real, self.noise = Real(self.arm, seed), noise
         self.joints = self.arm.joints
         model = self.arm.model
         self.limits = model.lowerPositionLimit, model.upperPositionLimit
         self.stands, self.calls = np.array(HOMES[name], dtype=float), []
+        self.moves = []  # to which angles, and how fast
 
     def move(self, angles, speed):
         self.calls.append("move")
+        self.moves.append((angles, speed))
         self.stands = angles
 
     def angles(self):
@@ -45,6 +56,29 @@ class Simulated:
 
     def stop(self):
         self.calls.append("stop")
+
+
+class Ordered(Simulated):
+    """One whose joints stand in another order: a cycle of three, which is not its own inverse."""
+
+    ORDER = np.array([1, 2, 0, 4, 5, 3])
+
+    def __init__(self):
+        super().__init__()
+        self.joints = [self.arm.joints[joint] for joint in self.ORDER]
+        self.limits = [limit[self.ORDER] for limit in self.limits]
+
+    def move(self, angles, speed):
+        own = np.empty_like(angles)
+        own[self.ORDER] = angles
+        super().move(own, speed)
+
+    def angles(self):
+        return self.stands[self.ORDER]
+
+    def measure(self):  # also its cells are in another order, from the second row on
+        cells = super().measure()
+        return cells if self.calls.count("measure") == 1 else dict(reversed(cells.items()))
 
 
 class Lasting(Simulated):
@@ -76,20 +110,20 @@ class Spoilt(Simulated):
 
     Args:
         moved: called with it after its third move.
-        told: called with it and the angles at which it stands; what it says of them.
-        measured: called with it and the cells of a measurement; what it says of them.
+        angles: called with it and the angles at which it stands; what it returns for them.
+        measured: called with it and the cells of a measurement; what it returns for them.
         attributes: of it, in place of its own.
     """
 
     def __init__(
         self,
-        moved=lambda its: None,
-        told=lambda its, angles: angles,
-        measured=lambda its, cells: cells,
+        moved=lambda station: None,
+        angles=lambda station, angles: angles,
+        measured=lambda station, cells: cells,
         **attributes,
     ):
         super().__init__()
-        self.moved, self.told, self.measured = moved, told, measured
+        self.moved, self.changed, self.measured = moved, angles, measured
         vars(self).update(attributes)
 
     def move(self, angles, speed):
@@ -98,7 +132,7 @@ class Spoilt(Simulated):
             self.moved(self)
 
     def angles(self):
-        return self.told(self, super().angles())
+        return self.changed(self, super().angles())
 
     def measure(self):
         return self.measured(self, super().measure())

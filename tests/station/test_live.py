@@ -1,4 +1,4 @@
-"""A calibration that moves the arm itself: where it ends, and what stops it."""
+"""A calibration that moves the arm itself: when it ends, what it asks, and what stops it."""
 
 import os
 import random
@@ -10,211 +10,255 @@ import threading
 import time
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import rerun as rr
 
 from recalib.errors import InvalidFile, InvalidSetting, UnknownName
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
-from recalib.laboratory.correction.correct import NotReached
-from recalib.laboratory.correction.corrector import Corrector
-from recalib.laboratory.live import calibration as live
-from recalib.laboratory.live import running
+from recalib.laboratory.correction import NotReached
 from recalib.laboratory.live.allowed import AllowedPostures, Box
-from recalib.laboratory.live.calibration import Interrupted, LiveSettings, calibrate_live
-from recalib.laboratory.live.running import PredictedError
-from recalib.laboratory.live.view import LiveView
+from recalib.laboratory.live.running import RunningCalibration
+from recalib.laboratory.live.session import Answer, Interrupted, LiveSettings, calibrate_live
 from recalib.laboratory.tables.description import Description
-from recalib.nominal.descriptions import find_urdf
 from recalib.station.guarded import Guarded
 from recalib.station.interface import StationFailed
 from tests.conftest import ROOT, few_folds
-from tests.identification.real import ARMS
-from tests.kept import plain
+from tests.identification.real import anywhere
 from tests.logged import logged
-from tests.station.simulated import HOMES, Simulated, Spoilt
+from tests.station.conftest import FINE
+from tests.station.simulated import Ordered, Simulated, Spoilt
 
-YES = lambda posture: True  # noqa: E731
-AROUND = Box(np.array([-2.0, -2.0, 0.1]), np.array([2.0, 2.0, 2.0]))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch):
-    """Waits are short, and what follows from the same rows is found once."""
-    monkeypatch.setattr("recalib.station.guarded.APART", 0.001)
-    monkeypatch.setattr("recalib.station.guarded.SETTLING", 0.1)
-    for find, rows in ((running.checked_frames, 1), (running.most_probable, 2)):
-        monkeypatch.setattr(running, find.__name__, partial(once, find, rows))
+SPAN = np.radians(45)
 
 
-FOUND = {}
-
-
-def once(find, place, *given):
-    """What a function finds, by the rows among its arguments."""
-    rows = given[place]
-    key = find, rows.joints.tobytes(), rows.measured.tobytes()
-    if key not in FOUND:
-        FOUND[key] = find(*given)
-    return FOUND[key]
-
-
-def run(station, tmp_path, ask=YES, on_progress=lambda line: None, **settings):
+def run(station, folder, ask=lambda move: Answer.MOVE, on_progress=lambda line: None, **settings):
     watch = {name: settings.pop(name) for name in ("on_row",) if name in settings}
-    settings = LiveSettings(**({"patience": 1.0} | settings))
-    table = tmp_path / "table.csv"
-    its = lambda: station  # noqa: E731
-    return calibrate_live(its, station.arm, table, settings, ask, None, on_progress, **watch)
+    table, settings = folder / "table.csv", LiveSettings(**{"floor": None} | settings)
+    opening = lambda: station  # noqa: E731
+    return calibrate_live(opening, station.arm, table, settings, ask, None, on_progress, **watch)
 
 
-@pytest.mark.parametrize(("name", "seed"), [*zip(ARMS, (1, 2), strict=True)])
-def test_it_ends_by_itself_and_the_arm_is_calibrated(name, seed, tmp_path):
-    station = Simulated(name, seed, noise=(5e-5, np.radians(0.01)))
-    reason = run(station, tmp_path, error=3e-4)
-    assert "0.3 mm was asked for" in reason
-    assert station.calls.count("move") < 30 and "stop" not in station.calls
-    urdf, tool = ARMS[name]
+def few(count: int):
+    """What lets an arm make a few moves: no calibration, which takes long, is needed."""
+    left = iter([Answer.MOVE] * count)
+    return lambda move: next(left, Answer.END)
+
+
+def remaining(station, rows, running) -> float:
+    """The true mean error [m] of what is known after some rows."""
+    low, high = (np.maximum(station.limits[0], rows.joints[0] - SPAN), rows.joints[0] + SPAN)
+    fresh = np.random.default_rng(0).uniform(low, high, (200, len(low)))
+    gaps = running.calibration(rows).predict(fresh) - station.real.poses(fresh, noise=(0, 0))
+    return float(np.linalg.norm(gaps[:, :3, 3], axis=1).mean())
+
+
+def test_it_ends_as_soon_as_the_arm_is_as_right_as_was_asked_for(lived):
+    assert lived.ended.reason.endswith("; 0.3 mm was asked for")
+    assert lived.ended.rows == len(lived.rows) <= 14 and "stop" not in lived.station.calls
+    assert remaining(lived.station, lived.rows, lived.running) < 3e-4
+    predicted = lived.running.error(lived.rows)
+    assert (
+        lived.lines[-1] == f"row {len(lived.rows)}: the predicted error is {1e3 * predicted:.3g} mm"
+    )
+
+
+def test_before_the_first_move_it_says_where_the_tool_will_be(lived):
+    ranges = re.findall(r"([xyz]) from (-?\d+) to (-?\d+) mm", lived.lines[0])
+    low, high = np.array([(float(a), float(b)) for _, a, b in ranges]).T
+    places = 1e3 * np.array([move.tool_after for move in lived.asked])
+    assert [axis for axis, *_ in ranges] == [*"xyz"]
+    assert (places >= low - 1).all() and (places <= high + 1).all() and low[2] > 0
+
+
+def test_each_move_is_asked_for_and_made_at_the_speed_that_was_set(lived):
+    assert len(lived.asked) == len(lived.station.moves) == len(lived.rows) - 1
+    for move, (angles, speed) in zip(lived.asked, lived.station.moves, strict=True):
+        assert np.array_equal(move.goal, angles) and speed == 0.37
+        ends = lived.station.arm.forward(np.array([move.start, move.goal]))[:, :3, 3]
+        assert np.allclose(ends, [move.tool_before, move.tool_after])
+    starts = np.array([move.start for move in lived.asked])
+    assert np.array_equal(starts, lived.rows.joints[:-1])
+
+
+def test_it_can_be_watched(lived):
+    shown = logged(lived.recording)
+    assert {name.split()[0] for name in shown} >= {"/line", "/measured", "/workspace"}
+    (errors,) = (shown[name] for name in shown if "/predicted Scalars" in name)
+    assert len(np.concatenate(errors)) == len(lived.rows) - 9
+    assert np.concatenate(errors)[-1] == pytest.approx(1e3 * lived.running.error(lived.rows))
+    # in the base, where the target is as far from the tool in all postures, but for what is off
+    measured = np.concatenate(shown["/measured Points3D:positions"])
+    measured = measured.reshape(-1, 3)[-len(lived.rows) :]
+    tool = lived.station.arm.forward(lived.rows.joints)[:, :3, 3]
+    assert np.ptp(np.linalg.norm(measured - tool, axis=1)) < 0.05
+
+
+def test_a_command_takes_the_target_where_it_should_be(lived):
+    station = lived.station
     with few_folds():
-        result = calibrate_arm(urdf, tmp_path / "table.csv", tool=tool)
-    low, high = (np.array(HOMES[name]) + side * np.radians(45) for side in (-1, 1))
-    fresh = np.random.default_rng(seed).uniform(low, high, (200, len(low)))
-    gaps = result.calibration.predict(fresh) - station.real.poses(fresh, noise=(0, 0))
-    assert np.linalg.norm(gaps[:, :3, 3], axis=1).mean() < 3e-4
+        correction = calibrate_arm("ur5_robot.urdf", lived.table, tool="tool0").correction
+    near = station.stands
+    goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
+    command = correction.command(goal, near, target="the target")
+    there = station.real.poses(command[None], noise=(0, 0))[0]
+    assert np.linalg.norm((there - goal)[:3, 3]) < 1e-3
+    position = correction.command(goal[:3, 3], near, target="the target")
+    assert np.abs(position - near).max() < np.abs(command - near).max() + 0.05
+    shown = correction.calibration.predict(near[None])[0]
+    np.testing.assert_allclose(correction.command(shown, near + 0.02), near, atol=1e-6)
+    with pytest.raises(NotReached):
+        correction.command(np.array([9.0, 0, 0]), near)
+    with pytest.raises(UnknownName, match="unknown target"):
+        correction.command(goal, near, target="the board")
 
 
-def test_it_ends_where_more_is_of_no_use(tmp_path):
-    assert "would hardly make it smaller" in run(Simulated(), tmp_path)
+def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(lived):
+    """A tripod was bumped; one or two may be outliers."""
+    rows, bump = lived.rows, anywhere(np.random.default_rng(0), 0)
+    bump[:3, :3], bump[:3, 3] = np.eye(3), [6e-3, -6e-3, 5e-3]  # m
+    more = AllowedPostures(lived.station.arm, rows.joints[0], lived.station.limits, SPAN).joints[:5]
+    joints = np.concatenate([rows.joints, more])
+    measured = np.concatenate([rows.measured, lived.station.real.poses(more, noise=FINE)])
+
+    def checked(count, *moved):
+        poses = measured.copy()
+        poses[[*moved]] = bump @ poses[[*moved]]
+        return lived.running.check(Observations(joints, poses)[:count])
+
+    count = len(rows)
+    assert checked(count + 5) is None and checked(count + 2, count, count + 1) is None
+    assert checked(count + 4, count, count + 2, count + 3) is None
+    wrong = checked(count + 3, count, count + 1, count + 2)
+    assert re.match(f"in rows {count + 1} to {count + 3} the target was measured .* mm from", wrong)
+    assert "Instrument or target seems to have moved" in wrong
+    far = measured[: count + 1].copy()
+    for away, believed in ((0.045, True), (0.055, False)):  # m
+        far[-1, 2, 3] = measured[count, 2, 3] + away
+        seen = Observations(joints[: count + 1], far)
+        assert (lived.running.check(seen) is None) == believed
 
 
-def test_it_ends_where_it_is_told_to(tmp_path):
-    expected = "the predicted error is not known yet; 10 rows are as many as allowed"
-    assert run(Simulated(), tmp_path, most=10) == expected
+def test_more_counts_as_less_sure_where_the_last_rows_were_a_surprise(lived):
+    rows, running = lived.rows, lived.running
+    spoilt = rows.measured.copy()
+    spoilt[-4:, :3, 3] += 2e-3 * np.random.default_rng(0).standard_normal((4, 3))
+    fresh = RunningCalibration(lived.station.arm, Description(), running._postures)
+    assert fresh.error(replace(rows, measured=spoilt)) > 2 * running.error(rows)
+    assert running.error(rows[:9]) == np.inf
 
 
-def test_errors_are_said_in_millimetres():
-    its, told = SimpleNamespace(is_ready=bool, is_settled=lambda rows: False), []
-    rows = Observations(np.zeros((1, 6)))
-    its.error = lambda rows: PredictedError(by_model=0.999, by_rows=0.888)
-    assert live._enough(rows, its, [], LiveSettings(), told.append) is None
-    assert told == ["row 1: predicted error by the model 999 mm, by the last rows 888 mm"]
+def test_it_ends_if_more_is_of_no_use_or_if_it_is_as_long_as_allowed(lived, tmp_path):
+    table = tmp_path / "table.csv"
+    table.write_bytes(lived.table.read_bytes())
+    again = partial(run, Simulated("UR5", 1, FINE), tmp_path)
+    assert again(most=10).reason.endswith("; 10 rows are as many as allowed")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("recalib.laboratory.live.session.SOON", len(lived.rows))
+        patch.setattr("recalib.laboratory.live.session.USELESS", 0.5)
+        assert again(error=1e-6).reason.endswith("10 further postures would hardly make it smaller")
 
 
-@pytest.mark.parametrize("count", [4, 25], ids=["without", "with a calibration"])
-def test_postures_are_proposed_on_the_side_where_the_target_was_seen(count):
-    its = Simulated()
-    home, joints = its.stands, its.arm.joints
-    postures = AllowedPostures(its.arm, home, its.limits, np.radians(45), None)
-    proposing = running.RunningCalibration(its.arm, Description(), postures)
-    seen = postures.joints[postures.joints[:, 0] < home[0]][:count]
-    unseen = [posture + 2 * (home[0] - posture[0]) * np.eye(len(joints))[0] for posture in seen]
-    rows = Observations(seen, its.real.poses(seen, noise=its.noise))
-    assert proposing.next_posture(rows, [])[0] > home[0]
-    assert proposing.next_posture(rows, unseen)[0] <= home[0]
-    everywhere = [posture + 0.05 for posture in postures.joints]
-    assert proposing.next_posture(rows, everywhere) is not None
-
-
-def test_the_more_postures_are_without_a_sight_the_nearer_is_the_next():
-    its = Simulated()
-    postures = AllowedPostures(its.arm, its.stands, its.limits, np.radians(45), None)
-    proposing = running.RunningCalibration(its.arm, Description(), postures)
-    rows = Observations(its.stands[None], its.real.poses(its.stands[None], noise=its.noise))
-    gaps, unseen = [], []
-    for _ in range(9):
-        goal = proposing.next_posture(rows, unseen)
-        unseen.append(goal)
-        gaps.append(np.linalg.norm(goal - its.stands))
+@pytest.mark.usefixtures("all_postures")
+def test_postures_are_proposed_on_the_side_where_the_target_was_seen():
+    station = Simulated()
+    home = station.stands
+    postures = AllowedPostures(station.arm, home, station.limits, SPAN)
+    proposing = RunningCalibration(station.arm, Description(), postures)
+    for count in (4, 25):  # without, and with a calibration
+        seen = postures.joints[postures.joints[:, 0] < home[0]][:count]
+        mirrored = [posture + 2 * (home[0] - posture[0]) * np.eye(6)[0] for posture in seen]
+        rows = Observations(seen, station.real.poses(seen, noise=station.noise))
+        assert proposing.next_posture(rows, [])[0] > home[0]
+        assert proposing.next_posture(rows, mirrored)[0] <= home[0]
+        everywhere = [posture + 0.05 for posture in postures.joints]
+        assert proposing.next_posture(rows, everywhere) is not None
+    rows, gaps, avoided = Observations(home[None], station.real.poses(home[None])), [], []
+    for _ in range(9):  # the more there are without a sight, the nearer is the next
+        avoided.append(proposing.next_posture(rows, avoided))
+        gaps.append(np.linalg.norm(avoided[-1] - home))
     assert max(gaps[4:]) < 0.7 * gaps[0]
 
 
-@pytest.mark.parametrize("error", [0.0, -1e-3, np.inf, np.nan])
-def test_no_calibration_goes_by_impossible_settings(error):
-    for wrong in (
-        {"error": error},
-        {"span": error},
-        {"patience": error},
-        {"speed": error},
-        {"most": 9},
-    ):
+@pytest.mark.parametrize("number", [0.0, -1e-3, np.inf, np.nan])
+def test_no_calibration_goes_by_impossible_settings(number):
+    for wrong in ({"error": number}, {"span": number}, {"speed": number}, {"most": 9}):
         (name,) = wrong
         with pytest.raises(InvalidSetting, match=f"^{name} is "):
             LiveSettings(**wrong)
-
-
-def test_a_station_that_does_not_open_leaves_no_rows_to_go_on_with(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(LINE.format("Unheard").split()) == REFUSED
-    assert "rows are in" not in capsys.readouterr().err
 
 
 def raising(error):
     raise error
 
 
-def moved(its) -> int:
-    return its.calls.count("move")
+def moved(station) -> int:
+    return station.calls.count("move")
 
 
-def measured(its) -> int:
-    return its.calls.count("measure")
+def measured(station) -> int:
+    return station.calls.count("measure")
 
 
-def stuck(its, cells):
+def stuck(station, cells):
     """It says that it is where it was sent, but after nine moves it moves no more."""
-    its.last = cells if moved(its) <= 9 else its.last
-    return its.last
+    station.last = cells if moved(station) <= 9 else station.last
+    return station.last
 
 
 PROTECTIVE = "the protective stop of the arm is on"
-STOPPED = {  # of what a station does, by what is said of it
-    PROTECTIVE: {"moved": lambda its: raising(StationFailed(PROTECTIVE))},
-    "for 1 s the station has not answered when asked to move": {"moved": lambda its: time.sleep(3)},
+STOPPED = {  # by what is said, what a station does
+    PROTECTIVE: {"moved": lambda station: raising(StationFailed(PROTECTIVE))},
+    "for 0.3 s the station has not answered when asked to move": {
+        "moved": lambda station: time.sleep(1)
+    },
     "after a move, elbow_joint stands 0.05 rad or m from where it was sent": {
-        "moved": lambda its: its.shift(0, 0, 0.05, 0, 0, 0)
+        "moved": lambda station: station.shift(0, 0, 0.05, 0, 0, 0)
     },
-    "the arm still moves, 0.1 s after it should stand": {
-        "told": lambda its, angles: its.shift(0.002) if moved(its) == 3 else angles
+    "0.02 s after it should stand, the arm still moves its tool by .* mm; expected: at most 0.1": {
+        "angles": lambda station, angles: station.shift(1e-3) if moved(station) == 3 else angles
     },
-    "the arm moved while it was measured": {
-        "measured": lambda its, cells: cells if its.shift(0.01).any() else None
+    "while it was measured, the arm moved its tool by .* mm; expected: at most 0.1 mm": {
+        "measured": lambda station, cells: cells if station.shift(3e-4).any() else None
     },
     "asked to measure, the station raised KeyError: 'temperature'": {
-        "measured": lambda its, cells: cells["temperature"]
+        "measured": lambda station, cells: cells["temperature"]
     },
-    "for 1 s the station has not answered when asked to measure": {
-        "measured": lambda its, cells: time.sleep(3)
+    "for 0.3 s the station has not answered when asked to measure": {
+        "measured": lambda station, cells: time.sleep(1)
     },
     "no row: row 4 of column 'y' is 'nan'; expected: a number": {
-        "measured": lambda its, cells: cells | {"y [m]": np.nan} if measured(its) == 4 else cells
+        "measured": lambda station, cells: (
+            cells | {"y [m]": np.nan} if measured(station) == 4 else cells
+        )
     },
     "no row: its columns are .*, qw; the station gives .*, heat": {
-        "measured": lambda its, cells: cells if measured(its) < 4 else cells | {"heat": 20.0}
+        "measured": lambda station, cells: (
+            cells if measured(station) < 4 else cells | {"heat": 20.0}
+        )
     },
     "no row: no positions are measured in it; expected: x, y and z": {
-        "measured": lambda its, cells: {"picture": "000.png"}
+        "measured": lambda station, cells: {"picture": "000.png"}
     },
-    "the target was measured .* mm from where 1. rows put it; expected: about": {"measured": stuck},
+    "in row 1. the target was measured .* mm from where the .* rows before": {"measured": stuck},
     "not seen the target in 10 postures, .* try: a smaller --span": {
-        "measured": lambda its, cells: cells if measured(its) < 2 else None
+        "measured": lambda station, cells: cells if measured(station) < 2 else None
     },
     "does not see the target where the arm stands; try: begin where it does": {
-        "measured": lambda its, cells: None
+        "measured": lambda station, cells: None
     },
     "the station's joints are joint_0, .*; expected: those of the arm": {
         "joints": [f"joint_{number}" for number in range(6)]
     },
     "asked to tell its limits, the station raised TypeError": {"limits": None},
     **{
-        f"the station's angles are {said}": {"told": lambda its, angles, wrong=wrong: wrong}
-        for said, wrong in (
+        f"the station's angles are {found}": {"angles": lambda station, angles, wrong=wrong: wrong}
+        for found, wrong in (
             (r"\[0.0, .*, nan\]; expected: 6 finite numbers", [0.0] * 5 + [np.nan]),
             (r"\[0.0, .*\]; expected: 6 finite numbers", [0.0] * 7),
             ("'none'; expected: numbers", "none"),
-            (r"\[inf, .*\]; expected: 6 finite numbers", [np.inf] * 6),
         )
     },
     "asked to tell its limits, the station raised ValueError": {"limits": [np.zeros(6)] * 3},
@@ -222,129 +266,122 @@ STOPPED = {  # of what a station does, by what is said of it
         "limits": (np.full(6, -np.inf), np.full(6, 2.0))
     },
     "no row: 000.png is in an earlier row; expected: a new file for each picture": {
-        "measured": lambda its, cells: cells | {"picture": "000.png"}
+        "measured": lambda station, cells: cells | {"picture": "000.png"}
     },
     "no row: it has more than one column 'elbow_joint'": {
-        "measured": lambda its, cells: cells | {"elbow_joint [rad]": 0.1}
+        "measured": lambda station, cells: cells | {"elbow_joint [rad]": 0.1}
     },
-    "no row: unknown column '1'": {"measured": lambda its, cells: cells | {1: 2.0}},
     "limits of shoulder_pan_joint are the wrong way round": {
         "limits": (np.full(6, 2.0), np.full(6, -2.0))
     },
     "asked to tell its angles, the station raised OSError: no route": {
-        "told": lambda its, angles: raising(OSError("no route")) if moved(its) == 3 else angles
+        "angles": lambda station, angles: (
+            raising(OSError("no route")) if moved(station) == 3 else angles
+        )
     },
 }
 
 
-@pytest.mark.parametrize(("said", "what"), STOPPED.items(), ids=STOPPED)
-def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(said, what, tmp_path):
-    station, told = Spoilt(**what), []
-    with pytest.raises(StationFailed, match=said):
-        run(station, tmp_path, on_progress=told.append)
-    time.sleep(0.05)
+@pytest.mark.parametrize(("found", "what"), STOPPED.items(), ids=STOPPED)
+def test_whatever_goes_wrong_it_stops_with_a_sentence_and_moves_no_more(found, what, tmp_path):
+    station, lines = Spoilt(**what), []
+    with pytest.raises(StationFailed, match=found):
+        run(station, tmp_path, on_progress=lines.append)
     if "joints" not in what:  # it was never asked for anything
         assert station.calls.count("stop") == 1
         assert "move" not in station.calls[station.calls.index("stop") :]
-        rows = measured(station) > 1
-        assert bool(re.match(r"stopped; \d+ rows are in ", (told or [""])[-1])) == rows
-    assert bool(len(told)) == (tmp_path / "table.csv").exists()
+        rows = (tmp_path / "table.csv").exists()
+        assert bool(re.match(r"stopped; \d+ rows are in ", (lines or [""])[-1])) == rows
+
+
+@pytest.mark.parametrize("joint", range(6))
+def test_one_joint_that_creeps_is_enough_not_to_stand(joint, tmp_path):
+    creep = 1e-3 * np.eye(6)[joint]  # rad from a reading to the next
+    station = Spoilt(angles=lambda station, angles: station.shift(*creep))
+    with pytest.raises(StationFailed, match="the arm still moves its tool by"):
+        run(station, tmp_path)
+    assert measured(station) == 0
+
+
+@pytest.mark.parametrize("fails", [lambda: None, lambda: raising(OSError("no picture"))])
+def test_a_measurement_that_fails_is_repeated(fails, tmp_path):
+    """Twice, before the posture is given up."""
+    lines, station = (
+        [],
+        Spoilt(measured=lambda station, cells: cells if measured(station) % 3 == 0 else fails()),
+    )
+    assert run(station, tmp_path, few(2), lines.append).rows == 3
+    assert measured(station) == 3 * 3 and "does not see" not in " ".join(lines)
 
 
 def test_joints_in_another_order_are_the_same_joints(tmp_path):
-    class Reversed(Simulated):
-        def __init__(self):
-            super().__init__()
-            self.joints = self.arm.joints[::-1]
-            self.limits = [limit[::-1] for limit in self.limits]
-
-        def move(self, angles, speed):
-            super().move(angles[::-1], speed)
-
-        def angles(self):
-            return self.stands[::-1]
-
-        def measure(self):  # also its cells are in another order, from the second row on
-            cells = super().measure()
-            return cells if measured(self) == 1 else dict(reversed(cells.items()))
-
-    run(Reversed(), tmp_path, most=12)
-    run(Simulated(), tmp_path / "..", most=12)
-    tables = (tmp_path / "table.csv", tmp_path / ".." / "table.csv")
+    for folder, station in (("other", Ordered()), ("own", Simulated())):
+        (tmp_path / folder).mkdir()
+        assert run(station, tmp_path / folder, few(3)).rows == 4
+    tables = [tmp_path / folder / "table.csv" for folder in ("other", "own")]
     assert tables[0].read_bytes() == tables[1].read_bytes()
+
+
+@pytest.mark.usefixtures("all_postures")
+def test_the_way_home_is_asked_for_and_may_be_refused(tmp_path):
+    box = Box(np.array([0.5, -0.7, 0.2]), np.array([1.0, 0.8, 0.4]))
+    station, home, asked = Simulated(), Simulated().stands, []
+
+    def ask(move):
+        asked.append(move.goal)
+        return Answer.END if np.array_equal(move.goal, home) else Answer.MOVE
+
+    ended = run(station, tmp_path, ask, error=1e-9, most=60, box=box)
+    assert ended.reason == "you ended it" and np.array_equal(asked[-1], home)
+    assert [move.tolist() for move, _ in station.moves] == [goal.tolist() for goal in asked[:-1]]
+
+
+def test_an_arm_that_is_moved_by_hand_while_it_asks_is_not_sent(tmp_path):
+    station = Simulated()
+
+    def ask(move):
+        station.stands = station.stands + 1.2 * np.eye(6)[0]
+        return Answer.MOVE
+
+    with pytest.raises(StationFailed, match="shoulder_pan_joint at .* try: move it by hand"):
+        run(station, tmp_path, ask)
+    assert "move" not in station.calls
+
+
+def test_where_the_arm_was_parked_elsewhere_the_same_call_moves_nothing(tmp_path):
+    run(Simulated(), tmp_path, few(1))
+    station = Simulated()
+    station.stands = station.stands + np.array([2.5, 1, -1.2, 0.5, 2, 1.5])
+    with pytest.raises(StationFailed, match="stands with its tool at .* within --span"):
+        run(station, tmp_path)
+    assert "move" not in station.calls
 
 
 def test_an_interrupt_stops_the_arm(tmp_path):
     station = Simulated()
-
-    def ask(posture):
-        if station.calls.count("move") == 4:
-            raise KeyboardInterrupt
-        return True
-
+    ask = lambda move: raising(KeyboardInterrupt) if moved(station) else Answer.MOVE  # noqa: E731
     with pytest.raises(Interrupted, match="the station was told to stop"):
         run(station, tmp_path, ask)
     assert station.calls[-1] == "stop"
 
 
-def test_the_tool_stays_in_the_box_also_on_its_way(tmp_path):
-    class Watched(Simulated):
-        def move(self, angles, speed):
-            way = self.arm.forward(np.linspace(self.stands, angles, 200))[:, :3, 3]
-            assert (way >= box.low - 0.01).all() and (way <= box.high + 0.01).all()
-            super().move(angles, speed)
-
-    box = Box(np.array([0.5, -0.3, 0.1]), np.array([1.0, 0.5, 0.6]))
-    station = Watched()
-    run(station, tmp_path, most=12, box=box)
-    assert station.calls.count("move") > 11, "none went by way of home"
-
-
-def test_where_the_arm_was_left_outside_the_box_it_stays(tmp_path):
-    run(Simulated(), tmp_path, most=10)
-    station = Simulated()
-    station.stands = station.stands + 1.2 * np.eye(6)[1]
-    with pytest.raises(StationFailed, match="no straight path .* try: move it back by hand"):
-        run(station, tmp_path, box=AROUND)
-    assert "move" not in station.calls
-
-
-def test_postures_are_within_the_limits_of_both():
-    station = Simulated()
-    home, limits = station.stands, (np.full(6, -2.5), np.full(6, 2.0))
-    postures = AllowedPostures(station.arm, home, limits, 0.5, AROUND).joints
-    assert (np.abs(postures - home) <= 0.5).all()
-    assert (postures >= -2.5).all() and (postures <= 2.0).all()
-    for changed, match in (
-        ({"home": home + 0.2 * np.eye(6)[2]}, "first posture is 'elbow_joint at 2.1'"),
-        ({"box": Box(np.zeros(3), np.full(3, 0.5))}, "without the tool, which is at"),
-        ({"box": Box.read("77 cm to 78 cm, 16 cm to 17 cm, 23 cm to 25 cm")}, "left by all"),
-    ):
-        given = {"home": home, "limits": limits, "span": 0.5, "box": AROUND} | changed
-        with pytest.raises(InvalidSetting, match=match):
-            AllowedPostures(station.arm, **given)
-
-
-@pytest.mark.parametrize("text", ["1 m to 2 m", "a, b, c", "1 m to 0 m, 0 m to 1 m, 0 m to 1 m"])
-def test_a_box_is_three_ranges(text):
-    with pytest.raises(InvalidSetting, match="--box"):
-        Box.read(text)
-
-
-@pytest.fixture
-def ten_rows(tmp_path):
-    """A table that was begun, and what is in it."""
-    run(Simulated(), tmp_path, most=10)
-    return tmp_path / "table.csv", (tmp_path / "table.csv").read_bytes()
-
-
-def test_a_torn_row_is_dropped_and_nothing_else(ten_rows, tmp_path):
-    (table, whole), told = ten_rows, []
-    for cut in (len(whole) - 1, len(whole) // 2, whole.index(b"\n") + 5, 10):
+def test_a_torn_row_is_dropped_and_nothing_else(tmp_path, monkeypatch):
+    table, station, lines = tmp_path / "table.csv", Simulated(), []
+    run(station, tmp_path, few(2))
+    whole = table.read_bytes()
+    *_, last = whole.splitlines(keepends=True)
+    for cut in (len(whole) - 1, len(whole) - len(last) // 2, whole.index(b"\n") + 5, 10):
         table.write_bytes(whole[:cut])
-        run(Simulated(), tmp_path, most=10, on_progress=told.append)
-        assert "a row without its end was dropped: " in "".join(told)
-        assert table.read_bytes() == whole
+        ended = run(Simulated(), tmp_path, few(2 - max(0, whole[:cut].count(b"\n") - 1)),
+                    lines.append)  # fmt: skip
+        assert "a row without its end was dropped: " in "".join(lines) and ended.rows in (2, 3)
+        assert whole.startswith(table.read_bytes())
+        table.write_bytes(whole)
+    write = os.write
+    monkeypatch.setattr(os, "write", lambda file, row: write(file, row[: len(row) // 2]))
+    with pytest.raises(InvalidFile, match="there is no room for a row"):
+        run(Simulated(), tmp_path, few(1))
+    assert table.read_bytes() == whole
 
 
 @pytest.mark.parametrize("text", ["a note", "a note\n", "wrist_3_joint [rad],x [m]\n", "\n"])
@@ -355,21 +392,13 @@ def test_what_is_not_ours_is_left_as_it_is(text, tmp_path):
     assert (tmp_path / "table.csv").read_text() == text
 
 
-def test_a_row_for_which_there_is_no_room_leaves_the_table(ten_rows, tmp_path, monkeypatch):
-    (table, whole), write = ten_rows, os.write
-    monkeypatch.setattr(os, "write", lambda file, row: write(file, row[: len(row) // 2]))
-    with pytest.raises(InvalidFile, match="there is no room for a row"):
-        run(Simulated(), tmp_path, most=11)
-    assert table.read_bytes() == whole
-
-
 def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
     station, table = Simulated(), tmp_path / "table.csv"
 
-    def ask(posture):
+    def ask(move):
         with pytest.raises(InvalidFile, match="another process writes it"):
             run(Simulated(), tmp_path)
-        return False
+        return Answer.END
 
     run(station, tmp_path, ask)
     table.write_text(table.read_text().replace("elbow_joint [rad]", "elbow_joint [deg]"))
@@ -378,9 +407,8 @@ def test_a_table_is_begun_by_us_and_written_by_one(tmp_path):
 
 
 @pytest.mark.parametrize("hangs", [False, True])
-def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs, monkeypatch):
+def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs):
     """Graphics are bound to a thread."""
-    monkeypatch.setattr("recalib.station.guarded.STOPPING", 5.0)
 
     class Bound(Simulated):
         closed, freed = None, threading.Event()
@@ -396,7 +424,7 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs, monkeypat
             self.closed = threading.get_ident()
 
     made = []
-    guarded = Guarded(lambda: made.append(Bound()) or made[0], Simulated().joints, 0.2)
+    guarded = Guarded(lambda: made.append(Bound()) or made[0], Simulated().arm)
     (station,) = made
     if hangs:
         with pytest.raises(StationFailed, match="has not answered when asked to move"):
@@ -407,54 +435,86 @@ def test_it_is_closed_where_it_was_opened_unless_it_hangs_there(hangs, monkeypat
 
 
 LINE = "live tests.station.simulated:{} ur10_robot.urdf --tool tool0 --most 14"
+LINE += " --floor none --no-self-collision"  # which is tested where it is
 
 
-def test_it_can_be_watched(tmp_path):
-    station, urdf, seen = Simulated(), find_urdf("ur10_robot.urdf"), []
-    with rr.RecordingStream("live") as rec:
-        rec.save(tmp_path / "live.rrd")
-        view = LiveView(station.arm, urdf.read_bytes(), urdf, rec)
-
-        def show(rows, running):
-            seen[:] = [rows]
-            view.show(rows, running)
-
-        run(station, tmp_path, most=14, on_row=show)
-    its = logged(tmp_path / "live.rrd")
-    entities = {name.split()[0] for name in its}
-    assert entities >= {"/line", "/measured", "/workspace", "/error/by_the_last_rows"}
-    (errors,) = (its[name] for name in its if "/by_the_model Scalars" in name)
-    assert len(np.concatenate(errors)) == 14 - 5
-    assert np.all(np.concatenate(errors) < 100), "mm"
-    # in the base, where the target is as far from the tool in all postures, but for what is off
-    measured = np.concatenate(its["/measured Points3D:positions"]).reshape(-1, 3)[-14:]
-    away = np.linalg.norm(measured - station.arm.forward(seen[0].joints)[:, :3, 3], axis=1)
-    assert np.ptp(away) < 0.05
+def typed(monkeypatch, *lines):
+    answers = iter([f"{line}\n" for line in lines])
+    monkeypatch.setattr("sys.stdin.readline", lambda: next(answers), raising=False)
 
 
-def test_without_a_display_nothing_moves(tmp_path, monkeypatch, capfd):
+def test_a_skipped_posture_is_not_proposed_again_and_an_end_is_no_error(
+    tmp_path, monkeypatch, capsys
+):
     monkeypatch.chdir(tmp_path)
-    for name in ("DISPLAY", "WAYLAND_DISPLAY", "CI"):
-        monkeypatch.delenv(name, raising=False)
-    assert main([*LINE.format("Simulated").split(), "--yes", "--view"]) == REFUSED
-    said = "recalib: --view is 'without a window'; expected: a display, for rerun\n"
-    assert capfd.readouterr().err == said
-    assert "CI" not in os.environ and not list(tmp_path.iterdir())
-
-
-def test_the_command_asks(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("sys.stdin.readline", iter(["\n", "no\n"]).__next__, raising=False)
+    proposed = []
+    for lines in (("", "s", "q"), ("s", "q"), ("q",)):
+        typed(monkeypatch, *lines)
+        assert main(LINE.format("Simulated").split()) == DONE
+        told = capsys.readouterr()
+        proposed.append(re.findall(r"^tool from .* to (\(.*\)) mm", told.err, re.MULTILINE))
+        assert len(proposed[-1]) == len(lines) and "ended: you ended it" in told.err
+        assert told.out == (
+            "2 rows in measurements.csv; a calibration needs 10: the same call goes on\n"
+        )
+    (_, skipped, second), (third, fourth), (fifth,) = proposed
+    assert second == third and fourth == fifth and len({skipped, second, fourth}) == 3
+    (tmp_path / "measurements.csv").unlink()
     assert main(LINE.format("Simulated").split()) == REFUSED
-    told = capsys.readouterr().err
-    assert told.count("? Enter: yes; anything else: end") == 2
-    assert "enough: you ended it" in told and "it has 2 rows; expected: at least 10" in told
+    assert "measurements_skipped.csv: it has postures that were" in capsys.readouterr().err
 
 
-def begun(folder, most=14):
+@pytest.mark.parametrize("number", ["INT", "TERM", "HUP", "QUIT", "TSTP"])
+def test_who_ends_or_suspends_it_stops_the_arm_first(number, tmp_path, monkeypatch, capsys):
+    """Also who closes the terminal, or presses Ctrl-\\ or Ctrl-Z."""
+    monkeypatch.chdir(tmp_path)
+    sent = getattr(signal, f"SIG{number}")
+    before = signal.getsignal(sent)
+    monkeypatch.setattr("sys.stdin.readline", lambda: os.kill(os.getpid(), sent), raising=False)
+    stopped = []
+    monkeypatch.setattr(Simulated, "stop", lambda station: stopped.append(station))
+    assert main(LINE.format("Simulated").split()) == REFUSED
+    assert "recalib: interrupted; the station was told to stop" in capsys.readouterr().err
+    assert len(stopped) == 1 and signal.getsignal(sent) == before
+
+
+def test_without_a_station_nothing_is_written(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(LINE.format("Unheard").split()) == REFUSED
+    assert "rows are in" not in capsys.readouterr().err and not list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
+    once, killed = tmp_path / "once", tmp_path / "killed"
+    with begun(once) as process:
+        process.communicate()
+    moments, before, lost = random.Random(8), [], 0
+    for _ in range(5):
+        with begun(killed) as process:
+            while "row" not in process.stderr.readline():  # it is about to make its first move
+                pass
+            time.sleep(moments.uniform(0, 0.3))
+            process.kill()
+            process.communicate()
+        assert process.returncode == -signal.SIGKILL
+        assert written(killed)[: len(before)] == before
+        before = written(killed)
+        # what was measured and not yet on the disk is lost with the process: one row, and no more
+        assert unwritten(killed) - lost in (0, 1)
+        lost = unwritten(killed)
+    with begun(killed) as process:
+        process.communicate()
+    assert process.returncode == DONE
+    assert written(killed) == written(once) and len({*written(once)}) == len(written(once))
+    taken = (killed / "measured").read_text().splitlines()
+    assert unwritten(killed) == lost and len({*taken}) == len(written(once)) - 1
+
+
+def begun(folder):
     """`recalib live` in a folder, in a process of its own."""
     folder.mkdir(exist_ok=True)
-    line = LINE.format("Lasting").replace("14", str(most))
+    line = LINE.format("Lasting").replace("14", "40")  # it ends before that
     return subprocess.Popen(
         [sys.executable, "-m", "recalib", *line.split(), "--yes"],
         cwd=folder,
@@ -465,7 +525,7 @@ def begun(folder, most=14):
     )
 
 
-def rows(folder) -> list[str]:
+def written(folder) -> list[str]:
     table = folder / "measurements.csv"
     return table.read_text().splitlines() if table.exists() else []
 
@@ -474,86 +534,4 @@ def unwritten(folder) -> int:
     """How many measurements are not in the table."""
     log = folder / "measured"
     taken = len(log.read_text().splitlines()) if log.exists() else 0
-    return taken - len(rows(folder)[1:])
-
-
-@pytest.mark.slow
-def test_killed_at_any_moment_it_goes_on_as_if_it_had_not_been(tmp_path):
-    once, killed, most = tmp_path / "once", tmp_path / "killed", 40  # it ends before that
-    with begun(once, most) as process:
-        process.communicate()
-    moments, before, lost = random.Random(8), [], 0
-    for _ in range(20):
-        with begun(killed, most) as process:
-            process.stderr.readline()  # it is about to make its first move
-            time.sleep(moments.uniform(0, 0.3))
-            process.kill()
-            process.communicate()
-        assert process.returncode == -signal.SIGKILL
-        assert rows(killed)[: len(before)] == before
-        before = rows(killed)
-        # what was measured and not yet on the disk is lost with the process: one row, and no more
-        assert unwritten(killed) - lost in (0, 1)
-        lost = unwritten(killed)
-    with begun(killed, most) as process:
-        process.communicate()
-    assert process.returncode == DONE
-    assert rows(killed) == rows(once) and len({*rows(once)}) == len(rows(once))
-    measured = (killed / "measured").read_text().splitlines()
-    assert unwritten(killed) == lost and len({*measured}) == len(rows(once)) - 1
-
-
-def test_one_that_is_terminated_stops_the_arm_first(tmp_path):
-    with begun(tmp_path) as process:
-        process.stderr.readline()
-        process.terminate()
-        told = process.communicate()[1]
-    assert "recalib: interrupted; the station was told to stop" in told
-    assert process.returncode == REFUSED
-
-
-def test_a_command_takes_the_target_where_it_should_be(tmp_path):
-    station = Simulated()
-    run(station, tmp_path, most=20)
-    with few_folds():
-        correction = calibrate_arm(
-            "ur10_robot.urdf", tmp_path / "table.csv", tool="tool0"
-        ).correction
-    corrector, near = Corrector(correction), station.stands
-    goal = station.real.poses(near[None] + 0.05, noise=(0, 0))[0]
-    command = corrector.command(goal, near, target="the target")
-    there = station.real.poses(command[None], noise=(0, 0))[0]
-    assert np.linalg.norm((there - goal)[:3, 3]) < 1e-3
-    position = corrector.command(goal[:3, 3], near, target="the target")
-    assert np.abs(position - near).max() < np.abs(command - near).max() + 0.05
-    tool = correction.calibration.forward(near[None])[0]
-    np.testing.assert_allclose(corrector.command(tool, near + 0.02), near, atol=1e-6)
-    with pytest.raises(NotReached):
-        corrector.command(np.array([9.0, 0, 0]), near)
-    with pytest.raises(UnknownName, match="unknown target"):
-        corrector.command(goal, near, target="the board")
-
-
-def test_the_error_by_the_last_rows_is_the_mean_of_predictions_by_those_before(tmp_path):
-    kept = []
-    watch = lambda rows, running: kept.append((rows, running))  # noqa: E731
-    run(Simulated(noise=(5e-5, np.radians(0.01))), tmp_path, most=20, on_row=watch)
-    rows, running = kept[-1]
-    off = []
-    for row in range(len(rows) - 8, len(rows)):
-        before = running.calibration(rows[:row])
-        gap = before.predict(rows.joints[row : row + 1])[0] - rows.measured[row]
-        off.append(np.linalg.norm(gap[:3, 3]))
-    assert len(rows) == 20 and np.ptp(off) > 0
-    assert running.error(rows).by_rows == pytest.approx(np.mean(off))
-    for far, believed in ((0.045, True), (0.055, False)):  # m
-        measured = rows.measured.copy()
-        measured[-1, 2, 3] += far
-        assert (running.check(replace(rows, measured=measured)) is None) == believed
-
-
-def test_the_same_postures_are_drawn_tomorrow(data_regression):
-    """A calibration that was killed goes on with them."""
-    station = Simulated()
-    postures = AllowedPostures(station.arm, station.stands, station.limits, 0.5, AROUND)
-    data_regression.check(plain(postures.joints))
+    return taken - len(written(folder)[1:])

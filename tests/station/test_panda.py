@@ -9,8 +9,8 @@ import pytest
 
 from recalib.identification.closed_forms import solutions
 from recalib.identification.model.observations import Observations
-from recalib.laboratory.correction.archive import load_correction
-from recalib.laboratory.tables.columns import read_table
+from recalib.laboratory.correction import load_correction
+from recalib.laboratory.tables.table import read_table
 from recalib.nominal.arms import load_arm
 from tests.conftest import ROOT
 

@@ -20,7 +20,8 @@ from recalib.identification.model.linearisation import displacements
 from recalib.identification.model.observations import Observations
 from recalib.laboratory.places import found_places
 from recalib.vision.detection import Corners, find_corners
-from recalib.vision.views import find_lens, optics_of, sighting
+from recalib.vision.lens_search import find_lens
+from recalib.vision.views import optics_of, sighting
 from tests.vision.rendering import Cell
 
 PICTURES, FRESH, NOISE = 30, 200, 0.15  # px
@@ -46,9 +47,10 @@ class Draw:
         self.joints, self.fresh = np.split(self.cell.postures(PICTURES + FRESH), [PICTURES])
         off = np.radians(self.returns) * self.cell.random.standard_normal(self.joints.shape)
         self.views = views = [self._view(pose) for pose in self.cell.board_poses(self.joints + off)]
-        self.lens = find_lens(self.cell.board, views, self.cell.lens.size)
+        self.lens = find_lens([(self.cell.board, view) for view in views], self.cell.lens.size).lens
         measured, optics = optics_of(
-            [sighting(self.cell.board, self.lens, view, True, self.in_hand) for view in views]
+            self.lens,
+            [sighting(self.cell.board, self.lens, view, True, self.in_hand) for view in views],
         )
         self.poses = Observations(self.joints, measured)
         self.pixels = replace(self.poses, optics=optics)

@@ -12,11 +12,11 @@ from recalib.vision.detection import Corners
 from recalib.vision.lenses import Lens
 from tests.identification.real import Real
 
-BOARD = printable("charuco", 7, 5, 0.036)
+BOARD = printable(7, 5, 0.036)
 LENS = Lens(
     (1280, 960),
     np.array([[1105.0, 0, 652], [0, 1102, 470], [0, 0, 1]]),
-    np.array([-0.21, 0.08, 4e-4, -3e-4, 0.0]),
+    np.array([-0.21, 0.08, 4e-4, -3e-4]),
 )
 BLACK, GREY, WHITE = 20, 110, 235
 DETAIL, FINE, PAPER = 12, 2, 0.03  # texture px a module; rays a pixel; m of white about the board

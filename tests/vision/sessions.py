@@ -6,17 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
-from recalib.laboratory.pictures.observe import Observed, Picture, write_observed
-from recalib.laboratory.tables.columns import read_table
+from recalib.files.outputs import write_new
+from recalib.laboratory.pictures.observed import Observed, Picture
+from recalib.laboratory.tables.table import read_table
 from recalib.vision.boards import printable
 from recalib.vision.detection import Corners
+from recalib.vision.lens_search import find_lens
 from recalib.vision.lenses import Lens
-from recalib.vision.views import board_pose, find_lens
+from recalib.vision.views import board_pose
 from tests.vision.rendering import LENS, Cell, frame
 
 PICTURES, NOISE = 30, 0.15  # px
 LONGER = Lens((1280, 960), LENS.matrix * [[1.1], [1.1], [1.0]], 0.5 * LENS.distortion)
-SMALL = printable("charuco", 8, 5, 0.03)
+SMALL = printable(8, 5, 0.03)
 SHIFT = frame([0, 0, 0], [6e-4, -6e-4, 5e-4])  # by 1 mm
 TURN = frame(np.radians(0.2) * np.array([0.6, -0.6, 0.5]), [0, 0, 0])  # by 0.2 deg
 
@@ -49,7 +51,7 @@ def write_session(
 
     Args:
         slip: `eye` or `sheet`, and the motion (4, 4) [m] in its own frame after half of the rows.
-        lens: as given; found from the pictures unless given.
+        lens: as given; estimated from the pictures by default.
     """
     cell.random = np.random.default_rng([cell.seed, *camera.encode(), *board.encode()])
     joints = cell.postures(pictures)
@@ -61,8 +63,7 @@ def write_session(
         poses[pictures // 2 :] = cell.board_poses(joints)[pictures // 2 :]
         setattr(cell, place, before)
     views = [cell.view(pose, NOISE) for pose in poses]
-    found = lens or find_lens(cell.board, views, cell.lens.size)
-    return write_views(folder, cell, joints, views, found, lens is None, camera, board)
+    return write_views(folder, cell, joints, views, lens, camera, board)
 
 
 def write_views(
@@ -70,12 +71,13 @@ def write_views(
     cell: Cell,
     joints: np.ndarray,
     views: Sequence[Corners],
-    lens: Lens,
-    fitted: bool = True,
+    given: Lens | None = None,
     camera: str = "camera",
     board: str = "board",
 ) -> Path:
     """What observe would write to a folder that has these corners in its pictures."""
+    own = find_lens([(cell.board, view) for view in views], cell.lens.size)
+    lens = given or own.lens
     folder.mkdir(parents=True, exist_ok=True)
     write_joints(folder / "joints.csv", cell, joints)
     table = read_table(folder / "joints.csv")
@@ -83,6 +85,6 @@ def write_views(
         Picture(row, name, corners=view, error=0.2, pose=board_pose(cell.board, lens, view))
         for row, (name, view) in enumerate(zip(table.cells["picture"], views, strict=True), 1)
     ]
-    result = Observed(table, cell.board, lens, fitted, cell.in_hand, shown, [], camera, board)
-    write_observed(result, folder / "observed", lambda path, _: path.write_text("no page"))
+    result = Observed(table, cell.board, own, given, cell.in_hand, shown, [], camera, board)
+    write_new(folder / "observed", result.files())
     return folder / "observed"

@@ -10,7 +10,8 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from recalib.laboratory.calibrate import Calibrated, calibrate_arm
+from recalib.laboratory.calibrate import Calibrated
+from recalib.laboratory.pictures.sessions import calibrate_pictures
 from tests.vision.bars import Draw
 from tests.vision.rendering import Cell
 from tests.vision.sessions import PICTURES, SHIFT, SMALL, TURN, beside, write_session
@@ -40,7 +41,7 @@ def calibration(sessions: Sequence[tuple], slip: tuple | None = None) -> Calibra
         *others, (cell, camera, *board) = sessions
         places = [write_session(Path(folder) / its[1], *its) for its in others]
         last = write_session(Path(folder) / camera, cell, camera, *board, slip=slip)
-        return calibrate_arm("panda.urdf", [*places, last], tool="panda_link8")
+        return calibrate_pictures("panda.urdf", [*places, last], tool="panda_link8")
 
 
 def main(draws: int = 20) -> None:

@@ -5,7 +5,7 @@ import numpy as np
 from recalib.station.interface import cells_of
 from recalib.station.pictures import PICTURE, BoardInPictures
 from recalib.vision.detection import FEWEST, Corners
-from recalib.vision.views import find_lens
+from recalib.vision.lens_search import find_lens
 from tests.vision.bars import NOISE
 from tests.vision.rendering import Cell
 
@@ -16,7 +16,7 @@ class Seeing:
     """A Panda of a cell; what its camera sees is in `pictures` by its number.
 
     Attributes:
-        unseen: how often the board was not in sight.
+        unseen: the postures in which the board was not in sight.
     """
 
     def __init__(self, cell: Cell):
@@ -24,9 +24,9 @@ class Seeing:
         self.limits = model.lowerPositionLimit, model.upperPositionLimit
         first, *before = cell.postures(1 + FOR_THE_LENS)
         views = [cell.view(pose, NOISE) for pose in cell.board_poses(np.array(before))]
-        lens = find_lens(cell.board, views, cell.lens.size)
+        lens = find_lens([(cell.board, view) for view in views], cell.lens.size).lens
         self.pictures = BoardInPictures(cell.board, lens, cell.in_hand)
-        self.stands, self.taken, self.unseen = first, 0, 0
+        self.stands, self.taken, self.unseen = first, 0, set()
 
     def move(self, angles, speed):
         self.stands = angles
@@ -39,8 +39,8 @@ class Seeing:
         view = self.cell.view(pose, NOISE)
         facing = pose[:3, 2] @ pose[:3, 3] / np.linalg.norm(pose[:3, 3])
         inside = ((view.pixels > 0) & (view.pixels < self.cell.lens.size)).all(axis=1)
-        if facing < 0.4 or inside.sum() < FEWEST:
-            self.unseen += 1
+        if facing < 0.3 or inside.sum() < FEWEST:
+            self.unseen.add(tuple(self.stands))
             return None
         self.taken += 1
         corners = Corners(view.numbers[inside], view.pixels[inside], 1.0)

@@ -2,25 +2,31 @@
 
 import re
 import shutil
+import struct
 import sys
 import tomllib
+import zlib
 from dataclasses import replace
 
 import cv2
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from recalib.errors import RecalibError
-from recalib.identification.validation import NOTHING, WAYS
+from recalib.identification.validation import WAYS
 from recalib.laboratory.calibrate import calibrate_arm
 from recalib.laboratory.command_line import DONE, REFUSED, main
+from recalib.laboratory.pictures import observe as observing
 from recalib.laboratory.pictures.observe import observe
-from recalib.laboratory.pictures.observed import _views, read_sessions
+from recalib.laboratory.pictures.sessions import Cell as Cameras
+from recalib.laboratory.pictures.sessions import calibrate_pictures, read_folders
 from recalib.laboratory.report.hand_eye import hand_eye
 from recalib.laboratory.report.summary import verdict
-from recalib.laboratory.tables.columns import MOST_ROWS
+from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.table import MOST_ROWS
 from recalib.nominal.arms import load_arm
-from recalib.vision.detection import Corners
+from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens
 from tests.conftest import few_folds
 from tests.vision.bars import Draw
@@ -34,7 +40,7 @@ BAD = {  # of further pictures, by row
     33: "it is the same picture as 000.png",
     34: "it has 640 x 480 pixels; expected: 1280 x 960",
     35: "there is no such file",
-    36: "it is no picture",
+    36: "it is not a picture",
 }
 
 
@@ -95,22 +101,23 @@ def test_what_was_found_in_each_picture_is_told(session):
 def observed(tmp_path_factory):
     """A folder as observe writes it, of corners that nobody had to look for."""
     folder, draw = tmp_path_factory.mktemp("corners"), Draw(4, in_hand=False)
-    return write_views(folder, draw.cell, draw.joints, draw.views, draw.lens), draw
+    return write_views(folder, draw.cell, draw.joints, draw.views), draw
 
 
 @pytest.fixture(scope="module")
 @few_folds()
 def calibrated(observed):
-    return calibrate_arm("panda.urdf", observed[0], tool="panda_link8")
+    return calibrate_pictures("panda.urdf", [observed[0]], tool="panda_link8")
 
 
 def test_pixels_are_read_and_weighed(observed, calibrated):
     (folder, draw), result = observed, calibrated
-    assert result.observations.optics is not None and result.instruments == ("the camera",)
+    assert result.data.observations.optics is not None
+    assert result.data.instruments == ("the camera",)
     assert abs(result.scales["the board"].factor - 1) < 0.01 and "Careful" not in verdict(result)
     assert draw.judge(result.geometry.forward(draw.fresh))[0] < 0.5
     poses = calibrate_arm("panda.urdf", folder / "measurements.csv", tool="panda_link8")
-    assert poses.observations.optics is None
+    assert poses.data.observations.optics is None
     assert draw.judge(poses.geometry.forward(draw.fresh))[0] > 0.5
 
 
@@ -122,9 +129,15 @@ def test_pixels_are_read_and_weighed(observed, calibrated):
             ("setup.toml", ('camera_name = "camera"', new), "camera_name or board_name is not as")
             for new in ('camera_name = "two words"', 'camera_name = ""', "camera_name = 3", "")
         ),
-        ("corners.csv", ("u [px]", "w [px]"), "column 'u' is missing"),
+        ("corners.csv", ("u [px]", "w [px]"), "unknown column 'w'"),
         ("corners.csv", ("\n003.png,", "\n99,"), "003.png has 0 corners"),
         ("corners.csv", ("\n003.png,7,", "\n3,70,"), "a corner is not among the board's 24"),
+        ("corners.csv", ("\n003.png,7,", "\n003.png,6,"), "003.png has a corner twice"),
+        (
+            "corners.csv",
+            ("\n003.png,7,", "\n003.png,7,1e300,1\nx,7,"),
+            "expected: up to 100000 px",
+        ),
         ("measurements.csv", ("picture,", "a picture,"), "unknown column 'a picture'"),
     ],
 )
@@ -142,13 +155,12 @@ def test_rows_may_be_taken_out_and_moved(observed, tmp_path):
     path = tmp_path / "measurements.csv"
     header, first, *others = path.read_text().splitlines()
     path.write_text("\n".join([header, *others[:0:-1], first]))
-    (left,) = read_sessions([tmp_path])
-    (whole,) = read_sessions([observed[0]])
-    first, second, *others = _views(whole)
-    expected, found = [*others[::-1], first], _views(left)
-    assert len(second.numbers) and len(found) == len(expected) == PICTURES - 1
-    for its, view in zip(expected, found, strict=True):
-        assert np.array_equal(its.pixels, view.pixels)
+    arm = load_arm("panda.urdf", "panda_link8")
+    (left,), (whole,) = (Cameras.read([folder], arm).sessions for folder in (tmp_path, observed[0]))
+    rows = [*range(PICTURES - 1, 1, -1), 0]
+    assert np.array_equal(left.rows.joints, whole.rows.joints[rows])
+    for row, view in zip(rows, left.views, strict=True):
+        assert np.array_equal(view.pixels, whole.views[row].pixels)
 
 
 def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
@@ -156,7 +168,8 @@ def test_corners_may_be_more_than_a_table_has_rows(observed, tmp_path):
     header, others = (tmp_path / "corners.csv").read_text().split("\n", 1)
     more = "another.png,0,1.0,1.0\n" * MOST_ROWS
     (tmp_path / "corners.csv").write_text(f"{header}\n{more}{others}")
-    assert len(_views(*read_sessions([tmp_path]))) == PICTURES
+    arm = load_arm("panda.urdf", "panda_link8")
+    assert len(read_folders([tmp_path], arm, Description())) == PICTURES
 
 
 def test_a_board_of_another_size_is_doubted(observed, tmp_path):
@@ -164,7 +177,7 @@ def test_a_board_of_another_size_is_doubted(observed, tmp_path):
     text = (tmp_path / "setup.toml").read_text()
     text = text.replace('"36 mm"', '"33 mm"').replace('"27 mm"', '"24.75 mm"')
     (tmp_path / "setup.toml").write_text(text)
-    result = calibrate_arm("panda.urdf", tmp_path, tool="panda_link8")
+    result = calibrate_pictures("panda.urdf", [tmp_path], tool="panda_link8")
     assert result.scales["the board"].factor == pytest.approx(36 / 33, abs=0.01)
     assert re.search(r"the board is (8|9)\.\d percent larger than its description", verdict(result))
 
@@ -208,11 +221,19 @@ def test_a_lens_of_another_size_says_that_it_is_the_lens(taken):
 
 def test_a_lens_of_another_camera_leaves_more_than_one_of_these_pictures(taken):
     _, _, (*files, lens) = taken(12)
-    for distortion, least, most in ((LENS.distortion, 0.99, 1.1), (np.zeros(5), 1.5, np.inf)):
-        lens.write_text(replace(LENS, distortion=distortion).as_ros())
-        result = observe(*files, lens)
-        own = re.search(r"lens as given \(one from these .* ([\d.]+) px\)", result.summary())[1]
-        assert least < result.error / float(own) < most
+    lens.write_text(LENS.as_ros())
+    result = observe(*files, lens)
+    own = re.search(r"lens as given \(one from these .* ([\d.]+) px\)", result.summary())[1]
+    assert 0.9 < result.error / float(own) < 1.1 and "Careful" not in result.summary()
+    lens.write_text(replace(LENS, matrix=LENS.matrix * [[1.1], [1.1], [1.0]]).as_ros())
+    assert "Careful: the lens as given leaves" in observe(*files, lens).summary()
+    for other in (
+        replace(LENS, matrix=LENS.matrix * [[0.4], [0.4], [1.0]]),
+        replace(LENS, distortion=np.array([0, 0, 0, 0, 0, 1e6, 0, 0])),
+    ):
+        lens.write_text(other.as_ros())
+        with pytest.raises(RecalibError, match="it is not this camera's; try: without --lens"):
+            observe(*files, lens)
 
 
 def test_without_opencv_a_sentence_says_what_to_install(monkeypatch, tmp_path, capsys):
@@ -263,7 +284,7 @@ def test_reprojection_errors_are_root_mean_squares(taken):
     cell, views, files = taken(12)
     files[1].write_text(files[1].read_text().replace("000.png", "./000.png"))
     result = observe(*files)
-    assert len(result.used) == 12 and not result.fitted and not result.strangers
+    assert len(result.used) == 12 and result.given and not result.unlisted
     squares = []
     for its, view in zip(result.pictures, views, strict=True):
         kept = its.corners
@@ -291,6 +312,51 @@ def test_a_picture_of_which_few_corners_fit_is_refused(taken):
         observe(*files)
 
 
+def png(width: int, height: int, rows: int | None = None) -> bytes:
+    """A black picture, which takes little room and may be huge when it is read."""
+    squeeze = zlib.compressobj(9)
+    content = [squeeze.compress(bytes(1 + width)) for _ in range(rows or height)]
+    head = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    body = b"".join([*content, squeeze.flush()])
+    chunks = [
+        struct.pack(">I", len(part)) + name + part + struct.pack(">I", zlib.crc32(name + part))
+        for name, part in ((b"IHDR", head), (b"IDAT", body), (b"IEND", b""))
+    ]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)
+
+
+NO_PICTURES = {  # by name: what is in the file, and why it is refused
+    "point.png": (png(1, 1), "1 x 1 pixels; expected: at least 32 x 32"),
+    "line.png": (png(1280, 1), "1280 x 1 pixels; expected: at least 32 x 32"),
+    "column.png": (png(1, 700), "1 x 700 pixels; expected: at least 32 x 32"),
+    "strip.png": (png(20000, 40), "20000 x 40 pixels; expected, as by the lens: 1280 x"),
+    "large.png": (png(12000, 9000, 1), "12000 x 9000 pixels; expected: .* 100 million in all"),
+    "huge.png": (png(30000, 30000, 1), "it is too large"),
+    "broken.png": (png(40, 40)[:50], "it is no picture"),
+    "empty.png": (b"", "it is no picture"),
+    "nu\0l.png": (None, "there is no such file"),
+    300 * "x" + ".png": (None, "it is no picture"),
+    "..": (None, "there is no such file"),
+}
+
+
+def test_what_is_no_picture_is_refused_in_a_sentence(taken, monkeypatch):
+    *_, (folder, joints, board, lens) = taken(11)
+    row = joints.read_text().splitlines()[-1].partition(",")[2]
+    with joints.open("a") as table:
+        for name, (content, _) in NO_PICTURES.items():
+            table.write(f"{name},{row}\n")
+            if content is not None:
+                (folder / name).write_bytes(content)
+    known = observing.find_corners
+    looks = lambda board, grey: (known if grey.shape == (960, 1280) else find_corners)(board, grey)  # noqa: E731
+    monkeypatch.setattr(observing, "find_corners", looks)
+    result = observe(folder, joints, board, lens)
+    assert len(result.used) == 11
+    for picture, (_, reason) in zip(result.pictures[11:], NO_PICTURES.values(), strict=True):
+        assert re.search(reason, picture.reason), picture.name
+
+
 def test_nine_pictures_are_too_few(taken):
     *_, files = taken(10)
     shutil.copy(files[0] / "000.png", files[0] / "009.png")
@@ -301,26 +367,38 @@ def test_nine_pictures_are_too_few(taken):
         observe(*files)
 
 
-def test_hand_eye_says_places_and_held_out_errors(calibrated):
-    result = calibrated
-    said = tomllib.loads(hand_eye(result))
-    for place in result.places:
-        its = said[place.name.removeprefix("the ")]
-        numbers = [float(text.removesuffix(" mm")) for text in its["position"]]
-        assert its["in"] == place.link
-        assert numbers == pytest.approx(1e3 * place.pose[:3, 3], abs=1e-4)
-        as_right = said["arm_as_right"][place.name.removeprefix("the ")]
-        assert {*its} - {*as_right} == {"deviation", "deviation_beside_the_real_link"}
-    optics, validation = result.observations.optics, result.validation
-    for section, kind in (
-        (said["held_out"], validation.chosen),
-        (said["arm_as_right"]["held_out"], NOTHING),
-    ):
-        for way in WAYS:
-            off = np.einsum("nij,nj->ni", optics.pixels, validation.held_out[way][kind].residuals)[
-                result.counted
-            ]
-            pixels = np.sqrt((off**2).sum(axis=1)).mean()
-            assert section[way]["pixels"] == pytest.approx(pixels, rel=1e-3)
-            millimetres = 1e3 * validation.mean_error(way, kind)
-            assert section[way]["millimetres"] == pytest.approx(millimetres, rel=1e-3)
+def published(command: str) -> np.ndarray:
+    """The pose (4, 4) [m] that a command of ROS 2 publishes, as tf2 reads its options."""
+    words = command.split()
+    given = {words[at]: words[at + 1] for at in range(4, len(words), 2)}
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_quat([float(given[f"--q{part}"]) for part in "xyzw"]).as_matrix()
+    pose[:3, 3] = [float(given[f"--{axis}"]) for axis in "xyz"]
+    return pose
+
+
+def test_places_are_written_as_they_are_published(calibrated):
+    """And the arm that is taken as right has its own, by the same lens."""
+    written = tomllib.loads(hand_eye(calibrated))
+    for place in calibrated.places:
+        name = place.name.removeprefix("the ")
+        assert written[name]["in"] == place.link
+        assert np.allclose(published(written[name]["ros"]), place.pose, atol=1e-6)
+        for table in (written[name], written["arm_as_right"][name]):
+            pose = published(table["ros"])
+            numbers = [float(text.split()[0]) for text in table["position"]]
+            assert numbers == pytest.approx(1e3 * pose[:3, 3], abs=1e-3)
+            angles = [float(text.split()[0]) for text in table["roll_pitch_yaw"]]
+            turn = Rotation.from_euler("xyz", angles, degrees=True).as_matrix()
+            assert np.allclose(turn, pose[:3, :3], atol=1e-5)
+    own, as_right = written["held_out"], written["arm_as_right"]["held_out"]
+    validation, optics = calibrated.validation, calibrated.data.observations.optics
+    for name in WAYS:
+        judged = validation.judged(name)
+        residuals = validation.held_out[name][validation.chosen].residuals[judged]
+        moved = np.einsum("nij,nj->ni", optics.pixels[judged], residuals)
+        pixels = np.linalg.norm(moved, axis=1).mean()
+        assert own[name]["pixels"] == pytest.approx(pixels, rel=1e-3)
+        millimetres = 1e3 * validation.mean_error(name, validation.chosen)
+        assert own[name]["millimetres"] == pytest.approx(millimetres, rel=1e-3)
+        assert as_right[name]["pixels"] > 5 * pixels

@@ -13,9 +13,8 @@ import pytest
 
 from recalib.errors import RecalibError
 from recalib.identification.model.linearisation import displacements
-from recalib.laboratory.calibrate import calibrate_arm
-from recalib.laboratory.command_line import DONE, main
-from recalib.laboratory.pictures.observed import fitted_lenses
+from recalib.laboratory.command_line import DONE, REFUSED, main
+from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
@@ -70,7 +69,7 @@ SETUPS = {
 
 @few_folds()
 def calibrated(*folders):
-    return calibrate_arm("panda.urdf", folders, tool="panda_link8")
+    return calibrate_pictures("panda.urdf", folders, tool="panda_link8")
 
 
 @pytest.fixture(scope="module")
@@ -160,7 +159,7 @@ def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
 def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
     """Whichever camera saw it."""
     result, _ = in_one_fit("two fixed")
-    rows, frames = result.observations[result.counted], result.calibration.frames
+    rows, frames = result.data.observations[result.counted], result.calibration.frames
     nominal = (result.arm.forward(rows.joints) @ frames.targets[0])[:, :3, 3]
     assert np.linalg.norm(result.positions - nominal, axis=1).max() < 0.05
     held_out = result.validation.held_out["in blocks"][result.validation.chosen].residuals
@@ -171,19 +170,20 @@ def test_what_is_drawn_has_the_axes_of_the_base(in_one_fit):
 
 
 def test_a_camera_has_one_lens_in_all_its_folders(in_one_fit, tmp_path):
-    """Also where it starts beside the best one of their pictures."""
+    """Also if one folder has another lens in its file: it is found anew by all pictures."""
     result, folders = in_one_fit("two boards")
-    copies = [Path(copytree(its, tmp_path / str(its).replace("/", "_"))) for its in folders]
+    copies = [Path(copytree(one, tmp_path / str(one).replace("/", "_"))) for one in folders]
     lens, matrices = read_lens(folders[0] / "lens.yaml"), []
-    start = Lens(lens.size, lens.matrix + np.diag([3.0, 3.0, 0.0]), lens.distortion)  # px
+    start = Lens(lens.size, lens.matrix + np.diag([30.0, 30.0, 0.0]), lens.distortion)  # px
     (copies[0] / "lens.yaml").write_text(start.as_ros())
-    for its, geometry in ((folders, result.geometry), (copies, calibrated(*copies).geometry)):
-        optics = geometry.estimate.parameters[geometry.model.optics_columns]
+    for one in (result, calibrated(*copies)):
+        calibration = one.geometry
+        optics = calibration.estimate.parameters[calibration.model.optics_columns]
         assert len(optics) == 2 * 2 + 8
-        (found,) = fitted_lenses(its, optics).values()
+        (found,) = one.data.cameras.corrected_lenses(optics).values()
         matrices.append(found.matrix)
     assert np.allclose(matrices[0], LENS.matrix, atol=1)
-    assert np.allclose(*map(np.diag, matrices), atol=0.03)  # 0.05 were the pictures' own lens lost
+    assert np.array_equal(*matrices)
 
 
 @pytest.mark.parametrize(
@@ -255,10 +255,10 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
 @pytest.mark.parametrize(
     ("session", "said"),
     [
-        ((beside(SEED), "left"), "it is of camera 'left' and board 'board', as .* try: observe wi"),
-        ((on_the_hand(), "left", "other"), "it has camera 'left' on the hand, .* beside the arm"),
-        ((on_the_hand(), "right"), "its board 'board' is another one than that of "),
-        ((changed(1, board=SMALL), "right"), "its board 'board' is another one than that of "),
+        ((beside(SEED), "left"), "it has camera 'left' and board 'board', as .* try: observe wi"),
+        ((on_the_hand(), "left", "other"), "it has camera 'left' on the hand, .* next to the arm"),
+        ((on_the_hand(), "right"), "its board 'board' differs from that in "),
+        ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
         ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from where the o"),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
@@ -282,10 +282,11 @@ def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
         calibrated(left, right)
 
 
-def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path):
+def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path, capsys):
     left, right = in_one_fit("two fixed")[1]
-    with pytest.raises(RecalibError, match="it is one of 2 tables; expected: one, or the folders"):
-        calibrated(left, right / "measurements.csv")
+    table, out = str(right / "measurements.csv"), f"--out={tmp_path / 'out'}"
+    assert main(["calibrate", "panda.urdf", str(left), table, "--tool=panda_link8", out]) == REFUSED
+    assert "it is one of 2 tables; expected: one, or the folders" in capsys.readouterr().err
     (tmp_path / "known.toml").write_text('[target]\nposition = ["0 m", "0 m", "0 m"]\n')
     with pytest.raises(RecalibError, match="an instrument or a target, which is for one camera"):
-        calibrate_arm("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")
+        calibrate_pictures("panda.urdf", [left, right], tmp_path / "known.toml", "panda_link8")

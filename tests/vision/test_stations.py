@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from recalib.errors import RecalibError
 from recalib.laboratory.command_line import REFUSED, main
 from recalib.station.interface import StationFailed
 from recalib.station.pictures import BoardInPictures, PicturesOfABoard
@@ -44,14 +45,14 @@ def test_what_is_no_picture_of_it_is_told(tmp_path):
     seeing = PicturesOfABoard(station, BoardInPictures(cell.board, cell.lens, False))
     for cells, says in (
         ({"x [m]": 1.0}, "the station measured x .m.; expected: picture"),
-        ({"picture": "nowhere.png"}, "nowhere.png is no picture"),
+        ({"picture": "nowhere.png"}, "nowhere.png: there is no such file"),
     ):
         station.measure = lambda cells=cells: cells
-        with pytest.raises(StationFailed, match=says):
+        with pytest.raises(RecalibError, match=says):
             seeing.measure()
     del station.measure
-    cv2.imwrite(str(tmp_path / "grey.png"), np.full((10, 20), 128, np.uint8))
-    with pytest.raises(StationFailed, match="has 20 x 10 pixels; expected, as by the lens: 1280 x"):
+    cv2.imwrite(str(tmp_path / "grey.png"), np.full((100, 200), 128, np.uint8))
+    with pytest.raises(StationFailed, match="has 200 x 100 pixels; expected, as by the lens: 1280"):
         seeing.measure()
     grey = np.full(cell.lens.size[::-1], 128, np.uint8)
     cv2.imwrite(str(tmp_path / "grey.png"), grey)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image
 
-from recalib.identification.checks.repeatability import weigh
+from recalib.identification.checks.repeatability import returning
 from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.linearisation import displacements
@@ -48,8 +48,8 @@ def test_corners_are_found_where_they_are(cell, poses):
 def test_a_picture_of_no_use_is_refused_with_its_reason(cell, poses):
     first, second, _ = (cell.picture(pose) for pose in poses)
     other = replace(cell, board=replace(BOARD, dictionary="5X5_100"))
-    turned = replace(cell, board=printable("charuco", 5, 7, 0.036))
-    larger = replace(cell, board=printable("charuco", 9, 7, 0.03))
+    turned = replace(cell, board=printable(5, 7, 0.036))
+    larger = replace(cell, board=printable(9, 7, 0.03))
     reasons = {
         "marker 30 is not on the board: this is another one": larger.picture(poses[0]),
         "it is mirrored": cv2.flip(first, 1),
@@ -84,7 +84,7 @@ def test_poses_move_with_optics_as_it_is_said(in_hand):
     cell = Cell(2, in_hand)
     (pose,) = cell.board_poses(cell.postures(1))
     view = cell.view(pose)
-    _, optics = optics_of([sighting(BOARD, LENS, view, True, in_hand)] * 2)
+    _, optics = optics_of(LENS, [sighting(BOARD, LENS, view, True, in_hand)] * 2)
     places = [(0, 0), (1, 1), (0, 2), (1, 2)]
     for column, step in enumerate([1e-4] * 2 + [0.5] * 4 + [1e-3] * 2 + [1e-4] * 2):
         ends = []
@@ -109,7 +109,8 @@ def test_poses_are_as_sure_as_is_said(in_hand):
     poses = cell.board_poses(cell.postures(300))
     rng = np.random.default_rng(3)
     views = [cell.view(pose, NOISE, rng) for pose in poses]
-    measured, optics = optics_of([sighting(BOARD, LENS, view, False, in_hand) for view in views])
+    sightings = [sighting(BOARD, LENS, view, False, in_hand) for view in views]
+    measured, optics = optics_of(LENS, sightings)
     gaps = displacements(np.linalg.inv(poses) if in_hand else poses, measured)
     squares = np.einsum("ni,nij,nj->n", gaps, np.linalg.inv(optics.spread), gaps)
     assert squares.mean() == pytest.approx(6, rel=0.1)
@@ -124,7 +125,8 @@ def test_what_moves_corners_is_a_length_across_the_line_of_sight(in_hand):
     poses, rng = cell.board_poses(cell.postures(200)), np.random.default_rng(3)
     ends = [
         optics_of(
-            [sighting(BOARD, LENS, cell.view(pose, noise, rng), False, in_hand) for pose in poses]
+            LENS,
+            [sighting(BOARD, LENS, cell.view(pose, noise, rng), False, in_hand) for pose in poses],
         )
         for noise in (0, NOISE)
     ]
@@ -187,14 +189,7 @@ def test_how_well_an_arm_returns_is_judged_by_the_rows_that_are_to_count():
     model, last = ErrorModel(draw.cell.arm, OFFSETS, frames), np.arange(len(draw.joints)) >= 20
     off = np.radians(np.sin(np.arange(len(last))))[:, None] * last[:, None]
     spoilt = replace(draw.pixels, joints=draw.joints + off)
-    by_all, *by_some = (
-        weigh(model, rows, some).optics.whitening
-        for rows, some in (
-            (spoilt, slice(None)),
-            (spoilt, slice(20)),
-            (draw.pixels, slice(20)),
-        )
-    )
+    by_all, *by_some = (returning(model, rows) for rows in (spoilt, spoilt[:20], draw.pixels[:20]))
     assert np.array_equal(*by_some) and not np.allclose(by_all, by_some[0])
 
 

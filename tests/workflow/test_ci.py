@@ -59,3 +59,32 @@ def test_files_that_name_the_version_name_the_same():
     published = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("## Publish")[2]
     (named["CONTRIBUTING.md"],) = {*re.findall(r"\d+\.\d+\.\d+", published)}
     assert named == dict.fromkeys(named, recalib.__version__)
+
+
+def test_actions_are_pinned_by_hash_and_what_may_write_runs_nothing_of_ours():
+    for path in WORKFLOWS.glob("*.yml"):
+        text = path.read_text(encoding="utf-8")
+        for action in re.findall(r"uses: (\S+)", text):
+            assert action.startswith("./") or re.search(r"@[0-9a-f]{40}$", action), action
+        workflow = yaml.safe_load(text)
+        assert workflow["permissions"] == {"contents": "read"}
+        for job in workflow["jobs"].values():
+            steps = job.get("steps", [])
+            checkouts = [step for step in steps if "checkout" in step.get("uses", "")]
+            assert all(step["with"]["persist-credentials"] is False for step in checkouts)
+            if "permissions" in job:
+                assert not checkouts
+                assert all(step.get("run", "gh ").startswith("gh ") for step in steps)
+
+
+def test_every_extra_is_locked_with_hashes():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    locks = [path.read_text(encoding="utf-8") for path in ROOT.glob("requirements*.lock")]
+    names = {
+        re.match(r"[\w-]+", its)[0]
+        for part in extras["optional-dependencies"].values()
+        for its in part
+    }
+    for name in names:
+        pinned = rf"^{name}==\S+.* \\\n    --hash=sha256"
+        assert any(re.search(pinned, lock, re.MULTILINE) for lock in locks), name

@@ -37,7 +37,7 @@ EXECUTED = {  # by a test, or by the check of a change
         f"{LABORATORY}::test_a_calibration_is_a_folder_of_files"
     ),
     "recalib correct calibration/ desired.csv": (
-        f"{LABORATORY}::test_commands_take_the_identified_arm_to_what_is_desired"
+        f"{LABORATORY}::test_commands_take_the_calibrated_arm_to_what_is_desired"
     ),
     "recalib next calibration/": (
         f"{LABORATORY}::test_the_next_postures_are_within_limits_and_teach"
@@ -74,7 +74,7 @@ PANDA = (  # one after the other, on an arm in MuJoCo
 EXECUTED |= dict.fromkeys(PANDA, "tests/station/test_panda.py::rehearsed")
 PLANNED = {  # Snakemake or make says what would run, and the reason why it does not
     "make setup": "whoever runs this has set it up",
-    "make cluster": "what it installs is not pinned",
+    "make cluster": "it installs from a lock, as make tools does",
     "make view": "opens a window",
     "make view STUDY=my_arm": "opens a window",
     "make web": "serves until it is interrupted",
@@ -100,6 +100,7 @@ BY_HAND = {
     "python -m replication.config.schema": "a test compares what it has written",
     "python -m replication.judgement.deviations": "a test compares what it prints",
     "python -m tests.station.bars": "whole tables of calibrations",
+    "python -m tests.station.bars ur5": "part of these tables",
     "python -m tests.station.film": "a film that was looked at",
     "python -m tests.station.paper_live": "15 minutes",
     "python -m tests.station.recording": "5 minutes; a test makes its learners",
@@ -143,7 +144,8 @@ def test_what_executes_a_command_is_there(command):
 def checkout(tmp_path_factory):
     """A copy of the project: to plan leaves notes."""
     folder = copy_project(tmp_path_factory.mktemp("checkout"))
-    shutil.copy(ROOT / "Makefile", folder)
+    for path in ("Makefile", "requirements-extras.lock"):
+        shutil.copy(ROOT / path, folder)
     shutil.copy(ROOT / "workflow" / "studies" / "bent.yaml", folder / "my_arm.yaml")
     return folder
 

@@ -6,6 +6,7 @@ pose has the covariance of its corners and, in addition, that of the arm, whose 
 probable of a few.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -20,20 +21,35 @@ COVARIANCE = np.diag([LEVER**2] * 3 + [1.0] * 3)
 RETURNS = 3e-5, 1e-4, 3e-4, 1e-3  # rad: from what hardly an arm does better to a worn one
 
 
-def weigh(model: ErrorModel, observations: Observations, some: slice = slice(None)) -> Observations:
+def weigh(
+    model: ErrorModel, observations: Observations, sizes: Sequence[float] = RETURNS
+) -> Observations:
     """The same observations, whose optics take into account how well the arm returns.
 
     Args:
-        some: rows by which that is judged: all take long if they are many.
+        sizes: rad by which joints may be off, of which the most probable one is used.
 
     Raises BadMeasurement, as `identify`.
     """
     assert observations.optics is not None
+    covariance = returning(model, observations, sizes)
+    return replace(observations, optics=observations.optics.with_noise(covariance))
+
+
+def returning(
+    model: ErrorModel, observations: Observations, sizes: Sequence[float] = RETURNS
+) -> np.ndarray:
+    """The covariance (6, 6) [m, rad] by which the arm does not return to a posture.
+
+    Arguments and errors are those of `weigh`.
+    """
+    assert observations.optics is not None
     tried = []
-    for returns in RETURNS:
-        optics = observations.optics.with_noise(returns**2 * COVARIANCE)
-        weighed = replace(observations, optics=optics)
+    for size in sizes:
+        covariance = size**2 * COVARIANCE
+        optics = observations.optics.with_noise(covariance)
         # a density of residuals before they were whitened
-        volume = np.linalg.slogdet(optics.whitening[some]).logabsdet.sum()
-        tried.append((identify(model, weighed[some]).log_evidence + volume, -returns, weighed))
+        volume = np.linalg.slogdet(optics.whitening).logabsdet.sum()
+        evidence = identify(model, replace(observations, optics=optics)).log_evidence
+        tried.append((evidence + volume, -size, covariance))
     return max(tried, key=lambda one: one[:2])[2]

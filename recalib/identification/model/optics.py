@@ -15,7 +15,10 @@ OPTICS = (
     *BOARD,
     *((f"focal length along {axis}", "px", 1.0, 100.0) for axis in "xy"),
     *((f"principal point along {axis}", "px", 1.0, 100.0) for axis in "xy"),
-    *((f"distortion {name}", "", 1.0, 1.0) for name in ("k1", "k2", "p1", "p2")),
+    *(
+        (f"distortion {name}", "", 1.0, 1.0)
+        for name in ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
+    ),
 )
 
 
@@ -73,6 +76,11 @@ class Optics:
     def across(self, pixels: np.ndarray) -> np.ndarray:
         """What pixels (n,) are at the board, across the line of sight: (n,) m."""
         return pixels / np.linalg.norm(self.pixels[..., :3], 2, axis=(1, 2))
+
+    @property
+    def lines(self) -> np.ndarray:
+        """Unit vectors (n, 3) along the lines of sight: no other shift moves corners as little."""
+        return np.linalg.svd(self.pixels[..., :3])[2][:, -1]
 
     @property
     def noise(self) -> float:

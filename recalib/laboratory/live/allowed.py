@@ -1,21 +1,26 @@
 """The postures to which an arm may be sent, and the paths between them."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 
 from recalib.errors import InvalidSetting
 from recalib.files.quantities import LENGTH
 from recalib.identification.model.linearisation import LEVER
+from recalib.laboratory.live.clearance import FLOOR, MARGIN, Clearance
 from recalib.laboratory.propose import joint_limits
 from recalib.nominal.kinematics import Arm
 from recalib.numerics.randomness import generator
+from recalib.station.guarded import REACHED
+from recalib.station.interface import StationFailed
 
 DRAWN, MOST = 2000, 400  # postures that are drawn, and of those that are allowed, kept
 FEWEST = 20  # to choose from
-STEP = 0.02  # rad, m of the fastest joint, between the places of a path that are looked at
-_BOX = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
+STEP = 0.02  # rad, m of the fastest joint, between the postures of a path that are checked
+_RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
 
 
 @dataclass(frozen=True)
@@ -26,18 +31,25 @@ class Box:
     high: np.ndarray
 
     @classmethod
-    def read(cls, text: str) -> "Box":
-        """From ranges of x, y and z, as in `-40 cm to 40 cm, ...`. Raises InvalidSetting."""
-        ranges = [_BOX.fullmatch(part) for part in text.split(",")]
-        if len(ranges) != 3 or None in ranges:
-            valid = "ranges of x, y and z, as in '-40 cm to 40 cm, 30 cm to 80 cm, 10 cm to 1 m'"
-            raise InvalidSetting("--box", text, valid)
-        low, high = np.array(
-            [[LENGTH.value_of("--box", end) for end in its.groups()] for its in ranges if its]
-        ).T
-        if (low >= high).any():
-            raise InvalidSetting("--box", text, "each range from its lower end to its upper end")
-        return cls(low, high)
+    def read(cls, ranges: Sequence[str]) -> "Box":
+        """From ranges of x, y and z, each as in `-40 cm to 40 cm`. Raises InvalidSetting."""
+        ends = []
+        for text in ranges:
+            if not (found := _RANGE.fullmatch(text)):
+                raise InvalidSetting("--box", text, "a range as in '-40 cm to 40 cm'")
+            low, high = (LENGTH.value_of("--box", end) for end in found.groups())
+            if low >= high:
+                raise InvalidSetting("--box", text, "a range from its lower end to its upper end")
+            ends.append((low, high))
+        lower, upper = np.array(ends).T
+        return cls(lower, upper)
+
+
+class Problem(NamedTuple):
+    """Why an arm may not stand in a posture: what is there, and what was expected."""
+
+    found: str
+    expected: str
 
 
 class AllowedPostures:
@@ -53,6 +65,7 @@ class AllowedPostures:
         span: rad that each joint may move either way from home; half a metre for each rad where it
             slides.
         box: in which the tool is in postures and on paths; anywhere unless given.
+        clearance: what must not touch in postures and on paths; anything may unless given.
 
     Attributes:
         home: as given.
@@ -67,58 +80,101 @@ class AllowedPostures:
         home: np.ndarray,
         limits: tuple[np.ndarray, np.ndarray],
         span: float,
-        box: Box | None,
+        box: Box | None = None,
+        clearance: Clearance | None = None,
     ):
         self.home, self._arm, self._box = home, arm, box
+        self._clearance = clearance if clearance and clearance.pairs else None
         lower, upper = joint_limits(arm)
         lower, upper = np.maximum(lower, limits[0]), np.minimum(upper, limits[1])
-        if (beyond := (home < lower) | (home > upper)).any():
-            joint = arm.joints[beyond.argmax()]
-            raise InvalidSetting(
-                "the first posture",
-                f"{joint} at {home[beyond.argmax()]:.4g}",
-                f"{lower[beyond.argmax()]:.4g} to {upper[beyond.argmax()]:.4g} (rad, m): its limits"
-                " without their outermost part",
-            )
-        if not self._inside(home[None]):
-            place = ", ".join(f"{1e3 * x:.0f} mm" for x in arm.forward(home[None])[0, :3, 3])
-            raise InvalidSetting("--box", f"without the tool, which is at ({place})", "around it")
         reach = span * np.where(arm.slides, LEVER, 1.0)
+        self._ranges = {
+            "within its limits without their outermost part": (lower, upper),
+            "within --span of the first posture": (home - reach, home + reach),
+        }
+        if problem := self._problem(home):
+            raise InvalidSetting("the first posture", *problem)
         low, high = np.maximum(lower, home - reach), np.minimum(upper, home + reach)
         drawn = generator(0, "postures of a live calibration").uniform(low, high, (DRAWN, len(low)))
-        if box is not None:  # most fail at their ends, which are quickly looked at
-            drawn = drawn[self._contained(drawn)]
         found = []
         for posture in drawn:
-            if self._inside(self._between(home, posture)):
+            # most fail at their ends, which are quickly looked at
+            if not self._obstacle(posture) and self._is_free(home, posture):
                 found.append(posture)
             if len(found) == MOST:
                 break
         if len(found) < FEWEST:
             raise InvalidSetting(
-                "--box", f"left by all but {len(found)} of {DRAWN} postures", "wider"
+                "--span",
+                f"{np.degrees(span):.3g} deg, of which {len(found)} of {DRAWN} postures are free",
+                f"at least {FEWEST}; try: more room, such as a wider --box or a lower --floor",
             )
         self.joints = np.array(found)
 
-    def path(self, start: np.ndarray, goal: np.ndarray) -> list[np.ndarray] | None:
-        """Where to go in turn, to be at a posture at last: straight, or by way of home.
+    def tool(self, joints: np.ndarray) -> np.ndarray:
+        """Where the nominal tool is (3,) [m] in the arm's base."""
+        place: np.ndarray = self._arm.forward(joints[None])[0, :3, 3]
+        return place
 
-        None where all straight paths from the start leave the box.
+    def path(self, start: np.ndarray, goal: np.ndarray) -> list[np.ndarray]:
+        """Where to go in turn, to be at an allowed posture at last: straight, or by way of home.
+
+        Raises StationFailed: the arm may not stand where it does, or no path leads from there.
         """
-        if self._inside(self._between(start, goal)):
-            return [goal]
-        return [self.home, goal] if self._inside(self._between(start, self.home)) else None
+        straight = self._is_free(start, goal)
+        self.check(start, start if straight else self.home)
+        return [goal] if straight else [self.home, goal]
+
+    def check(self, start: np.ndarray, goal: np.ndarray) -> None:
+        """Raise StationFailed unless the arm may stand at start, and go straight to a posture.
+
+        It may stand as far from where it was sent as a station may miss that.
+        """
+        if problem := self._problem(start, REACHED):
+            self._refuse("stands", start, problem)
+        for posture in self._between(start, goal):
+            if problem := self._obstacle(posture, REACHED):
+                self._refuse("would pass", posture, problem)
+
+    def _refuse(self, what: str, joints: np.ndarray, problem: Problem) -> NoReturn:
+        place = ", ".join(f"{1e3 * x:.0f}" for x in self.tool(joints))
+        raise StationFailed(
+            f"the arm {what} with its tool at ({place}) mm and {problem.found}; expected:"
+            f" {problem.expected}; try: move it by hand to where the first row was measured"
+        )
 
     def _between(self, start: np.ndarray, end: np.ndarray) -> np.ndarray:
         """Postures (n, joints) along a straight path, both ends with it."""
         count = 2 + int(np.abs(end - start).max() / STEP)
         return start + np.linspace(0, 1, count)[:, None] * (end - start)
 
-    def _inside(self, joints: np.ndarray) -> bool:
-        return self._box is None or bool(self._contained(joints).all())
+    def _is_free(self, start: np.ndarray, end: np.ndarray) -> bool:
+        """Whether nothing is in the way behind the start, which may be off by a little."""
+        if self._box is None and self._clearance is None:
+            return True
+        return not any(self._obstacle(posture) for posture in self._between(start, end)[1:])
 
-    def _contained(self, joints: np.ndarray) -> np.ndarray:
-        """Whether the nominal tool is in the box (n,)."""
-        assert self._box is not None
-        places = self._arm.forward(joints)[:, :3, 3]
-        return np.all((places >= self._box.low) & (places <= self._box.high), axis=1)
+    def _problem(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
+        """Why the arm may not stand there; all bounds are wider by a slack [rad, m]."""
+        for which, (low, high) in self._ranges.items():
+            beyond = (joints < low - slack) | (joints > high + slack)
+            if beyond.any():
+                joint = int(beyond.argmax())
+                scale, unit = (1e3, "mm") if self._arm.slides[joint] else (180 / np.pi, "deg")
+                here, least, most = (f"{scale * ends[joint]:.1f}" for ends in (joints, low, high))
+                found = f"{self._arm.joints[joint]} at {here} {unit}"
+                return Problem(found, f"{least} to {most} {unit}, {which}")
+        return self._obstacle(joints, slack)
+
+    def _obstacle(self, joints: np.ndarray, slack: float = 0.0) -> Problem | None:
+        """What is in the way there, if anything is."""
+        if (box := self._box) is not None:
+            place = self.tool(joints)
+            if ((place < box.low - slack) | (place > box.high + slack)).any():
+                where = ", ".join(f"{1e3 * x:.0f} mm" for x in place)
+                return Problem(f"the tool at ({where})", "within --box")
+        if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
+            option = "--floor" if FLOOR in pair else "--no-self-collision"
+            found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
+            return Problem(found, f"more room, or another {option} if that is not so")
+        return None

@@ -1,67 +1,84 @@
 """`recalib live`: its options become a calibration that moves the arm; see docs/live.md."""
 
 import argparse
-import math
 import signal
 import sys
-from collections.abc import Callable, Sequence
+import termios
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
-from typing import Any
+
+import numpy as np
 
 from recalib.errors import InvalidSetting
-from recalib.files.quantities import ANGLE, LENGTH, TIME
-from recalib.files.storage import read_file
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.laboratory.live.allowed import Box
-from recalib.laboratory.live.calibration import LiveSettings, calibrate_live
 from recalib.laboratory.live.record import Pictures
+from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
 from recalib.laboratory.tables.description import read_description
 from recalib.nominal.arms import load_arm
-from recalib.nominal.descriptions import MOST, find_urdf
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.shapes import load_shapes
 from recalib.station.interface import Station
 from recalib.station.opening import open_station
 
+# Who closes the terminal, ends the program, or wants it in the background means a stop, too.
+STOPPING = signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGTSTP
+ANSWERS = {"": Answer.MOVE, "s": Answer.SKIP}  # all others, such as q, end it
+TURNED = 0.05  # deg, mm: a joint that moves less is not listed
 
-def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> str:
-    """Move, measure and write rows as the options say; the reason why they are enough.
+
+def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) -> Ended:
+    """Move, measure and write rows as the options say.
 
     Raises RecalibError, as `calibrate_live` and as what reads the options.
     """
     arm, settings = load_arm(given.urdf, given.tool, given.base), _settings(given)
     if given.board is None and (given.lens or given.camera):
         raise InvalidSetting("--board", None, "a board, which --lens and --camera are for")
-    for number in (signal.SIGTERM, signal.SIGHUP):  # who closes the terminal means a stop, too
-        signal.signal(number, signal.default_int_handler)
     opening: Callable[[], Station] = partial(open_station, given.station)
     pictures: Pictures | None = None
     if given.board is not None:
         opening, pictures = _with_board(opening, given)
-    ask = partial(_ask_to_move, arm.joints, arm.slides.tolist())
-    watch: dict[str, Any] = {}
-    if given.view:
-        from recalib.laboratory.live.view import LiveView
+    checked = settings.self_collision or settings.floor is not None
+    shapes, missing = load_shapes(arm, given.urdf) if checked else (None, [])
+    if missing:
+        names = ", ".join(missing)
+        on_progress(f"not checked for floor and self-collision, as no file has its shape: {names}")
+    ask = (lambda move: Answer.MOVE) if given.yes else partial(ask_to_move, arm)
+    with _signals_that_stop():
+        return calibrate_live(
+            opening,
+            arm,
+            given.table,
+            settings,
+            ask,
+            given.description and read_description(given.description),
+            on_progress,
+            pictures=pictures,
+            shapes=shapes,
+        )
 
-        urdf = find_urdf(given.urdf)
-        watch["on_row"] = LiveView(arm, read_file(urdf, MOST), urdf).show
-    return calibrate_live(
-        opening,
-        arm,
-        given.table,
-        settings,
-        (lambda posture: True) if given.yes else ask,
-        given.description and read_description(given.description),
-        on_progress,
-        pictures=pictures,
-        **watch,
-    )
+
+@contextmanager
+def _signals_that_stop() -> Iterator[None]:
+    """Have what ends or suspends a program raise KeyboardInterrupt, which stops the station."""
+    before = {number: signal.signal(number, signal.default_int_handler) for number in STOPPING}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _settings(given: argparse.Namespace) -> LiveSettings:
     error = None if given.error is None else LENGTH.value_of("--error", given.error)
     box = None if given.box is None else Box.read(given.box)
+    floor = None if given.floor == "none" else LENGTH.value_of("--floor", given.floor)
     span = ANGLE.value_of("--span", given.span)
-    patience = TIME.value_of("--patience", given.patience)
+    checked = not given.no_self_collision
     try:
-        return LiveSettings(error, given.most, span, box, given.speed, patience)
+        return LiveSettings(error, given.most, span, box, given.speed, floor, checked)
     except InvalidSetting as wrong:
         raise InvalidSetting(f"--{wrong.key}", wrong.value, wrong.valid) from None
 
@@ -70,7 +87,7 @@ def _with_board(
     opening: Callable[[], Station], given: argparse.Namespace
 ) -> tuple[Callable[[], Station], Pictures]:
     """What opens a station that takes pictures as one that measures, and what is in them."""
-    from recalib.laboratory.pictures.observe import IN_HAND
+    from recalib.laboratory.pictures.observed import IN_HAND
     from recalib.station.pictures import BoardInPictures, PicturesOfABoard
     from recalib.vision.boards import read_board
     from recalib.vision.lenses import read_lens
@@ -82,15 +99,28 @@ def _with_board(
     return lambda: PicturesOfABoard(opening(), pictures), pictures
 
 
-def _ask_to_move(joints: Sequence[str], slides: Sequence[bool], posture: Sequence[float]) -> bool:
-    """Whether a person lets the arm move to a posture (joints,) [rad, m]."""
-    goals = (
-        f"{joint} {1e3 * goal:.1f} mm" if slide else f"{joint} {math.degrees(goal):.1f} deg"
-        for joint, slide, goal in zip(joints, slides, posture, strict=True)
+def ask_to_move(arm: Arm, move: Move) -> Answer:
+    """What a person at the terminal says to a move of an arm.
+
+    What was typed before the question appeared is no answer to it, and is thrown away.
+    """
+    turns = np.where(arm.slides, 1e3, 180 / np.pi) * (move.goal - move.start)
+    units = np.where(arm.slides, "mm", "deg")
+    joints = ", ".join(
+        f"{joint} by {turn:+.1f} {unit}"
+        for joint, turn, unit in zip(arm.joints, turns, units, strict=True)
+        if abs(turn) > TURNED
     )
-    print(f"Move to {', '.join(goals)}? Enter: yes; anything else: end ", file=sys.stderr, end="")
+    start, goal = (
+        ", ".join(f"{1e3 * x:.0f}" for x in place) for place in (move.tool_before, move.tool_after)
+    )
+    away = 1e3 * np.linalg.norm(move.tool_after - move.tool_before)
+    print(f"tool from ({start}) to ({goal}) mm, {away:.0f} mm away: {joints}", file=sys.stderr)
+    print("Move? Enter: yes, s: skip this posture for good, q: end ", file=sys.stderr, end="")
     sys.stderr.flush()
-    answer = sys.stdin.readline()
-    if not answer:
+    if sys.stdin.isatty():
+        termios.tcflush(sys.stdin, termios.TCIFLUSH)
+    line = sys.stdin.readline()
+    if not line:
         raise InvalidSetting("an answer", None, "a person at the terminal, or --yes")
-    return not answer.strip()
+    return ANSWERS.get(line.strip().lower(), Answer.END)

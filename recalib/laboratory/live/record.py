@@ -12,18 +12,27 @@ from typing import Protocol
 import numpy as np
 
 from recalib.errors import InvalidFile
-from recalib.files.storage import read_file
+from recalib.files.storage import read_file, whole
 from recalib.identification.model.observations import Observations
 from recalib.identification.model.optics import Optics
-from recalib.laboratory.tables.columns import MOST
+from recalib.laboratory.data_set import data_set
+from recalib.laboratory.tables.columns import PICTURES
 from recalib.laboratory.tables.description import Description
-from recalib.laboratory.tables.measurements import PICTURE, measurements_so_far
-from recalib.laboratory.tables.observations import observations_of
+from recalib.laboratory.tables.measurements import joint_headings, measurements_so_far, read_desired
+from recalib.laboratory.tables.table import MOST, table_text
 from recalib.nominal.kinematics import Arm
+
+(PICTURE,) = PICTURES.headings
 
 
 class Pictures(Protocol):
-    """What pictures say beyond the poses that are measured in them."""
+    """What pictures say beyond the poses that are measured in them.
+
+    Attributes:
+        tool_radius: m about the tool link's origin that a board there may take.
+    """
+
+    tool_radius: float
 
     def __call__(self, paths: Sequence[str]) -> tuple[np.ndarray, Optics]:
         """Poses (n, 4, 4) [m] in pictures, and what is known of them. Raises InvalidFile."""
@@ -38,10 +47,10 @@ class Pictures(Protocol):
 
 
 class Record:
-    """The rows so far, and the file that holds them.
+    """The rows so far, the postures that a person skipped, and the files that hold them.
 
     A row that a killed process or a full disk left without its end is dropped; nothing else that
-    is there is changed.
+    is there is changed. Skipped postures are in a file of their own beside the table.
 
     Args:
         path: of the table, which may be there already.
@@ -52,6 +61,7 @@ class Record:
     Attributes:
         pictures: as given.
         observations: the rows; None while there are none.
+        skipped: postures (n, joints) [rad, m].
         dropped: the row without an end, if there was one.
 
     Raises InvalidFile: it is no such table, or another process writes it.
@@ -68,10 +78,8 @@ class Record:
         self.pictures = pictures
         self.observations: Observations | None = None
         self.dropped = ""
-        self._joints = [
-            f"{joint} [{'m' if slides else 'rad'}]"
-            for joint, slides in zip(arm.joints, arm.slides, strict=True)
-        ]
+        self._joints = joint_headings(arm, "rad", "m")
+        self._skips = self.path.with_name(f"{self.path.stem}_skipped{self.path.suffix}")
         try:
             self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
         except OSError as error:
@@ -107,6 +115,25 @@ class Record:
         elif not (content.startswith(start) or start.startswith(content)):
             raise InvalidFile(self.path, "it is no table that recalib live began")
         os.ftruncate(self._file, len(self._content))
+        self.skipped = self._read_skipped()
+
+    def _read_skipped(self) -> np.ndarray:
+        if not self._skips.exists():
+            return np.zeros((0, len(self._joints)))
+        if not self._content:
+            reason = f"it has postures that were skipped for {self.path}, which has no rows"
+            raise InvalidFile(self._skips, f"{reason}; try: remove it, or another --table")
+        joints = read_desired(self._skips, self._arm).joints
+        if joints is None:
+            raise InvalidFile(self._skips, f"it has no joints; expected: {', '.join(self._joints)}")
+        return joints
+
+    def skip(self, posture: np.ndarray) -> None:
+        """Remember for good that a posture (joints,) [rad, m] is not wanted."""
+        self.skipped = np.vstack([self.skipped, posture])
+        with whole(self._skips) as file:
+            rows = (dict(zip(self._joints, row, strict=True)) for row in self.skipped.tolist())
+            file.write_bytes(table_text(rows))
 
     def read(
         self, angles: np.ndarray, cells: Mapping[str, float | str]
@@ -164,18 +191,17 @@ class Record:
 
     def _read(self, content: bytes) -> Observations:
         rows = measurements_so_far(content, self.path, self._arm, self._description)
-        observations, targets, _ = observations_of(rows, self._description, self.path)
-        if len(targets) > 1:
-            raise InvalidFile(
-                self.path, f"it has the targets {', '.join(targets)}; expected: one and the same"
-            )
+        data = data_set(rows, self._description, self._arm)
+        if len(data.targets) > 1:
+            names = ", ".join(data.targets)
+            raise InvalidFile(self.path, f"it has the targets {names}; expected: one and the same")
         if self.pictures is None:
-            return observations
+            return data.observations
         poses, optics = self.pictures(_pictures_in(content))
-        return replace(observations, measured=poses, optics=optics)
+        return replace(data.observations, measured=poses, optics=optics)
 
 
 def _pictures_in(content: bytes) -> list[str]:
     """The paths in the column `picture`; none where there is no such column."""
     rows = csv.DictReader(io.StringIO(content.decode("utf-8-sig")))
-    return [its[PICTURE] for its in rows] if PICTURE in (rows.fieldnames or ()) else []
+    return [row[PICTURE] for row in rows] if PICTURE in (rows.fieldnames or ()) else []

@@ -1,220 +1,208 @@
-"""What `observe` wrote, as observations of an arm: poses and what its pixels make of them.
+"""What was found in pictures of a board, and the folder that `recalib calibrate` reads."""
 
-Each folder has pictures of one board by one camera. Folders may share a camera, or a board.
-"""
-
-import tomllib
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any, NamedTuple
 
+import cv2
 import numpy as np
 
-from recalib.errors import InvalidFile
-from recalib.files.quantities import Quantity
-from recalib.files.storage import read_file
-from recalib.identification.model.observations import Observations
-from recalib.identification.model.optics import BOARD, OPTICS, Optics
-from recalib.laboratory.pictures.observe import CAMERAS, CORNERS, IN_HAND, LENS, NAME, SETUP
-from recalib.laboratory.tables.columns import NUMBER, read_table
-from recalib.laboratory.tables.measurements import OBSERVED, PICTURE
-from recalib.spelling import counted
-from recalib.vision.boards import MOST, Board, read_board
-from recalib.vision.detection import FEWEST, Corners
-from recalib.vision.lenses import Lens, read_lens
-from recalib.vision.views import LENS_SIZE, optics_of, sighting
+from recalib.errors import RecalibError
+from recalib.laboratory.tables.columns import (
+    ERRORS,
+    NOMINAL,
+    PICTURES,
+    POSITIONS,
+    ROTATION_VECTORS,
+    ROTATIONS,
+)
+from recalib.laboratory.tables.table import Table, table_text
+from recalib.vision.boards import Board
+from recalib.vision.detection import Corners
+from recalib.vision.lens_search import FoundLens, View, reprojection_error
+from recalib.vision.lenses import Lens
+from recalib.vision.views import optics_kinds
 
-PIXEL = Quantity("a pixel", {"px": 1.0})
-COLUMNS = {"corner": NUMBER, "u": PIXEL, "v": PIXEL}
-MOST_CORNERS = 1_000_000
+NAME = re.compile(r"[\w-]+", re.ASCII)  # of a camera or a board, as TOML and ROS take it
+(PICTURE,) = PICTURES.headings
+OBSERVED, CORNERS, SETUP, LENS = "measurements.csv", "corners.csv", "setup.toml", "lens.yaml"
+WIDE = 300  # px, of a picture on the page
+LEAST = 0.5  # px: a reprojection error as small is never a reason
+# What a given lens may leave, over one from the pictures: it is as good, or cannot be the same.
+SIMILAR, OTHER = 1.1, 5.0
+CHANCE = 10.0  # how much more a given lens leaves by chance, to a parameter, over the noise
+UNSETTLED = (
+    "the search for the lens was still going on when it was stopped; try: pictures that"
+    " show the board tilted, near and far, and in all parts of the picture"
+)
+FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
 
 
 @dataclass(frozen=True)
-class Session:
-    """Pictures of a board by a camera.
+class Picture:
+    """A picture, and what was found in it.
 
     Attributes:
-        folder: that observe wrote.
-        camera, board_name: their names.
+        row: in the table, from 1.
+        name: of the file.
+        size: width and height [px]; None if it cannot be read.
+        small: a small grey copy for the page; None likewise.
+        digest: of the pixels.
+        corners: None if it is refused.
+        reason: why it is refused; empty if it is not.
+        error: px, the root mean square of the corners' reprojection errors.
+        pose: (4, 4) m of the board in the camera.
+    """
+
+    row: int
+    name: str
+    size: tuple[int, int] | None = None
+    small: np.ndarray | None = None
+    digest: str = ""
+    corners: Corners | None = None
+    reason: str = ""
+    error: float = np.nan
+    pose: np.ndarray | None = None
+
+    def refused(self, reason: str) -> "Picture":
+        """The same picture, refused."""
+        return replace(self, corners=None, reason=reason, error=np.nan, pose=None)
+
+
+@dataclass(frozen=True)
+class Observed:
+    """What was found in pictures.
+
+    Attributes:
+        table: the joints of each picture.
+        board: in all pictures.
+        own: the lens estimated from these pictures.
+        given: the lens, if it is known; otherwise the estimated one counts.
         in_hand: whether the camera is on the hand.
-        fitted: whether the lens is that of the pictures.
-        board, lens: that they show, and through which they were taken.
+        pictures: all of the table.
+        unlisted: names of pictures that are not in the table.
+        camera, board_name: their names among several.
     """
 
-    folder: Path
-    camera: str
-    board_name: str
-    in_hand: bool
-    fitted: bool
+    table: Table
     board: Board
-    lens: Lens
+    own: FoundLens
+    given: Lens | None
+    in_hand: bool
+    pictures: Sequence[Picture]
+    unlisted: Sequence[str]
+    camera: str = "camera"
+    board_name: str = "board"
+
+    @property
+    def lens(self) -> Lens:
+        """The lens in all pictures."""
+        return self.given or self.own.lens
+
+    @property
+    def used(self) -> list[Picture]:
+        """The pictures that were not refused."""
+        return [picture for picture in self.pictures if picture.corners is not None]
+
+    @property
+    def error(self) -> float:
+        """px, the root mean square of all reprojection errors along an axis."""
+        squares = [picture.error**2 for picture in self.used]
+        return float(np.sqrt(np.mean(squares) / 2))
+
+    @property
+    def doubt(self) -> str | None:
+        """What is doubtful about the lens, in a sentence without its full stop."""
+        return doubt_of(self.given, self.own, views_of(self.board, self.used))
+
+    def summary(self) -> str:
+        """A page of text."""
+        lens, used = self.lens, self.used
+        (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
+        source = "from these pictures"
+        if self.given is not None:
+            source = f"as given (one {source} would leave {self.own.error:.3f} px)"
+        lines = [
+            f"{len(used)} of {len(self.pictures)} pictures are used;"
+            f" reprojection error {self.error:.3f} px along an axis",
+            *([f"Careful: {self.doubt}."] if self.doubt else []),
+            f"lens {source}: {lens.model}, focal lengths {fx:.1f} and {fy:.1f} px, principal point"
+            f" ({cx:.1f}, {cy:.1f}) px, distortion"
+            f" {', '.join(f'{number:.4f}' for number in lens.distortion)}",
+            *(
+                f"{picture.name} (row {picture.row}) is refused: {picture.reason}"
+                for picture in self.pictures
+                if picture.reason
+            ),
+        ]
+        if self.unlisted:
+            lines.append(f"not in {self.table.path.name}: {', '.join(self.unlisted)}")
+        return "\n".join([*lines, ""])
+
+    def files(self) -> dict[str, bytes]:
+        """The files of a folder for `recalib calibrate`, by their names."""
+        corners = (
+            {PICTURE: shown.name, "corner": int(number), "u [px]": f"{u:.4f}", "v [px]": f"{v:.4f}"}
+            for shown in self.used
+            if shown.corners is not None
+            for number, (u, v) in zip(shown.corners.numbers, shown.corners.pixels, strict=True)
+        )
+        setup = (
+            f'camera = "{IN_HAND if self.in_hand else FIXED}"\n'
+            f"lens_from_pictures = {str(self.given is None).lower()}\n"
+            f'camera_name = "{self.camera}"\nboard_name = "{self.board_name}"\n\n'
+        )
+        return {
+            "summary.txt": self.summary().encode(),
+            LENS: self.lens.as_ros().encode(),
+            SETUP: (setup + self.board.described()).encode(),
+            OBSERVED: table_text(self._measurements()),
+            CORNERS: table_text(corners),
+        }
+
+    def _measurements(self) -> Iterator[dict[str, str]]:
+        """Rows of pictures and joints, with poses of the board, or of the camera in it."""
+        table = self.table
+        # what a live calibration measured by the same pictures is measured anew
+        vectors = (POSITIONS, *ROTATIONS, NOMINAL, ERRORS)
+        measured = {PICTURE, *(name for kind in vectors for name in kind.headings)}
+        joints = [name for name in table.cells if name not in measured]
+        units = [f"{name} [{table.units[name]}]" if table.units[name] else name for name in joints]
+        headings = [PICTURE, *units, *POSITIONS.written, *ROTATION_VECTORS.written]
+        for picture in self.used:
+            assert picture.pose is not None
+            pose = np.linalg.inv(picture.pose) if self.in_hand else picture.pose
+            turn = np.degrees(cv2.Rodrigues(pose[:3, :3])[0].ravel())
+            numbers = [f"{number:.6f}" for number in (*1e3 * pose[:3, 3], *turn)]
+            cells = [table.cells[name][picture.row - 1] for name in joints]
+            yield dict(zip(headings, [picture.name, *cells, *numbers], strict=True))
 
 
-class Sighted(NamedTuple):
-    """Observations by cameras.
+def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str | None:
+    """What is doubtful about the lens of some pictures, in a sentence without its full stop.
 
-    Attributes:
-        observations: of all folders, in their order; each folder is a sight.
-        instruments, targets: the names of what stands, and of what moves with the tool.
-        sights: (s, 2) the numbers of each sight's instrument and target.
-        boards: the names of boards.
+    Args:
+        given: the lens, if it is known; otherwise the estimated one counts.
+        own: the lens estimated from the pictures.
+
+    Raises RecalibError: a given lens that cannot be theirs.
     """
-
-    observations: Observations
-    instruments: tuple[str, ...]
-    targets: tuple[str, ...]
-    sights: np.ndarray
-    boards: tuple[str, ...]
-
-
-def with_pixels(rows: Sequence[Observations], folders: Sequence[Path]) -> Sighted:
-    """Observations in folders, whose poses are those of their pixels.
-
-    Raises InvalidFile: not as observe wrote it, or not of the same cameras and boards.
-    """
-    sessions, poses, parts = read_sessions(folders), [], []
-    kinds, columns = _layout(sessions)
-    for session, own in zip(sessions, columns, strict=True):
-        board, lens, *kind = session.board, session.lens, session.fitted, session.in_hand
-        found, part = optics_of([sighting(board, lens, view, *kind) for view in _views(session)])
-        poses.append(found)
-        parts.append(_placed(part, own, kinds))
-    cameras, boards = _names("camera", sessions), _names("board", sessions)
-    pairs = zip(cameras, boards, strict=True)
-    ends = [
-        pair[::-1] if session.in_hand else pair
-        for session, pair in zip(sessions, pairs, strict=True)
-    ]
-    instruments, targets = (tuple(dict.fromkeys(names)) for names in zip(*ends, strict=True))
-    spread, slopes, information, gradient, pixels = map(np.concatenate, zip(*parts, strict=True))
-    times = [its.times for its in rows if its.times is not None]
-    observations = Observations(
-        np.concatenate([its.joints for its in rows]),
-        np.concatenate(poses),
-        np.repeat(np.arange(len(rows)), [len(its) for its in rows]),
-        times=np.concatenate(times) if len(times) == len(rows) else None,
-        optics=Optics(spread, slopes, information, gradient, pixels, kinds=kinds),
+    if given is None:
+        return None if own.converged else UNSETTLED
+    left = reprojection_error(views, given)
+    free = sum(2 * len(view.numbers) - 6 for _, view in views)
+    surplus = free * ((left / own.error) ** 2 - 1) / len(optics_kinds(own.lens))
+    if left <= SIMILAR * own.error or surplus < CHANCE:
+        return None
+    found = (
+        f"the lens as given leaves {left:.3g} px in these pictures; one from them,"
+        f" {own.lens.model}, leaves {own.error:.3g} px"
     )
-    sights = [[instruments.index(one), targets.index(other)] for one, other in ends]
-    several = tuple(dict.fromkeys(boards))
-    return Sighted(observations, instruments, targets, np.array(sights), several)
+    if left > max(OTHER * own.error, LEAST):
+        raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
+    return f"{found}; check that it is this camera's, and that focus and zoom are as they were"
 
 
-def read_sessions(folders: Sequence[Path]) -> list[Session]:
-    """What folders show; a camera has the lens of its first one. Raises as `with_pixels`."""
-    sessions: list[Session] = []
-    for folder in folders:
-        session = _session(folder)
-        for before in sessions:
-            if conflict := _conflict(before, session):
-                raise InvalidFile(folder, conflict)
-        same = (before.lens for before in sessions if before.camera == session.camera)
-        sessions.append(replace(session, lens=next(same, session.lens)))
-    return sessions
-
-
-def fitted_lenses(folders: Sequence[Path], optics: np.ndarray) -> dict[str, Lens]:
-    """By camera, the lens in folders with what a calibration found of the optics (o,) beside it."""
-    sessions, lenses = read_sessions(folders), {}
-    for session, own in zip(sessions, _layout(sessions)[1], strict=True):
-        beside = np.zeros(len(OPTICS))
-        beside[: len(own)] = optics[own]
-        fx, fy, cx, cy, *distortion = beside[len(BOARD) :]
-        lens = session.lens
-        matrix, changed = lens.matrix.copy(), lens.distortion.copy()
-        matrix[:2] += np.array([[fx, 0, cx], [0, fy, cy]])
-        changed[:4] += distortion
-        lenses[session.camera] = Lens(lens.size, matrix, changed)
-    return lenses
-
-
-def _session(folder: Path) -> Session:
-    board, text = read_board(folder / SETUP), read_file(folder / SETUP, MOST)
-    setup = tomllib.loads(text.decode("utf-8"))
-    camera, fitted = setup.get("camera"), setup.get("lens_from_pictures")
-    if camera not in CAMERAS or not isinstance(fitted, bool):
-        raise InvalidFile(folder / SETUP, "camera or lens_from_pictures is not as observe wrote it")
-    names: list[Any] = [setup.get(f"{kind}_name") for kind in ("camera", "board")]
-    if not all(isinstance(name, str) and NAME.fullmatch(name) for name in names):
-        raise InvalidFile(folder / SETUP, "camera_name or board_name is not as observe wrote it")
-    name, its = names
-    return Session(folder, name, its, camera == IN_HAND, fitted, board, read_lens(folder / LENS))
-
-
-def _conflict(one: Session, other: Session) -> str | None:
-    """Why two folders cannot be of one cell, if they cannot."""
-    camera, board = one.camera == other.camera, one.board_name == other.board_name
-    if camera and board:
-        return (
-            f"it is of camera {one.camera!r} and board {one.board_name!r}, as {one.folder} is; try:"
-            " observe with another --name, or all of their pictures in one folder"
-        )
-    sides = {True: "on the hand", False: "beside the arm"}
-    if camera and one.in_hand != other.in_hand:
-        return (
-            f"it has camera {one.camera!r} {sides[other.in_hand]}, {one.folder} has it"
-            f" {sides[one.in_hand]}; try: observe with another --name"
-        )
-    if board and (one.in_hand != other.in_hand or one.board != other.board):
-        return (
-            f"its board {one.board_name!r} is another one than that of {one.folder}; try: observe"
-            " with a --board of another file name"
-        )
-    lenses = [
-        (its.fitted, its.lens.size if its.fitted else its.lens.as_ros()) for its in (one, other)
-    ]
-    if camera and lenses[0] != lenses[1]:
-        return f"camera {one.camera!r} has another lens than in {one.folder}; try: the same --lens"
-    return None
-
-
-def _names(kind: str, sessions: Sequence[Session]) -> list[str]:
-    """What each session's camera or board is called, in words."""
-    names = [its.camera if kind == "camera" else its.board_name for its in sessions]
-    return [f"{kind} {name}" if len(set(names)) > 1 else f"the {kind}" for name in names]
-
-
-def _layout(sessions: Sequence[Session]) -> tuple[np.ndarray, list[np.ndarray]]:
-    """The kinds (o,) of all optics, and the numbers of those that each session has."""
-    boards = [*dict.fromkeys(its.board_name for its in sessions)]
-    lenses = [*dict.fromkeys(its.camera for its in sessions if its.fitted)]
-    board, lens = np.arange(len(BOARD)), np.arange(LENS_SIZE)
-    kinds = np.concatenate([board] * len(boards) + [len(BOARD) + lens] * len(lenses))
-    columns = []
-    for its in sessions:
-        own = [len(BOARD) * boards.index(its.board_name) + board]
-        if its.fitted:
-            own.append(len(BOARD) * len(boards) + LENS_SIZE * lenses.index(its.camera) + lens)
-        columns.append(np.concatenate(own))
-    return kinds, columns
-
-
-def _placed(part: Optics, own: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarray, ...]:
-    """The arrays of a session's optics, up to its pixels, with its columns among those of all."""
-    count, size = len(part.slopes), len(kinds)
-    slopes, gradient = np.zeros((count, 6, size)), np.zeros((count, size))
-    information = np.zeros((count, size, size))
-    slopes[..., own], gradient[:, own] = part.slopes, part.gradient
-    information[:, own[:, None], own] = part.information
-    return part.spread, slopes, information, gradient, part.pixels
-
-
-def _views(session: Session) -> list[Corners]:
-    """The corners in each row's picture: rows may have been taken out or moved."""
-    rows = read_table(session.folder / OBSERVED)
-    table = read_table(session.folder / CORNERS, most=MOST_CORNERS)
-    for its, columns in ((rows, [PICTURE]), (table, [PICTURE, *COLUMNS])):
-        if missing := [column for column in columns if column not in its]:
-            raise InvalidFile(its.path, f"column {missing[0]!r} is missing")
-    pictures, points = np.array(table.cells[PICTURE]), len(session.board.points)
-    corner, u, v = (table.numbers(column, kind) for column, kind in COLUMNS.items())
-    if not np.isin(corner, np.arange(points)).all():
-        raise InvalidFile(table.path, f"a corner is not among the board's {points}")
-    pixels, views = np.stack([u, v], axis=1), []
-    for picture in rows.cells[PICTURE]:
-        its = pictures == picture
-        if its.sum() < FEWEST:
-            raise InvalidFile(table.path, f"{picture} has {counted(its.sum(), 'corner')}")
-        views.append(Corners(corner[its].astype(int), pixels[its], 0.0))
-    return views
+def views_of(board: Board, pictures: Sequence[Picture]) -> list[View]:
+    """The corners in pictures that were not refused, each with the board."""
+    return [(board, picture.corners) for picture in pictures if picture.corners is not None]

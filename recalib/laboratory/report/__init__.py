@@ -1,1 +1,1 @@
-"""What a calibration says: in words, on a page, in files."""
+"""The results of a calibration as text, page, recording and files."""

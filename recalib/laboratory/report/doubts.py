@@ -7,31 +7,32 @@ import numpy as np
 from recalib.identification.checks.poses import turned_axes
 from recalib.identification.model.frames import HELD
 from recalib.identification.validation import BLOCKWISE, GEOMETRIC, HYBRID, RANDOM
-from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.report.parameters import described, unidentifiable_directions
-from recalib.laboratory.tables.fault_words import coupling_in_words, in_words
+from recalib.laboratory.plausibility.fault_words import gain_in_words, in_words
+from recalib.laboratory.report.identified import named_parameters, unidentifiable_directions
+from recalib.laboratory.results import Results
 from recalib.spelling import counted
 
-RESIZED = 0.015  # of what measures an arm: all links together are seldom longer by as much
-TOGETHER = 0.3  # the part of residuals that may remain, were all links longer by one factor
-OUTVOTED = 0.5  # of the rows of a sight: were more outliers, something of it is not as described
+RESIZED = 0.015  # of a size: all links together are seldom so much longer
+TOGETHER = 0.3  # the part of residuals that remains if one factor for all links explains them
+OUTVOTED = 0.5  # of the rows of a sight: if more are outliers, it is not as described
 WORN = 3.0  # deviations of what wear is expected to do: beyond that is something else
 ENDS, MOST = ("of base", "of tool", "of target"), 3  # what is named first, and how much is named
-CONTRADICTED = 2.0  # times the error of what is used: so far off is no part of it
+CONTRADICTED = 2.0  # times the error at random: more in both others is a contradiction
 
 
-def doubts(result: Calibrated) -> Iterator[str]:
-    """Sentences, the gravest first; none where rows and lines agree."""
+def doubts(result: Results) -> Iterator[str]:
+    """Sentences, the gravest first; none if rows and errors agree."""
     if result.mistake:
         yield (
             "Careful: the table likely has a mistake, without which the URDF explains it far"
             f" better: {result.mistake}."
         )
-    session = result.observations, result.frames, result.tables, result.instruments, result.ends
+    for doubt in result.data.cameras.doubts if result.data.cameras else ():
+        yield f"Careful: {doubt}."
     for fault in result.faults:
-        yield f"Careful: {in_words(fault, *session)}."
-    if result.coupling and not result.mistake:
-        yield f"Careful: {coupling_in_words(result.coupling, result.arm.joints)}."
+        yield f"Careful: {in_words(fault, result.data, result.frames)}."
+    if result.wrong_gain and not result.mistake:
+        yield f"Careful: {gain_in_words(result.wrong_gain, result.arm.joints)}."
     yield from _outvoted(result)
     if not result.mistake:
         yield from _worn(result)
@@ -49,14 +50,14 @@ def doubts(result: Calibrated) -> Iterator[str]:
         )
 
 
-def _worn(result: Calibrated) -> Iterator[str]:
+def _worn(result: Results) -> Iterator[str]:
     """The offset or error of a link that is too large for one, if there is one."""
     model = result.geometry.model
     ratios = result.geometry.estimate.parameters / model.deviations
     ratios = np.where(model.free | (model.deviations <= HELD), 0.0, np.abs(ratios))
     ratios[model.optics_columns] = 0.0
     if ratios.max() > WORN:
-        largest = described(result)[int(ratios.argmax())]
+        largest = named_parameters(result)[int(ratios.argmax())]
         yield (
             f"Careful: the {largest.name} would be {largest.value:.3g} {largest.unit}, and wear is"
             f" expected to do {1 / ratios.max() * abs(largest.value):.2g} {largest.unit}; is each"
@@ -64,13 +65,14 @@ def _worn(result: Calibrated) -> Iterator[str]:
         )
 
 
-def _open(result: Calibrated) -> Iterator[str]:
+def _open(result: Results) -> Iterator[str]:
     """What postures leave open that others would tell."""
     if not result.unseen:
         return
-    words = [words for words, others_tell in unidentifiable_directions(result) if others_tell]
-    words.sort(key=lambda its: not any(end in its for end in ENDS))
-    axes = turned_axes(result.arm.forward(result.observations.joints))
+    pairs = zip(result.unidentifiable, unidentifiable_directions(result), strict=True)
+    words = [words for one, words in pairs if not one.lasting]
+    words.sort(key=lambda text: not any(end in text for end in ENDS))
+    axes = turned_axes(result.arm.forward(result.data.observations.joints))
     turns = ["never turned", "turned about one axis alone", "turned about two axes alone"]
     about = " and ".join(f"({', '.join(f'{x + 0.0:.2g}' for x in axis.round(2))})" for axis in axes)
     where = f", {about} of {result.arm.base}" * (0 < len(axes) < 3)
@@ -82,9 +84,9 @@ def _open(result: Calibrated) -> Iterator[str]:
     yield only + named * bool(words)
 
 
-def _resized(result: Calibrated) -> Iterator[str]:
-    """What is of another size than it is said to be, if links are as long as the URDF has them."""
-    optics, measured = result.observations.optics, result.observations.measured
+def _resized(result: Results) -> Iterator[str]:
+    """What has another size than described, if links are as long as in the URDF."""
+    optics, measured = result.data.observations.optics, result.data.observations.measured
     most = TOGETHER if optics is None else np.inf  # printers scale often, instruments seldom
     for what, (factor, remaining) in result.scales.items():
         if abs(factor - 1) <= RESIZED or remaining >= most:
@@ -99,10 +101,10 @@ def _resized(result: Calibrated) -> Iterator[str]:
         yield f"Careful: if links are as long as the URDF has them, {off}; {advice}."
 
 
-def _outvoted(result: Calibrated) -> Iterator[str]:
-    """Of several cameras, those whose pictures the others contradict."""
-    series = result.observations.series
-    for number, name in enumerate(result.sights if len(result.tables) > 1 else []):
+def _outvoted(result: Results) -> Iterator[str]:
+    """Cameras whose pictures the others contradict."""
+    series, names = result.data.observations.series, result.data.sight_names
+    for number, name in enumerate(names if len(result.data.tables) > 1 else []):
         doubted = np.count_nonzero(series[result.doubted - 1] == number)
         if doubted > OUTVOTED * (rows := np.count_nonzero(series == number)):
             yield (

@@ -9,8 +9,8 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from recalib.laboratory.calibrate import Calibrated
-from recalib.laboratory.report.summary import UNITS
+from recalib.laboratory.report.templates import UNITS
+from recalib.laboratory.results import Results
 
 COLOURS, GREY = {"before": "#D55E00", "after": "#0072B2"}, "#999"
 WIDTH = 9.6  # inches
@@ -30,7 +30,7 @@ STYLE: dict[Any, Any] = {
 
 
 @rc_context(STYLE)
-def draw_errors(result: Calibrated) -> str:
+def draw_errors(result: Results) -> str:
     """What part of the rows has at most which error, before and after."""
     kinds = result.calibration.estimate.noise.size
     figure, panels = figure_of(2.8, 1, kinds)
@@ -44,9 +44,9 @@ def draw_errors(result: Calibrated) -> str:
 
 
 @rc_context(STYLE)
-def draw_over_joints(result: Calibrated) -> str:
+def draw_over_joints(result: Results) -> str:
     """Position errors over each joint's coordinate, before and after."""
-    joints, arm = result.observations.joints[result.counted], result.arm
+    joints, arm = result.data.observations.joints[result.counted], result.arm
     rows = -(-len(arm.joints) // COLUMNS)
     figure, panels = figure_of(2.2 * rows, rows, COLUMNS, sharey=True)
     for panel in panels.flat[len(arm.joints) :]:
@@ -56,7 +56,7 @@ def draw_over_joints(result: Calibrated) -> str:
         _plain(panel.yaxis)
     for index, (joint, slides) in enumerate(zip(arm.joints, arm.slides, strict=True)):
         (scale, unit), panel = UNITS[0 if slides else 1], panels.flat[index]
-        panel.set_xlabel(f"{joint} [{unit}]")
+        panel.set_xlabel(f"{joint} [{unit}]", parse_math=False)  # a name may have dollar signs
         for name, numbers in _errors(result, 0, 1e3).items():
             panel.scatter(
                 scale * joints[:, index],
@@ -70,15 +70,15 @@ def draw_over_joints(result: Calibrated) -> str:
 
 
 @rc_context(STYLE)
-def draw_arm(result: Calibrated) -> tuple[str, float]:
+def draw_arm(result: Results) -> tuple[str, float]:
     """The arm in a middle posture, from the side and from above, with positions and their errors.
 
     Everything is drawn in the arm's base. Returns by how many times errors are drawn too long.
     """
-    joints, positions = result.observations.joints[result.counted], result.positions
+    joints, positions = result.data.observations.joints[result.counted], result.positions
     middle = np.linalg.norm(joints - np.median(joints, axis=0), axis=1).argmin()
     skeleton = result.arm.skeleton(joints[[middle]])[0]
-    residuals = {name: its[:, :3] for name, its in result.residuals.items()}
+    residuals = {name: rows[:, :3] for name, rows in result.residuals.items()}
     reach = np.linalg.norm(skeleton, axis=1).max()
     longer = LONGEST * reach / np.linalg.norm(residuals["before"], axis=1).max()
     longer = float(f"{longer:.0e}")  # a round number
@@ -89,8 +89,8 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
         panel.set(title=title, xlabel=f"{across} [m]", ylabel=f"{up} [m]")
         panel.set_aspect("equal", "datalim")
         panel.plot(*skeleton[:, axes].T, "o-", color=GREY, linewidth=3)
-        for name, its in residuals.items():
-            start, step = positions[:, axes].T, longer * its[:, axes].T
+        for name, rows in residuals.items():
+            start, step = positions[:, axes].T, longer * rows[:, axes].T
             scales = {"angles": "xy", "scale_units": "xy", "scale": 1, "width": 0.003}
             panel.quiver(*start, *step, color=COLOURS[name], rasterized=True, **scales)
             panel.update_datalim((start + step).T)
@@ -98,11 +98,12 @@ def draw_arm(result: Calibrated) -> tuple[str, float]:
     return svg_of(figure), longer
 
 
-def _errors(result: Calibrated, kind: int, scale: float) -> dict[str, np.ndarray]:
+def _errors(result: Results, kind: int, scale: float) -> dict[str, np.ndarray]:
     """Errors (n,) before and after, of position (kind 0) or orientation (1), times a scale."""
     part = slice(3 * kind, 3 * kind + 3)
     return {
-        name: scale * np.linalg.norm(its[:, part], axis=1) for name, its in result.residuals.items()
+        name: scale * np.linalg.norm(rows[:, part], axis=1)
+        for name, rows in result.residuals.items()
     }
 
 

@@ -1,78 +1,69 @@
-"""Hand-eye calibration by name: where camera and board are, how sure that is, what it is worth."""
+"""Hand-eye calibration: where cameras and boards are, how sure that is, and what it is worth."""
 
-from collections.abc import Iterator, Sequence
+import shlex
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.identification.validation import NOTHING, WAYS
-from recalib.laboratory.arms.urdf import angles_of
-from recalib.laboratory.calibrate import Calibrated
+from recalib.identification.arm_as_right import arm_as_right
+from recalib.identification.held_out import HeldOut
+from recalib.identification.validation import WAYS
 from recalib.laboratory.places import Place
+from recalib.laboratory.report.templates import render
+from recalib.laboratory.results import Results
 
 
-def pixel_error(result: Calibrated, way: str, kind: str, sight: int | None = None) -> float:
-    """px, the mean over held-out pictures of how far corners are off, each a root mean square.
+def pixel_error(result: Results, way: str, kind: str, sight: int | None = None) -> float:
+    """The mean over held-out pictures of how far corners are off [px], each a root mean square.
 
     Args:
-        sight: the number of a camera's sight of a board; all of them unless given.
+        sight: the number of a camera's sight of a board; all of them by default.
     """
-    optics, counted = result.observations.optics, result.counted
-    assert optics is not None
+    observations, counted = result.data.observations, result.counted
+    assert observations.optics is not None
     if sight is not None:
-        counted = counted[result.observations.targets[counted] == sight]
+        counted = counted[observations.targets[counted] == sight]
     residuals = result.validation.held_out[way][kind].residuals
-    return float(optics.moved(residuals)[counted].mean())
+    return float(observations.optics.moved(residuals)[counted].mean())
+
+
+def frame_name(place: Place) -> str:
+    """A place's name as TOML and ROS take it."""
+    return place.name.removeprefix("the ").replace(" ", "_")
 
 
 def static_transform(place: Place) -> str:
     """The command of ROS 2 that publishes a place."""
     turn = Rotation.from_matrix(place.pose[:3, :3]).as_quat()
     names = "x", "y", "z", "qx", "qy", "qz", "qw"
-    numbers = zip(names, np.concatenate([place.pose[:3, 3], turn]), strict=True)
+    numbers = zip(names, np.concatenate([place.position, turn]), strict=True)
     given = " ".join(f"--{name} {number:.7f}" for name, number in numbers)
-    child = place.name.removeprefix("the ").replace(" ", "_")
-    frames = f"--frame-id {place.link} --child-frame-id {child}"
+    frames = f"--frame-id {shlex.quote(place.link)} --child-frame-id {frame_name(place)}"
     return f"ros2 run tf2_ros static_transform_publisher {given} {frames}"
 
 
-def hand_eye(result: Calibrated) -> str:
+def hand_eye(result: Results) -> str:
     """A TOML with all frames, held-out errors, and the same with the arm taken as right."""
-    as_right = result.places_by(result.validation.full[NOTHING], [], result.arm.tool)
-    chosen = result.validation.chosen
-    lines = [*_tables(result.places, ""), *_errors(result, chosen, "held_out")]
-    lines += ["# the same with the arm taken as right: what its errors cost"]
-    lines += _tables(as_right, "arm_as_right.")
-    lines += _errors(result, NOTHING, "arm_as_right.held_out")
-    return "\n".join(lines)
+    validation = result.validation
+    held_out = {way: validation.held_out[way][validation.chosen] for way in WAYS}
+    folds = {way: errors.folds for way, errors in held_out.items()}
+    as_right, without = arm_as_right(result.geometry, result.data.observations, folds)
+    places = result.places_by(as_right, [], result.arm.tool)
+    parts = (
+        ("", result.places, _errors(result, held_out)),
+        ("arm_as_right.", places, _errors(result, without)),
+    )
+    functions = {"frame_name": frame_name, "static_transform": static_transform}
+    return render("hand_eye.toml.j2", parts=parts, **functions)
 
 
-def _tables(places: Sequence[Place], prefix: str) -> Iterator[str]:
-    for place in places:
-        yield f"[{prefix}{place.name.removeprefix('the ').replace(' ', '_')}]"
-        yield f'in = "{place.link}"'
-        yield f"position = {_quantities(1e3 * place.pose[:3, 3], 'mm')}"
-        yield f"roll_pitch_yaw = {_quantities(np.degrees(angles_of(place.pose)), 'deg')}"
-        if not prefix:  # errors of an arm that is taken as right are no noise
-            yield f"deviation = {_deviation(place.deviations)}"
-            yield f"deviation_beside_the_real_link = {_deviation(place.real_deviations)}"
-        yield f'ros = "{static_transform(place)}"'
-        yield ""
-
-
-def _errors(result: Calibrated, kind: str, name: str) -> Iterator[str]:
-    yield f"[{name}]"
-    for way in WAYS:
-        millimetres = 1e3 * result.validation.mean_error(way, kind)
-        pixels = pixel_error(result, way, kind)
-        yield f'"{way}" = {{ millimetres = {millimetres:.4g}, pixels = {pixels:.4g} }}'
-    yield ""
-
-
-def _deviation(deviations: tuple[float, float]) -> str:
-    length, turn = deviations
-    return f'["{1e3 * length:.3g} mm", "{np.degrees(turn):.3g} deg"]'
-
-
-def _quantities(numbers: np.ndarray, unit: str) -> str:
-    return "[" + ", ".join(f'"{number:.5f} {unit}"' for number in numbers) + "]"
+def _errors(result: Results, held_out: Mapping[str, HeldOut]) -> dict[str, tuple[float, float]]:
+    """Mean errors by way of folding: of positions [m], and of corners [px]."""
+    optics, means = result.data.observations.optics, {}
+    assert optics is not None
+    for way, errors in held_out.items():
+        judged = result.validation.judged(way)
+        off = errors[judged].errors[:, 0].mean(), optics.moved(errors.residuals)[judged].mean()
+        means[way] = float(off[0]), float(off[1])
+    return means

@@ -1,7 +1,6 @@
-"""The printed summary of a calibration: its errors, what is known of the arm, doubts."""
+"""The summary of a calibration: its errors, what is known of the arm, and doubts about it."""
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,12 +14,11 @@ from recalib.identification.validation import (
     RANDOM,
     WAYS,
 )
-from recalib.laboratory.arms.urdf import angles_of
-from recalib.laboratory.calibrate import Calibrated, rows_of
 from recalib.laboratory.report.doubts import doubts
 from recalib.laboratory.report.hand_eye import pixel_error
-from recalib.laboratory.report.parameters import unidentifiable_directions
-from recalib.nominal.meshes import with_own_meshes
+from recalib.laboratory.report.identified import unidentifiable_directions
+from recalib.laboratory.report.templates import UNITS, render
+from recalib.laboratory.results import Results
 from recalib.spelling import counted
 
 DOING = {
@@ -28,16 +26,51 @@ DOING = {
     GEOMETRIC: "geometry, as in arm.urdf",
     HYBRID: "all of it, as in correction.npz",
 }
-UNITS = (1e3, "mm"), (180 / np.pi, "deg")
-NUMBERS = "mean", "95 %", "largest"  # of errors
-MOST = 12  # doubted rows that are listed
+MOST = 12  # doubted rows, and directions, that are listed
 BEYOND = 0.5  # deg, mm: limits are rounded
 
 
-def errors_table(result: Calibrated) -> list[dict[str, Any]]:
-    """For each way of folding, quantity and what is done: mean, 95 % and largest error.
+class ErrorRow(NamedTuple):
+    """Held-out errors [unit] of one way of folding rows, and of what is corrected."""
 
-    The last rows are of what is used on outliers, which all others leave out.
+    folds: str
+    what: str
+    chosen: bool
+    unit: str
+    mean: float
+    within: float  # lie 95 % of the rows of each part that was held out
+    largest: float
+
+
+class JointRange(NamedTuple):
+    """The range in which a joint was measured, and its limits [unit]."""
+
+    name: str
+    unit: str
+    still: bool
+    low: float
+    high: float
+    lower: float
+    upper: float
+
+    @property
+    def beyond(self) -> bool:
+        """Whether it was measured beyond its limits."""
+        return self.low <= self.lower - BEYOND or self.high >= self.upper + BEYOND
+
+
+class CameraErrors(NamedTuple):
+    """Mean errors of corners [px] in held-out pictures, corrected and by the nominal arm."""
+
+    name: str
+    error: float
+    nominal: float
+
+
+def errors_table(result: Results) -> list[ErrorRow]:
+    """Held-out errors by the way of folding, by what is corrected, of position and rotation.
+
+    The last rows are of outliers, which all others leave out.
     """
     validation, rows = result.validation, []
 
@@ -45,8 +78,7 @@ def errors_table(result: Calibrated) -> list[dict[str, Any]]:
         for number, (scale, unit) in enumerate(UNITS[: held_out.errors.shape[1]]):
             errors = held_out.errors[:, number]
             numbers = scale * np.array([errors.mean(), held_out.radius(number), errors.max()])
-            row = {"folds": folds, "what": what, "chosen": chosen, "unit": unit}
-            rows.append(row | dict(zip(NUMBERS, numbers.tolist(), strict=True)))
+            rows.append(ErrorRow(folds, what, chosen, unit, *numbers.tolist()))
 
     for way in WAYS:
         for kind in KINDS:
@@ -57,22 +89,16 @@ def errors_table(result: Calibrated) -> list[dict[str, Any]]:
     return rows
 
 
-def summary(result: Calibrated) -> str:
-    """A page of text."""
-    return "\n".join(_lines(result)) + "\n"
-
-
-def verdict(result: Calibrated) -> str:
-    """In one sentence what it is worth, then what makes that doubtful."""
+def verdict(result: Results) -> str:
+    """In one sentence what the calibration is worth, then what makes that doubtful."""
     return " ".join([_worth(result), *doubts(result)])
 
 
-def _worth(result: Calibrated) -> str:
+def _worth(result: Results) -> str:
     chosen, left = result.validation.chosen, np.sum(~result.validation.counted)
-    without = f", {left} of {len(result.observations)} rows left out as outliers" if left else ""
+    without = f", {left} of {len(result.data)} rows left out as outliers" if left else ""
     compared = (BLOCKWISE, NOTHING), (BLOCKWISE, chosen), (RANDOM, chosen)
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
-    within = 1e3 * result.validation.radius
     if not result.worthwhile:
         return (
             "Correcting is no better than doing nothing: on postures that were not learned from,"
@@ -80,132 +106,77 @@ def _worth(result: Calibrated) -> str:
         )
     return (
         f"On postures away from those measured, the mean error falls from {before:.3g} mm to"
-        f" {after:.3g} mm, 95 % within {within:.3g} mm; near them, to {at_random:.3g} mm{without}."
+        f" {after:.3g} mm, 95 % within {1e3 * result.validation.radius:.3g} mm; near them, to"
+        f" {at_random:.3g} mm{without}."
     )
 
 
-def notes(result: Calibrated) -> list[str]:
-    """What else to know of it, in a line each."""
-    return [_subject(result), *_notes(result)]
-
-
-def _subject(result: Calibrated) -> str:
-    return f"{result.origin}, {result.arm.tool} in {result.arm.base}"
-
-
-def _lines(result: Calibrated) -> Iterator[str]:
-    yield _subject(result)
-    yield verdict(result)
-    yield ""
-    yield f"{'folds':<12}{'what is corrected':<34}{'mean':>9}{'95 %':>9}{'largest':>9}"
-    for row in errors_table(result):
-        what = row["what"] + (" *" if row["chosen"] else "")
-        numbers = "".join(f"{row[name]:9.3f}" for name in NUMBERS)
-        yield f"{row['folds']:<12}{what:<34}{numbers} {row['unit']}"
-    yield "* used. Each row was predicted by a calibration without it: at random among postures"
-    yield "like it, or in blocks of joint space, away from all postures that were measured."
-    yield "95 %: within it lie 95 % of the rows of each part that was held out."
-    yield ""
-    yield from _notes(result)
-
-
-def _notes(result: Calibrated) -> Iterator[str]:
-    arm, estimate = result.arm, result.calibration.estimate
-    postures = result.validation.postures
-    tables = result.tables
-    files = tables[0].name if len(tables) == 1 else f"{len(tables)} folders"
-    rows = f"{len(result.observations)} rows of {files}"
-    yield rows if len(postures) == len(result.observations) else f"{len(postures)} postures, {rows}"
-    if len(tables) > 1:
-        yield from rows_of(result.observations, result.sights)
-    if result.between is not None:
-        yield f"nominal positions are those of the URDF, with {result.between}"
-    if arm.massless:
-        yield "the URDF has no masses: what gravity does to the arm is not part of the model"
-    _, unseen = with_own_meshes(result.source, result.urdf)
-    if unseen:
-        yield (
-            f"missing from the recording: {counted(len(unseen), 'mesh file')} in none of the URDF's"
-            f" packages and folders, as {unseen[0]}"
-        )
-    used, noise = DOING[result.validation.chosen], _in_units(estimate.noise, 3)
-    yield f"noise of a measurement along an axis: {noise} (what is corrected: {used})"
-    yield from _places(result)
-    if result.observations.optics is not None:
-        kinds = result.validation.chosen, NOTHING
-        for number, name in enumerate(result.sights):
-            of = f" of {name}" if len(result.tables) > 1 else ""
-            found, right = (pixel_error(result, BLOCKWISE, kind, number) for kind in kinds)
-            yield (
-                f"corners in pictures{of} that were not learned from: {found:.2g} px off; with the"
-                f" arm as it is described, {right:.2g} px"
-            )
-        own = 1e3 * result.observations.optics.length
-        yield f"a picture alone tells a position to {own:.2g} mm: part of each held-out error"
-    if result.sockets:
-        yield "a ball in sockets shows errors there; between the sockets they may be larger"
-    if result.validation.full[HYBRID].pattern is not None:
-        yield "length scales of the Gaussian process come from all rows, also those held out"
-    if result.validation.unsettled:
-        yield "errors beyond geometry are not corrected: their identification did not converge"
-    if len(result.doubted):
-        more = ", ..." if len(result.doubted) > MOST else ""
-        listed = ", ".join(map(str, result.doubted[:MOST]))
-        yield f"outliers, rows with almost no weight: {listed}{more}"
-    covered = 100 * result.validation.coverage(BLOCKWISE)
-    yield (
-        f"95 % within {1e3 * result.validation.radius:.3g} mm, also away from what was measured; so"
-        f" made from the other parts, it holds for {covered:.0f} % of the rows held out"
+def subject(result: Results) -> str:
+    """Which arm it is."""
+    joints = f"an arm of {len(result.arm.joints)} joints"
+    return (
+        f"{result.urdf.origin if result.urdf else joints}, {result.arm.tool} in {result.arm.base}"
     )
-    for way in WAYS:
-        if lost := int(np.sum(result.validation.lost[way])):
-            yield (
-                f"errors {way} leave out {counted(lost, 'row')}: without their part, the others do"
-                " not determine all that all rows do"
-            )
-    directions = unidentifiable_directions(result)
-    passing = [words for words, other_postures_tell in directions if other_postures_tell]
-    for words in passing[:MOST]:
-        yield f"identifiable from other postures: {words}"
-    lasting = [one for one in zip(result.unidentifiable, directions, strict=True) if one[0].lasting]
-    for one, (words, _) in lasting:
-        if result.geometry.model.free[one.parameter]:  # instrument and target make up for it
-            advice = "; try: describe [target]" if len(result.tables) == 1 else ""
-            yield f"not identifiable from any posture: {words}{advice}"
-        elif words.startswith("offset"):
-            yield f"not identifiable from any posture: {words}"
-    yield f"parameters not identifiable from such measurements, kept small: {len(lasting)}"
+
+
+def summary(result: Results) -> str:
+    """A page of text."""
+    texts = {"subject": subject(result), "verdict": verdict(result)}
+    return render("summary.txt.j2", **texts, errors=errors_table(result), **_facts(result))
+
+
+def notes(result: Results) -> list[str]:
+    """What else to know, in a line each."""
+    return [subject(result), *render("notes.txt.j2", **_facts(result)).splitlines()]
+
+
+def _facts(result: Results) -> dict[str, object]:
+    """What the templates name."""
+    data, directions = result.data, unidentifiable_directions(result)
+    lasting = [one for one in result.unidentifiable if one.lasting]
+    anywhere = []
+    for one, words in zip(result.unidentifiable, directions, strict=True):
+        if one.lasting and result.geometry.model.free[one.parameter]:
+            advice = "; try: describe [target]" if len(data.tables) < 2 else ""
+            anywhere.append(words + advice)
+        elif one.lasting and words.startswith("offset"):
+            anywhere.append(words)
+    pairs = zip(result.unidentifiable, directions, strict=True)
+    corrected = "arm.urdf" if result.worthwhile else result.urdf.path.name if result.urdf else "arm"
+    names = [path.name for path in data.tables]
+    return {
+        "result": result,
+        "doing": DOING,
+        "most": MOST,
+        "files": names[0] if len(names) == 1 else names and f"{len(names)} folders",
+        "fit": corrected,
+        "postures": result.validation.postures,
+        "cameras": _cameras(result),
+        "open_here": [words for one, words in pairs if not one.lasting],
+        "open_anywhere": anywhere,
+        "held": len(lasting),
+        "joints": _joints(result),
+        "counted": counted,
+    }
+
+
+def _cameras(result: Results) -> list[CameraErrors]:
+    if result.data.cameras is None:
+        return []
+    kinds = result.validation.chosen, NOTHING
+    return [
+        CameraErrors(name, *(pixel_error(result, BLOCKWISE, kind, number) for kind in kinds))
+        for number, name in enumerate(result.data.sight_names)
+    ]
+
+
+def _joints(result: Results) -> list[JointRange]:
+    arm, still = result.arm, result.validation.postures.still
     limits = arm.model.lowerPositionLimit, arm.model.upperPositionLimit
-    columns = arm.joints, arm.slides, postures.still, result.observations.joints.T, *limits
-    for joint, slides, still, column, *allowed in zip(*columns, strict=True):
+    columns = arm.joints, arm.slides, still, result.data.observations.joints.T, *limits
+    ranges = []
+    for name, slides, parked, joints, *allowed in zip(*columns, strict=True):
         scale, unit = UNITS[0] if slides else UNITS[1]
-        low, high = scale * column.min(), scale * column.max()
-        if still:
-            yield f"{joint} stood still at {low:.1f} {unit}: nothing is known of its own errors"
-            continue
-        lower, upper = (scale * limit for limit in allowed)
-        within = lower - BEYOND < low and high < upper + BEYOND
-        outside = f", beyond its limits in the URDF, {lower:.1f} to {upper:.1f}"
-        measured = f"{joint} was measured from {low:.1f} to {high:.1f} {unit}"
-        yield measured if within else measured + outside
-
-
-def _places(result: Calibrated) -> Iterator[str]:
-    """Where instrument, targets and sockets are."""
-    fit = "arm.urdf" if result.worthwhile else result.urdf.name
-    for place in result.places:
-        where = ", ".join(f"{1e3 * number:.2f}" for number in place.pose[:3, 3])
-        words, kinds = f"{place.name} in {place.link} of {fit}: ({where}) mm", 1
-        if place.turned:
-            turns = ", ".join(f"{angle:.3f}" for angle in np.degrees(angles_of(place.pose)))
-            words, kinds = f"{words}, roll, pitch and yaw ({turns}) deg", 2
-        known, real = (
-            _in_units(its[:kinds], 2) for its in (place.deviations, place.real_deviations)
-        )
-        yield f"{words}, deviation {known}; relative to the real {place.link}, {real}"
-
-
-def _in_units(numbers: Sequence[float] | np.ndarray, digits: int) -> str:
-    """A length [m] and, if there is one, an angle [rad] as people read them."""
-    pairs = zip(UNITS, numbers, strict=False)
-    return ", ".join(f"{scale * number:.{digits}g} {unit}" for (scale, unit), number in pairs)
+        numbers = (float(scale * number) for number in (joints.min(), joints.max(), *allowed))
+        ranges.append(JointRange(name, unit, bool(parked), *numbers))
+    return ranges

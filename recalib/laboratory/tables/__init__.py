@@ -1,1 +1,1 @@
-"""Tables of measurements: how they are read, and checked before the fit."""
+"""Tables of measurements, and their descriptions: how they are read."""

@@ -1,6 +1,5 @@
 """The description of a table (TOML): columns, frames and distances; see docs/own_arm.md."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from os import PathLike
@@ -11,29 +10,27 @@ from scipy.spatial.transform import Rotation
 
 from recalib.errors import InvalidFile, InvalidSetting
 from recalib.files.quantities import ANGLE, LENGTH, Quantity
-from recalib.files.storage import read_file
+from recalib.files.toml import read_toml
 from recalib.identification.model.frames import LINK, Frames
-from recalib.laboratory.tables.columns import FARTHEST
 from recalib.spelling import listed
 
 PARTS = "columns", "instrument", "target", "distance", "wear"
 FRAMES = "instrument", "target"
 EXACT = 1e-6  # m, rad: how well a number without a deviation is known where others have one
-MOST = 16_000  # bytes: for a key of many parts, tomllib needs memory by the square of them
 ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 
 @dataclass(frozen=True)
 class Description:
-    """What is special to one data set.
+    """What a table cannot express.
 
     Attributes:
-        columns: by a heading of the table, what should have stood there, or "ignored".
-        instrument: (4, 4) m in the arm's base frame; None where it is unknown.
-        target: (4, 4) m in the tool link's frame; None where it is unknown.
+        columns: by a heading of the table the heading that it should have, or "ignored".
+        instrument: (4, 4) m in the arm's base frame; None if unknown.
+        target: (4, 4) m in the tool link's frame; None if unknown.
         instrument_deviations, target_deviations: (6,) m and rad, how well they are known along and
-            about the axes of those frames; None where they are unknown, or exact.
-        encoders: rad, by how much an encoder's zero may be off; 0 where it is not stated.
+            about the axes of those frames; None if they are unknown, or exact.
+        encoders: rad, by how much an encoder's zero may be off; 0 if it is not stated.
         links: m and rad, by how much a link may be off; None likewise.
         distances: m between the centres of two sockets, by their names in alphabetical order.
     """
@@ -59,8 +56,8 @@ class Description:
 
 def read_description(path: str | PathLike[str]) -> Description:
     """The description at `path`. Raises InvalidFile, which names the key."""
+    parts = read_toml(path)
     try:
-        parts = tomllib.loads(read_file(path, MOST).decode("utf-8"))
         for part in parts:
             if part not in PARTS:
                 raise InvalidSetting("part", part, listed(PARTS, "or"))
@@ -78,10 +75,6 @@ def read_description(path: str | PathLike[str]) -> Description:
         )
     except InvalidSetting as error:
         raise InvalidFile(path, str(error)) from None
-    except ValueError as error:  # not UTF-8, or not TOML
-        raise InvalidFile(path, f"it is no TOML: {error}") from None
-    except RecursionError:
-        raise InvalidFile(path, "its parts are nested too deep") from None
 
 
 def _columns(given: Any) -> dict[str, str]:
@@ -161,7 +154,6 @@ def _distance(given: Any) -> tuple[tuple[str, str], float]:
 
 def _read(key: str, text: Any, kind: Quantity) -> float:
     number = kind.value_of(key, text)
-    most, valid = FARTHEST[kind]
-    if abs(number) > most:
-        raise InvalidSetting(key, text, f"up to {valid}")
+    if abs(number) > kind.farthest:
+        raise InvalidSetting(key, text, f"up to {kind.write(kind.farthest)}")
     return number

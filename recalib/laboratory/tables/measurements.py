@@ -1,37 +1,48 @@
-"""What was measured of an arm, read from a table; docs/own_arm.md describes its columns."""
+"""What was measured of an arm, read from a table; docs/own_arm.md describes it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from recalib.errors import InvalidFile, InvalidSetting, UnsuitableRobot
-from recalib.files.quantities import ANGLE, LENGTH, TIME, Quantity
+from recalib.errors import InvalidFile
+from recalib.files.quantities import ANGLE, LENGTH
 from recalib.identification.checks.diagnostics import FEWEST
-from recalib.laboratory.tables.columns import FAKE, NUMBER, Table, read_table, table_of
+from recalib.laboratory.tables.columns import (
+    DESIRED,
+    ERRORS,
+    FAKE_POSITIONS,
+    MEASURED,
+    NOMINAL,
+    POSITIONS,
+    QUATERNIONS,
+    ROLL_PITCH_YAW,
+    ROTATION_VECTORS,
+    SOCKETS,
+    TARGETS,
+    TIMES,
+    Columns,
+)
 from recalib.laboratory.tables.description import Description
+from recalib.laboratory.tables.table import Table, read_table, table_of
 from recalib.nominal.kinematics import Arm
 from recalib.spelling import counted, listed
 
-POSITION = "x", "y", "z"
-NOMINAL = "x_nominal", "y_nominal", "z_nominal"
-MISSED = "x_missed", "y_missed", "z_missed"  # measured minus nominal, in place of x, y, z
-QUATERNION = "qx", "qy", "qz", "qw"
-ROTATIONS = {QUATERNION: NUMBER, ("rx", "ry", "rz"): ANGLE, ("roll", "pitch", "yaw"): ANGLE}
-DESIRED = {POSITION: LENGTH} | ROTATIONS
-VECTORS = DESIRED | {NOMINAL: LENGTH, MISSED: LENGTH}
-OBSERVED = "measurements.csv"  # the table in a folder that `recalib observe` wrote
-PICTURE = "picture"  # the column with the names of files, which says nothing of an arm
-SENT = [heading.split()[0] for heading in FAKE]  # nor do commands, where they were measured at
-TARGET, TIMES = "target", "time"
-LABELS = TARGET, "socket"
-MEASURED = [*(name for group in VECTORS for name in group), *LABELS, TIMES, PICTURE]
+PREFIX = "joint "  # before the name of a joint that is also the heading of a measured column
 SKEW = 0.01  # of a quaternion's length, as instruments round it
 COPIES = 0.1  # of the rows, at most: no instrument repeats itself so often to the last digit
 STILL = 1e-3  # rad, m: a joint that moves less could as well be held by its brake
-Vectors = Mapping[tuple[str, ...], np.ndarray | None]
+
+
+TURNS = {
+    QUATERNIONS: Rotation.from_quat,
+    ROTATION_VECTORS: Rotation.from_rotvec,
+    ROLL_PITCH_YAW: partial(Rotation.from_euler, "xyz"),
+}
 
 
 @dataclass(frozen=True)
@@ -39,43 +50,28 @@ class Measurements:
     """Rows of a table, in SI units.
 
     Attributes:
-        count: n, how many there are.
-        coordinates: (n, joints) rad, or m where a joint slides, that the controller reported.
-        positions: (n, 3) m of a target in the instrument's frame; None where there are none.
-        rotations: (n, 3, 3) of the target in the instrument's frame; None likewise.
-        nominal: (n, 3) m, where the positions should have been; None likewise.
-        targets: (n,) names of the targets that were measured, the same everywhere if there is one.
-        sockets: (n,) names of the sockets in which the ball sat; None where there are none.
-        times: (n,) s, when rows were measured; None where there are none.
+        path: of the table, for messages.
+        joints: (n, columns) rad, or m where a joint slides, that the controller reported; None in a
+            table without joints. See `Coupling` for joints that follow others.
+        measured: poses (n, 4, 4) or positions (n, 3) [m] of targets in the instrument's frame; None
+            without either.
+        columns: all other columns of the table, by their names in `tables.columns`.
     """
 
-    count: int
-    coordinates: np.ndarray | None = None
-    positions: np.ndarray | None = None
-    rotations: np.ndarray | None = None
-    nominal: np.ndarray | None = None
-    targets: np.ndarray | None = None
-    sockets: np.ndarray | None = None
-    times: np.ndarray | None = None
+    path: Path
+    joints: np.ndarray | None
+    measured: np.ndarray | None
+    columns: Mapping[str, np.ndarray]
 
     def __len__(self) -> int:
-        return self.count
+        rows = self.measured if self.joints is None else self.joints
+        return 0 if rows is None else len(rows)
 
     @property
-    def joints(self) -> np.ndarray:
-        """The joint coordinates (n, joints) of rows that have them. Raises InvalidSetting."""
-        if self.coordinates is None:
-            raise InvalidSetting("joint coordinates", None, "those of each joint in each row")
-        return self.coordinates
-
-    @property
-    def measured(self) -> np.ndarray | None:
-        """Poses (n, 4, 4) or positions (n, 3) [m] of targets; None where there are neither."""
-        if self.rotations is None:
-            return self.positions
-        poses = np.tile(np.eye(4), (self.count, 1, 1))
-        poses[:, :3, :3], poses[:, :3, 3] = self.rotations, self.positions
-        return poses
+    def positions(self) -> np.ndarray | None:
+        """Positions (n, 3) [m] of targets in the instrument's frame; None without any."""
+        poses = self.measured
+        return poses if poses is None or poses.ndim == 2 else poses[:, :3, 3]
 
 
 def read_measurements(
@@ -83,49 +79,39 @@ def read_measurements(
 ) -> Measurements:
     """The measurements of an arm in the table at `path`.
 
-    Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, there
-    twice or useless; a cell that is no number or too large for an arm; too few rows; nothing
-    measured; rows pasted twice. UnsuitableRobot: a joint that is called as a column of
-    measurements.
+    Raises InvalidFile: no such table; a column that is missing, unknown, in another unit, given
+    twice or useless; a cell that is not a number or too large for an arm; too few rows; nothing
+    measured; rows pasted twice.
     """
-    _check_names(arm)
     table = read_table(path, description.columns if description else None)
-    read = _read(table, arm)
-    if read.coordinates is None:
-        raise InvalidFile(path, _lacking(arm, arm.joints[0]))
-    if len(read) < FEWEST:
-        raise InvalidFile(path, f"it has {counted(len(read), 'row')}; expected: at least {FEWEST}")
-    if read.positions is None and read.sockets is None:
-        raise InvalidFile(path, "nothing was measured in it; expected: x, y, z or socket")
-    if read.positions is not None and read.sockets is not None:
-        raise InvalidFile(path, "it has both positions and sockets; expected: one of them")
-    if (np.ptp(read.coordinates, axis=0) < STILL).all():
-        raise InvalidFile(path, "no joint moves in it; expected: rows of different postures")
+    rows = check_measured(_read(table, arm, MEASURED))
     _check_copies(table)
-    return read
+    return rows
 
 
-def read_desired(path: str | PathLike[str], arm: Arm, in_instrument: bool = False) -> Measurements:
-    """Desired joint coordinates, poses or positions of the tool in the arm's base, or both.
+def read_joints(path: str | PathLike[str], arm: Arm) -> Measurements:
+    """Joint coordinates and pictures in the table at `path`. Raises as `read_measurements`."""
+    return _check_rows(_read(read_table(path), arm, MEASURED))
+
+
+def read_desired(path: str | PathLike[str], arm: Arm, target: bool = False) -> Measurements:
+    """Desired joint coordinates, or poses or positions, or both.
 
     Args:
-        in_instrument: the poses or positions are those of targets in the instrument's frame.
+        target: whether rows may name the target whose pose is desired.
 
-    Raises InvalidFile as `read_measurements` does, but one row is enough; where a column says
-    nothing of what is desired; and where rows are commands, which are corrected already.
+    Raises InvalidFile as `read_measurements`, but one row is enough; also if a column has nothing
+    to do with what is desired, or if rows are commands, which are corrected already.
     """
-    _check_names(arm)
     table = read_table(path)
-    if TARGET in table and not in_instrument:
-        raise InvalidFile(path, f"column {TARGET!r} needs recalib correct --frame instrument")
-    if SENT[0] in table:
+    if TARGETS.headings[0] in table and not target:
+        raise InvalidFile(path, "column 'target' needs recalib correct --frame instrument")
+    if FAKE_POSITIONS.headings[0] in table:
         raise InvalidFile(path, "its commands are corrected already; expected: desired poses")
-    desired = [name for group in DESIRED for name in group]
-    table.check_columns([*arm.joints, *desired, *[TARGET] * in_instrument, PICTURE], _moved_by(arm))
-    read = _read(table, arm)
-    if read.coordinates is None and read.positions is None:
+    rows = _read(table, arm, DESIRED, joints_needed=False)
+    if rows.joints is None and rows.measured is None:
         raise InvalidFile(path, f"it has neither x, y, z nor joints; expected: {_columns(arm)}")
-    return read
+    return rows
 
 
 def measurements_so_far(
@@ -133,22 +119,54 @@ def measurements_so_far(
 ) -> Measurements:
     """The measurements in the content of a table that still grows: one row is enough.
 
-    Raises InvalidFile as `read_measurements` does, and where a row has no position.
+    Raises InvalidFile as `read_measurements`, and if a row has no position.
     """
-    _check_names(arm)
-    read = _read(table_of(content, path, description.columns), arm)
-    if read.coordinates is None:
-        raise InvalidFile(path, _lacking(arm, arm.joints[0]))
-    if read.positions is None:
+    rows = _read(table_of(content, path, description.columns), arm, MEASURED)
+    if rows.measured is None:
         raise InvalidFile(path, "no positions are measured in it; expected: x, y and z")
-    return read
+    return rows
+
+
+def joint_headings(arm: Arm, angle: str = "deg", length: str = "mm") -> list[str]:
+    """The headings of an arm's joints as we write them, with their units."""
+    taken = {heading for kind in MEASURED for heading in kind.headings}
+    names = (PREFIX + joint if joint in taken else joint for joint in arm.coupling.columns)
+    units = (length if slides else angle for slides in arm.coupling.slides)
+    return [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
+
+
+def check_measured(rows: Measurements) -> Measurements:
+    """The same rows, if an arm can be calibrated by them. Raises InvalidFile."""
+    sockets = SOCKETS.name in rows.columns
+    if rows.measured is None and not sockets:
+        raise InvalidFile(rows.path, "nothing was measured in it; expected: x, y, z or socket")
+    if rows.measured is not None and sockets:
+        raise InvalidFile(rows.path, "it has both positions and sockets; expected: one of them")
+    return _check_rows(rows)
+
+
+def _check_rows(rows: Measurements) -> Measurements:
+    assert rows.joints is not None
+    if (times := rows.columns.get(TIMES.name)) is not None:
+        if (early := np.diff(times) < 0).any():
+            row = int(early.argmax()) + 2
+            found = f"row {row} was measured before row {row - 1}; try: sort the rows by time"
+            raise InvalidFile(rows.path, found)
+        if len(times) > 1 and times[0] == times[-1]:
+            raise InvalidFile(rows.path, "column 'time' is the same in all rows; try: without it")
+    if len(rows) < FEWEST:
+        found = f"it has {counted(len(rows), 'row')}; expected: at least {FEWEST}"
+        raise InvalidFile(rows.path, found)
+    if (np.ptp(rows.joints, axis=0) < STILL).all():
+        raise InvalidFile(rows.path, "no joint moves in it; expected: rows of different postures")
+    return rows
 
 
 def _check_copies(table: Table) -> None:
-    """Raise InvalidFile where many rows are copies: they would count as measured anew."""
+    """Raise InvalidFile if many rows are copies: they would count as measured anew."""
     first: dict[tuple[str, ...], int] = {}
     rows = enumerate(zip(*table.cells.values(), strict=True), 1)
-    copies = [(row, its) for row, cells in rows if (its := first.setdefault(cells, row)) != row]
+    copies = [(row, other) for row, key in rows if (other := first.setdefault(key, row)) != row]
     if len(copies) > COPIES * len(table):
         row, other = copies[0]
         raise InvalidFile(
@@ -158,139 +176,63 @@ def _check_copies(table: Table) -> None:
         )
 
 
-def _check_names(arm: Arm) -> None:
-    """Raise UnsuitableRobot where a joint's column would be that of a measurement, too."""
-    for joint in arm.joints:
-        if joint in MEASURED:
-            raise UnsuitableRobot(
-                f"the joint {joint!r} has the name of a measured column; try: another name for it"
-                " in the URDF"
-            )
-
-
-def _read(table: Table, arm: Arm) -> Measurements:
-    path = table.path
-    table.check_columns([*arm.joints, *MEASURED, *SENT], _moved_by(arm))
-    vectors = {group: _vector(table, group, kind) for group, kind in VECTORS.items()}
-    coordinates = None
-    if any(joint in table for joint in arm.joints):
-        for joint in arm.joints:
-            if joint not in table:
-                raise InvalidFile(path, _lacking(arm, joint))
-        coordinates = np.stack(
-            [
-                table.numbers(joint, kind)
-                for joint, kind in zip(arm.joints, _kinds(arm), strict=True)
-            ],
-            axis=1,
-        )
-    targets, sockets = (_labels(table, label) for label in LABELS)
-    return Measurements(
-        len(table),
-        coordinates,
-        _positions(table, vectors),
-        _rotations(table, vectors),
-        vectors[NOMINAL],
-        targets,
-        sockets,
-        _times(table),
-    )
-
-
-def _times(table: Table) -> np.ndarray | None:
-    """Seconds (n,) from whenever."""
-    if TIMES not in table:
-        return None
-    times = table.dates(TIMES) if not table.units[TIMES] else table.numbers(TIMES, TIME)
-    if (early := np.diff(times) < 0).any():
-        row = int(early.argmax()) + 2
-        raise InvalidFile(
-            table.path, f"row {row} was measured before row {row - 1}; try: sort the rows by time"
-        )
-    if times[0] == times[-1]:
-        raise InvalidFile(table.path, f"column {TIMES!r} is the same in all rows; try: without it")
-    return times
-
-
-def _labels(table: Table, column: str) -> np.ndarray | None:
-    if column not in table:
-        return None
-    labels = table.cells[column]
-    if "" in labels:
-        row = labels.index("") + 1
-        raise InvalidFile(table.path, f"row {row} of column {column!r} is empty; expected: a name")
-    first: dict[str, str] = {}
-    for label in labels:
-        if label != (other := first.setdefault(label.casefold(), label)):
+def _read(
+    table: Table, arm: Arm, layout: Sequence[Columns], joints_needed: bool = True
+) -> Measurements:
+    columns = arm.coupling.columns
+    names = [PREFIX + joint if PREFIX + joint in table else joint for joint in columns]
+    others = [kind for kind in layout if not {*names} & {*kind.headings}]
+    for kind in (kind for kind in layout if kind not in others):
+        if rest := [name for name in kind.headings if name in table and name not in names]:
+            name = next(name for name in kind.headings if name in names)
             raise InvalidFile(
                 table.path,
-                f"{other!r} and {label!r} of column {column!r} differ in capitals alone; expected:"
-                " one spelling",
+                f"column {name!r} is that of the joint, and {listed(rest, 'and')} need a measured"
+                f" {name}; try: call the joint's column '{PREFIX}{name}'",
             )
-    return np.array(labels)
+    note = f" ({arm.tool} is moved by {listed(columns, 'and')})"
+    arrays, joints = table.read(others, names, note), None
+    missing = [name for name in names if name not in table]
+    if missing and (joints_needed or len(missing) < len(names)):
+        reason = f"the column of joint {missing[0]!r} is missing"
+        raise InvalidFile(table.path, f"{reason}; {arm.tool} is moved by {_columns(arm)}")
+    if not missing:
+        kinds = (LENGTH if slides else ANGLE for slides in arm.coupling.slides)
+        pairs = zip(names, kinds, strict=True)
+        joints = np.stack([table.numbers(name, kind) for name, kind in pairs], axis=1)
+    return Measurements(table.path, joints, _measured(table.path, arrays), arrays)
 
 
-def _kinds(arm: Arm) -> list[Quantity]:
-    return [LENGTH if slides else ANGLE for slides in arm.slides]
+def _measured(path: Path, given: Mapping[str, np.ndarray]) -> np.ndarray | None:
+    """Poses (n, 4, 4), positions (n, 3) [m] or None, from columns.
+
+    Raises InvalidFile of columns that contradict one another, or are useless.
+    """
+    turns = [kind for kind in TURNS if kind.name in given]
+    positions = given.get(POSITIONS.name)
+    if ERRORS.name in given:
+        if NOMINAL.name not in given or positions is not None:
+            names = f"{listed(ERRORS.headings, 'and')} need {listed(NOMINAL.headings, 'and')}"
+            raise InvalidFile(path, f"{names}, and no x, y, z")
+        positions = given[NOMINAL.name] + given[ERRORS.name]
+    if len(turns) > 1:
+        both = " and ".join(", ".join(kind.headings) for kind in turns)
+        raise InvalidFile(path, f"its rotations are given twice: {both}; expected: once")
+    if not turns:
+        return positions
+    if positions is None:
+        raise InvalidFile(path, "it has rotations without positions; expected: also x, y, z")
+    (kind,) = turns
+    lengths = np.linalg.norm(given[kind.name], axis=1)
+    if kind is QUATERNIONS and (wrong := np.abs(lengths - 1) > SKEW).any():
+        row = int(wrong.argmax())
+        found = f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1"
+        raise InvalidFile(path, found)
+    poses = np.tile(np.eye(4), (len(positions), 1, 1))
+    poses[:, :3, :3] = TURNS[kind](given[kind.name]).as_matrix()
+    poses[:, :3, 3] = positions
+    return poses
 
 
 def _columns(arm: Arm) -> str:
-    units = {ANGLE: "deg", LENGTH: "mm"}
-    pairs = zip(arm.joints, _kinds(arm), strict=True)
-    return listed((f"{joint} [{units[kind]}]" for joint, kind in pairs), "and")
-
-
-def _moved_by(arm: Arm) -> str:
-    """Why other joints have no columns, as where the tool is an inner link."""
-    return f" ({arm.tool} is moved by {listed(arm.joints, 'and')})"
-
-
-def _lacking(arm: Arm, joint: str) -> str:
-    return f"the column of joint {joint!r} is missing; {arm.tool} is moved by {_columns(arm)}"
-
-
-def _positions(table: Table, vectors: Vectors) -> np.ndarray | None:
-    nominal, error, positions = vectors[NOMINAL], vectors[MISSED], vectors[POSITION]
-    if error is None:
-        return positions
-    if nominal is None or positions is not None:
-        raise InvalidFile(
-            table.path, f"{listed(MISSED, 'and')} need {listed(NOMINAL, 'and')}, and no x, y, z"
-        )
-    return nominal + error
-
-
-def _vector(table: Table, group: tuple[str, ...], kind: Quantity) -> np.ndarray | None:
-    missing = [name for name in group if name not in table]
-    if len(missing) == len(group):
-        return None
-    if missing:
-        absent, whole = listed(missing, "and"), listed(group, "and")
-        are = "is" if len(missing) == 1 else "are"
-        raise InvalidFile(table.path, f"{absent} {are} missing: {whole} are needed together")
-    return np.stack([table.numbers(name, kind) for name in group], axis=1)
-
-
-def _rotations(table: Table, vectors: Vectors) -> np.ndarray | None:
-    given = {group: its for group in ROTATIONS if (its := vectors[group]) is not None}
-    if not given:
-        return None
-    if len(given) > 1:
-        both = " and ".join(", ".join(group) for group in given)
-        raise InvalidFile(table.path, f"its rotations are given twice: {both}; expected: once")
-    if vectors[POSITION] is None and vectors[MISSED] is None:
-        raise InvalidFile(table.path, "it has rotations without positions; expected: x, y, z, too")
-    ((group, numbers),) = given.items()
-    if group == QUATERNION:
-        lengths = np.linalg.norm(numbers, axis=1)
-        wrong = np.abs(lengths - 1) > SKEW
-        if wrong.any():
-            row = wrong.argmax()
-            raise InvalidFile(
-                table.path,
-                f"the quaternion in row {row + 1} has length {lengths[row]:.3g}; expected: 1",
-            )
-        return Rotation.from_quat(numbers).as_matrix()
-    if group[0] == "rx":
-        return Rotation.from_rotvec(numbers).as_matrix()
-    return Rotation.from_euler("xyz", numbers).as_matrix()
+    return listed(joint_headings(arm), "and")

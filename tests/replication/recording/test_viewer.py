@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from recalib.errors import RecalibError
-from recalib.laboratory.viewer.program import PROGRAM, quiet
+from recalib.laboratory.viewer.process import PROGRAM, quiet
 from replication.recording import pictures
 from replication.recording.phases import ARM, BEFORE
 from replication.recording.pictures import ends, take_pictures
@@ -34,7 +34,7 @@ def test_it_writes_nothing_into_a_home(tmp_path):
 
 
 def test_nothing_else_starts_it():
-    own, viewer = Path(__file__), ROOT / "recalib" / "laboratory" / "viewer" / "program.py"
+    own, viewer = Path(__file__), ROOT / "recalib" / "laboratory" / "viewer" / "process.py"
     files = [
         path for part in ("recalib", "replication", "tests") for path in (ROOT / part).rglob("*.py")
     ]

@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 
 from recalib.damaged.damage import LinkShortening
 from recalib.errors import InvalidFile
-from recalib.laboratory.viewer.program import PROGRAM, quiet
+from recalib.laboratory.viewer.process import PROGRAM, quiet
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.nominal import meshes
 from replication.recording.recorded import typical_seed

@@ -10,8 +10,8 @@ import pytest
 from recalib.damaged.damage import EncoderShift, LinkShortening, apply
 from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, RecalibError
+from recalib.laboratory.plausibility.mistakes import WrongNominal
 from recalib.laboratory.tables.description import Description, read_description
-from recalib.laboratory.tables.nominal_checks import WrongNominal
 from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from replication.config.study import Source

@@ -1,0 +1,47 @@
+"""Arrays that callers give: of the right shape, finite, and with rotations that are rotations."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from recalib.errors import InvalidSetting
+
+SKEW = 1e-3  # of a rotation's axes: more than rounding
+Shape = Sequence[int | str]  # sizes, or letters for any size
+
+
+def array_of(name: str, given: ArrayLike, *shapes: Shape) -> np.ndarray:
+    """An array of finite numbers of one of the shapes, such as ("n", 3).
+
+    Raises InvalidSetting, which names what was given and what was expected.
+    """
+    texts = (f"({', '.join(map(str, shape))}{',' * (len(shape) == 1)})" for shape in shapes)
+    valid = f"an array of finite numbers of shape {' or '.join(texts)}"
+    try:
+        array = np.asarray(given)
+    except ValueError:  # rows of different lengths
+        array = np.array(None)
+    if array.dtype.kind not in "iuf":
+        raise InvalidSetting(name, type(given).__name__, valid)
+    if not any(_fits(array, shape) for shape in shapes):
+        raise InvalidSetting(name, f"of shape {array.shape}", valid)
+    if not np.isfinite(array).all():
+        raise InvalidSetting(name, "NaN or infinity in places", valid)
+    return array.astype(float)
+
+
+def check_rotations(name: str, poses: np.ndarray) -> None:
+    """Raise InvalidSetting unless poses (..., 4, 4) have rotations, and 0, 0, 0, 1 below."""
+    turns, rows = poses[..., :3, :3], poses[..., 3, :]
+    skew = np.abs(turns @ turns.swapaxes(-1, -2) - np.eye(3)).max(axis=(-1, -2))
+    good = (skew < SKEW) & (np.linalg.det(turns) > 0)
+    if not (good & (np.abs(rows - [0, 0, 0, 1]).max(axis=-1) < SKEW)).all():
+        valid = "poses: a rotation (3, 3), a position (3,) in m, and 0, 0, 0, 1 below"
+        raise InvalidSetting(name, "matrices of something else", valid)
+
+
+def _fits(array: np.ndarray, shape: Shape) -> bool:
+    sizes = zip(array.shape, shape, strict=False)
+    right = (isinstance(wanted, str) or size == wanted for size, wanted in sizes)
+    return array.ndim == len(shape) and all(right)

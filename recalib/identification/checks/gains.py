@@ -1,0 +1,58 @@
+"""Joints that do not turn as their columns say: by a share of another joint, or more or less."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from recalib.identification.calibration import Calibration
+from recalib.identification.checks.postures import find_postures
+from recalib.identification.checks.sequence import SHARE, Candidate, Unexplained, slopes_of
+from recalib.identification.model.error_model import JOINT_ERRORS
+from recalib.identification.model.observations import Observations
+
+LEAST, LEAST_GAIN = 0.01, 0.02  # of a joint's motion: gears and sag, which are neither, do less
+FIRST_WAVE = [*JOINT_ERRORS].index("sine 1")
+
+
+@dataclass(frozen=True)
+class WrongGain:
+    """A joint turns, beyond what its column says, by a share of what another's says.
+
+    Attributes:
+        joint, by: their numbers; the same where it moves by another gain.
+        share: of the motion.
+    """
+
+    joint: int
+    by: int
+    share: float
+
+
+def wrong_gain(geometry: Calibration, observations: Observations) -> WrongGain | None:
+    """The one that explains the most of what no arm explains; None if chance or gears may do so.
+
+    All by one joint are compared without its waves, which look alike where it turned little.
+    """
+    slopes = slopes_of(geometry, observations, 1)
+    model, nominal = slopes.model, geometry.model.nominal
+    postures = find_postures(observations.joints, nominal.slides, geometry.estimate.noise[0])
+    alike = len(observations) / len(postures)
+    by_offset = slopes.arm[..., model.offset_columns] / model.deviations[model.offset_columns]
+    moved = observations.joints - observations.joints.mean(axis=0)
+    rows, sure = np.arange(len(moved)), []
+    whole = Unexplained(slopes.residuals, slopes.arm, alike)
+    for by in np.flatnonzero(~postures.still):
+        terms = model.offset_columns.start + len(moved[0]) * np.arange(len(model.names)) + by
+        without = slopes.arm.copy()
+        without[..., terms[FIRST_WAVE:]] = 0.0
+        plain = Unexplained(slopes.residuals, without, alike)
+        for joint in np.flatnonzero(nominal.slides == nominal.slides[by]):
+            columns = by_offset[..., [joint]] * moved[:, by, None, None]
+            candidate = Candidate("", rows, columns)
+            share, _, (found,) = plain.plainest(candidate)
+            least = LEAST_GAIN if joint == by else LEAST
+            if share < SHARE or abs(found) < least:
+                continue
+            if joint == by or whole.plainest(candidate)[0] >= SHARE:
+                sure.append((share, WrongGain(int(joint), int(by), float(found))))
+    return max(sure, key=lambda one: one[0], default=(None, None))[1]

@@ -1,1 +1,0 @@
-"""Arms that users bring: a URDF, a Denavit-Hartenberg table, that of Universal Robots."""

@@ -1,0 +1,225 @@
+"""What each command of `recalib` does with its options."""
+
+import argparse
+import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from recalib.errors import InvalidFile
+from recalib.files.outputs import check_new, write_new
+from recalib.identification.checks.diagnostics import FEWEST
+from recalib.laboratory.calibrate import Calibrated, calibrate_arm
+from recalib.laboratory.correction import BASE, INSTRUMENT, Commands, Correction, load_correction
+from recalib.laboratory.options import DONE, NO_BETTER
+from recalib.laboratory.propose import propose
+from recalib.laboratory.reaching import Goals
+from recalib.laboratory.report.folder import files_of, postures_table
+from recalib.laboratory.tables.columns import TARGETS
+from recalib.laboratory.tables.measurements import STILL, read_desired
+from recalib.laboratory.urdf.dh_table import read_rows, urdf_of
+from recalib.nominal.denavit_hartenberg import arm_of_table
+from recalib.spelling import counted, listed
+
+TURNED = 0.01  # deg: a rotation that is off by less is reached
+Options = argparse.Namespace
+
+
+def _load(module: str, name: str) -> Any:
+    """A function that needs an optional package: Matplotlib, Rerun or OpenCV."""
+    return getattr(import_module(f"recalib.{module}"), name)
+
+
+def calibrate(options: Options) -> int:
+    """Write a folder of results from a table, or from folders of pictures."""
+    page_of = _load("laboratory.report.page", "page_of")
+    paths: list[Path] = options.measurements
+    folders = [path for path in paths if path.is_dir()]
+    if len(paths) > 1 and len(folders) < len(paths):
+        valid = "expected: one, or the folders that observe wrote"
+        raise InvalidFile(paths[0], f"it is one of {len(paths)} tables; {valid}")
+    settings = options.description, options.tool, options.base, print_progress
+    if folders:
+        identify = _load("laboratory.pictures.sessions", "calibrate_pictures")
+        result: Calibrated = identify(options.urdf, folders, *settings)
+    else:
+        result = calibrate_arm(options.urdf, paths[0], *settings)
+    print_progress(f"files in {options.out}")
+    files, remark = files_of(result) | {"page.html": page_of(result)}, ""
+    if options.recording:
+        recording, remark = _load("laboratory.report.recording", "recording_of")(result)
+        files |= {"recording.rrd": recording} if recording else {}
+    write_new(options.out, files)
+    print(result.summary(), end="")
+    print(f"\n{options.out}: {', '.join(files)}")
+    print(remark, end="\n" * bool(remark))
+    return DONE if result.worthwhile else NO_BETTER
+
+
+def live(options: Options) -> int:
+    """Move and measure, then calibrate by all rows."""
+    observed = Path(options.out).with_name(f"{Path(options.out).name}_observed")
+    if options.board is not None:
+        check_new(observed, folder=True)
+    measure_live = _load("laboratory.live.command", "measure_live")
+    ended = measure_live(options, print_progress)
+    print_progress(f"ended: {ended.reason}")
+    if ended.rows < FEWEST:
+        rows = counted(ended.rows, "row")
+        print(f"{rows} in {options.table}; a calibration needs {FEWEST}: the same call goes on")
+        return DONE
+    options.measurements = [options.table]
+    if options.board is not None:  # all corners together determine more, also of the lens
+        pictures = {"pictures": Path("."), "joints": options.table, "name": "camera", "lens": None}
+        observe(Options(**vars(options) | pictures | {"out": observed}))
+        options.measurements = [observed]
+    return calibrate(options)
+
+
+def correct(options: Options) -> int:
+    """Write commands that reach the desired poses."""
+    correction, frame = load_correction(options.calibration), options.frame
+    arm = correction.arm
+    rows = read_desired(options.desired, arm, target=frame == INSTRUMENT)
+    poses, targets = rows.measured, rows.columns.get(TARGETS.name)
+    if poses is None:  # joints mean the pose that they give the nominal arm
+        if frame == INSTRUMENT:
+            valid = "a target's poses in the instrument's frame; joints alone need --frame base"
+            raise InvalidFile(options.desired, f"x, y, z are missing; expected: {valid}")
+        assert rows.joints is not None
+        poses, frame = arm.forward(arm.coupling.joints(rows.joints)), BASE
+    names = None if targets is None else targets.tolist()
+    commands = correction.correct(poses, rows.joints, names, frame)
+    table = postures_table(arm, commands.joints, commands.poses, fake=True)
+    write_new(options.out, table, ".csv")
+    ends = correction.unidentifiable_ends
+    if ends and frame == BASE:
+        _warn(
+            f"errors of {ends} are not identifiable from the measurements, and remain in commands"
+            " in the base; try: --frame instrument, or a calibration with measured rotations and"
+            " with [target] in its description"
+        )
+    turned = np.degrees(commands.turned)
+    if turned.max() > TURNED:
+        _warn(
+            f"an arm of {len(arm.coupling.columns)} joints reaches positions; rotations stay up to"
+            f" {turned.max():.2g} deg from those desired, the most in row {turned.argmax() + 1}"
+        )
+    if commands.beyond.any():
+        _warn(_beyond(correction, commands))
+    if commands.outside.any():
+        _warn(_outside(commands))
+    made = counted(len(commands.joints), "command")
+    print(f"{made} in {options.out}: joint coordinates, and the poses that")
+    print(f"the nominal kinematics give them, of {arm.tool} in {arm.base}")
+    return DONE
+
+
+def next_(options: Options) -> int:
+    """Write the most informative postures."""
+    correction = load_correction(options.calibration)
+    candidates: np.ndarray | Goals | None = None
+    if options.candidates is not None:
+        rows = read_desired(options.candidates, correction.arm)
+        candidates = rows.joints
+        if rows.measured is not None:
+            candidates = Goals.of(rows.measured, rows.joints, len(correction.arm.coupling.columns))
+    proposal = propose(correction, options.count, candidates)
+    poses = correction.arm.forward(correction.arm.coupling.joints(proposal.joints))
+    write_new(options.out, postures_table(correction.arm, proposal.joints, poses), ".csv")
+    before, after = 1e3 * proposal.uncertainty[[0, -1]]
+    postures = counted(len(proposal.joints), "posture")
+    print(f"{postures} in {options.out}, the most informative first.")
+    print(
+        f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
+        f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")
+    )
+    return DONE
+
+
+def urdf(options: Options) -> int:
+    """Write the URDF of a table of Denavit-Hartenberg parameters."""
+    arm = arm_of_table(read_rows(options.links), options.convention)
+    write_new(options.out, urdf_of(arm).encode(), ".urdf")
+    print(f"{options.out}: {', '.join(arm.joints)}, from {arm.base} to {arm.tool}")
+    return DONE
+
+
+def _beyond(correction: Correction, commands: Commands) -> str:
+    """The commands that leave the range that was learned from, and the farthest, in words."""
+    rows, coupling = np.flatnonzero(commands.beyond.any(axis=1)), correction.arm.coupling
+    low, high = correction.postures.min(axis=0), correction.postures.max(axis=0)
+    parts = commands.beyond / np.maximum(high - low, STILL)
+    row, joint = np.unravel_index(parts.argmax(), parts.shape)
+    scale, unit = (1e3, "mm") if coupling.slides[joint] else (180 / np.pi, "deg")
+    low, high, far = (scale * numbers[joint] for numbers in (low, high, commands.beyond[row]))
+    names = listed(np.array(coupling.columns)[commands.beyond.any(axis=0)], "and")
+    leave = "leaves" if len(rows) == 1 else "leave"
+    return (
+        f"{len(rows)} of {counted(len(commands.beyond), 'command')} {leave} the measured range of"
+        f" {names}; the farthest is row {row + 1}, with {coupling.columns[joint]} {far:.3g} {unit}"
+        f" beyond {low:.4g} to {high:.4g} {unit}"
+    )
+
+
+def _outside(commands: Commands) -> str:
+    """The commands whose poses are not among those that were measured, in words."""
+    count = np.count_nonzero(commands.outside.any(axis=1))
+    parts = zip(("", "turned "), (1e3, 180 / np.pi), ("mm", "deg"), commands.outside.T, strict=True)
+    farthest = [
+        f"row {far.argmax() + 1} by {how}{scale * far.max():.3g} {unit}"
+        for how, scale, unit, far in parts
+        if far.any()
+    ]
+    return (
+        f"{count} of {counted(len(commands.outside), 'command')} take the arm to poses outside"
+        f" those measured, where its errors are unknown; the farthest: {' and '.join(farthest)}"
+    )
+
+
+def _warn(text: str) -> None:
+    print(f"recalib: warning: {text}", file=sys.stderr)
+
+
+def board(options: Options) -> int:
+    """Write a board to print, and its description."""
+    sheet = _load("vision.boards", "printable")(options.columns, options.rows, options.square)
+    draw_board = _load("vision.printing", "draw_board")
+    (pdf, svg), paper, bar = draw_board(sheet, "pdf", "svg")
+    files = {"board.pdf": pdf, "board.svg": svg, "board.toml": sheet.described().encode()}
+    write_new(options.out, files)
+    print(f"{options.out}: {', '.join(files)}. Print at true size, on {paper[0]:g} x")
+    print(
+        f"{paper[1]:g} mm, glue it to something flat, and measure the bar: it is {bar:g} mm long."
+    )
+    return DONE
+
+
+def observe(options: Options) -> int:
+    """Write a folder of what pictures show."""
+    find_boards = _load("laboratory.pictures.observe", "observe")
+    page_of_pictures = _load("laboratory.pictures.page_of_pictures", "page_of_pictures")
+    pictures = options.pictures, options.joints, options.board, options.lens
+    result = find_boards(*pictures, options.camera == "hand", print_progress, options.name)
+    write_new(options.out, result.files() | {"page.html": page_of_pictures(result)})
+    print(result.summary(), end="")
+    print(f"\n{options.out}: see page.html; next: recalib calibrate ARM.urdf {options.out}")
+    return DONE
+
+
+def print_progress(line: str) -> None:
+    """Print a line about progress on stderr."""
+    print(f"... {line}", file=sys.stderr, flush=True)
+
+
+COMMANDS = {
+    "calibrate": calibrate,
+    "live": live,
+    "correct": correct,
+    "next": next_,
+    "urdf": urdf,
+    "board": board,
+    "observe": observe,
+}

@@ -1,0 +1,321 @@
+"""A calibrated arm in one self-contained file, and commands that take the real arm to poses.
+
+The file is an archive (`recalib.files.archives`). Its header holds the format's version, the
+nominal arm's base and tool link and the names of the targets. Its arrays are the bytes of the arm's
+URDF, the calibration's, and the joint coordinates learned from.
+
+The commands are the paper's own idea: the controller gets a *fake* pose, from which its nominal
+kinematics make the joint coordinates that take the real arm to the desired pose.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from recalib.errors import InvalidSetting, RecalibError, UnknownName
+from recalib.files.archives import MOST, archive_of, opened, refused
+from recalib.files.storage import read_file, whole
+from recalib.identification.calibration import Calibration
+from recalib.identification.checks.poses import outside_of
+from recalib.identification.model.error_model import by_sight
+from recalib.laboratory.reaching import Goals, Reached, reach
+from recalib.nominal.arms import arm_of
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.poses import orientation_error, position_error
+from recalib.spelling import listed
+
+FORMAT, WRITER = ("recalib correction", 4), "recalib calibrate"
+NAME = "correction.npz"  # of the file in the folder of a calibration
+BASE, INSTRUMENT = FRAMES = "base", "instrument"  # in which poses are desired
+NEAR = 0.05  # m from a desired pose to where the joints given with it take the arm
+BETTER = 0.1  # the part of this distance that is left if the frame is the other one
+MARGIN = 0.05  # beyond the range learned from, as a part of it
+
+
+class NotReached(RecalibError):
+    """Desired poses that the arm cannot take. Attributes: rows, counted from 1."""
+
+    def __init__(self, rows: Sequence[int], reason: str):
+        self.rows = [*rows]
+        others = f", and neither can {len(self.rows) - 1} more" if len(self.rows) > 1 else ""
+        super().__init__(f"row {self.rows[0]} cannot be reached{others}: {reason}")
+
+
+@dataclass(frozen=True)
+class Commands:
+    """What to send to the controller.
+
+    Attributes:
+        joints: (n, columns) rad, or m where a joint slides, that the controller has to assume.
+        poses: (n, 4, 4) m of the tool in the base by the nominal kinematics: the fake poses.
+        beyond: (n, columns) rad, or m where a joint slides, by how much each leaves the range that
+            was learned from; zero up to a twentieth of that range.
+        turned: (n,) rad between desired and reached rotation, of an arm of fewer than six joints.
+        outside: (n, 2) m and rad, how far the desired pose is from those that were measured.
+    """
+
+    joints: np.ndarray
+    poses: np.ndarray
+    beyond: np.ndarray
+    turned: np.ndarray
+    outside: np.ndarray
+
+
+@dataclass(frozen=True)
+class Correction:
+    """A calibrated arm, and the postures in which it was measured.
+
+    Attributes:
+        urdf: the nominal arm's file, as the user gave it; empty if there is none.
+        calibration: what was identified.
+        learned: (n, joints) rad, or m where a joint slides, from which it was identified.
+        targets: their names, in the order of their numbers.
+    """
+
+    urdf: bytes
+    calibration: Calibration
+    learned: np.ndarray
+    targets: tuple[str, ...] = ("the target",)
+
+    @property
+    def arm(self) -> Arm:
+        """The nominal arm."""
+        return self.calibration.model.nominal
+
+    def correct(
+        self,
+        poses: ArrayLike,
+        near: ArrayLike | None = None,
+        target: str | Sequence[str] | None = None,
+        frame: str | None = None,
+    ) -> Commands:
+        """Commands that take the real arm to desired poses.
+
+        Arms of fewer than six joints are taken to the position, with the rotation as near as they
+        can.
+
+        Args:
+            poses: (n, 4, 4), or positions (n, 3) [m], of targets in the instrument's frame, or of
+                the tool link in the arm's base; one pose or position will do.
+            near: (n, columns) rad, m: postures to stay near to, as the controller reports them.
+            target: the name of the target, or of each; needed if there are several.
+            frame: instrument or base (default: instrument; base if balls in sockets were measured).
+
+        Raises NotReached; InvalidSetting: another shape, a frame that is not identifiable or that
+        the poses are not in; UnknownName: no such frame or target.
+        """
+        goals = self._goals(poses, near, target, frame)
+        self._check_frame(goals)
+        found = self._reach(goals)
+        turned = np.zeros(len(found))
+        if goals.poses.ndim == 3:
+            turned = orientation_error(goals.forward(self.calibration, found), goals.poses)
+        low, high = self.postures.min(axis=0), self.postures.max(axis=0)
+        outside = np.maximum(low - found, found - high)
+        beyond = np.where(outside > MARGIN * (high - low), outside, 0.0)
+        fake = self.arm.forward(self.arm.coupling.joints(found))
+        return Commands(found, fake, beyond, turned, self._outside(goals))
+
+    def command(
+        self,
+        pose: np.ndarray,
+        near: np.ndarray,
+        target: str | None = None,
+        frame: str | None = None,
+    ) -> np.ndarray:
+        """The joint coordinates (joints,) [rad, m] to send, fast enough for a controller's loop.
+
+        Args:
+            pose: (4, 4), or a position (3,) [m] where the rotation is free.
+            near: (joints,) rad, m, such as the last command: the solution stays on its branch.
+            target, frame: as of `correct`.
+
+        Raises as `correct`.
+        """
+        joints: np.ndarray = self._reach(self._goals(pose, near, target, frame))[0]
+        return joints
+
+    def solve(self, goals: Goals) -> Reached:
+        """Joint coordinates for poses in the base, whether the arm reaches them or not."""
+        return reach(self.calibration, self.postures, goals)
+
+    @cached_property
+    def postures(self) -> np.ndarray:
+        """(n, columns) rad, m learned from, as the controller reports them."""
+        return self.arm.coupling.reported(self.learned)
+
+    @property
+    def unidentifiable_ends(self) -> str | None:
+        """The ends of the arm whose errors are unknown and remain in the base, in words."""
+        frames = self.calibration.frames
+        positions_alone = len(self.calibration.estimate.noise) == 1
+        ends = {
+            "the arm's base": frames.base_unknown or len(frames.sockets),
+            "the tool link": frames.targets_unknown,
+            "the rotation of the tool link": positions_alone and not frames.targets_unknown,
+        }
+        return " and ".join(end for end, unknown in ends.items() if unknown) or None
+
+    def archive(self) -> bytes:
+        """The content of its file. Raises InvalidSetting without a URDF."""
+        if not self.urdf:
+            valid = "the file of the arm: only what was calibrated with it can be saved"
+            raise InvalidSetting("urdf", None, valid)
+        header = {
+            "format": FORMAT[0],
+            "version": FORMAT[1],
+            "tool": self.arm.tool,
+            "base": self.arm.base,
+            "targets": self.targets,
+        }
+        urdf = np.frombuffer(self.urdf, dtype=np.uint8)  # in whichever encoding it is
+        state = {"urdf": urdf, "learned": self.learned, "calibration": self.calibration.state()}
+        return archive_of(header, state)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write it, whole or not at all."""
+        with whole(path) as temporary:
+            temporary.write_bytes(self.archive())
+
+    @classmethod
+    def from_archive(cls, content: bytes, path: Path) -> "Correction":
+        """What `archive` returned; the path is for messages. Raises InvalidFile."""
+        header, state = opened(content, path, FORMAT, WRITER)
+        with refused(path, WRITER):
+            urdf = state["urdf"].tobytes()
+            arm = arm_of(urdf, path, header["tool"], header["base"])
+            calibration = Calibration.restore(arm, state["calibration"])
+            loaded = cls(urdf, calibration, state["learned"], tuple(header["targets"]))
+            if not loaded._is_consistent():
+                raise ValueError
+        return loaded
+
+    def _goals(
+        self,
+        poses: ArrayLike,
+        near: ArrayLike | None,
+        target: str | Sequence[str] | None,
+        frame: str | None,
+    ) -> Goals:
+        """The poses with the numbers of their targets. Raises as `correct`."""
+        goals = Goals.of(poses, near, len(self.arm.coupling.columns))
+        frames, kinds = self.calibration.frames, len(self.calibration.estimate.noise)
+        frame = frame or (BASE if len(frames.sockets) else INSTRUMENT)
+        if frame not in FRAMES:
+            raise UnknownName("frame", str(frame), FRAMES)
+        if frame == BASE:
+            if target is not None:
+                raise InvalidSetting("frame", frame, "instrument, in which a target's poses are")
+            if frames.base_unknown and not len(frames.sockets):
+                raise InvalidSetting(
+                    "frame",
+                    frame,
+                    "instrument, since the measurements do not determine where the arm's base is;"
+                    " try: a calibration with [instrument] in its description",
+                )
+            return goals
+        if len(frames.sockets):
+            raise InvalidSetting("frame", frame, "base: a ball in sockets had no instrument")
+        if goals.poses.ndim == 3 and frames.targets_unknown and kinds == 1:
+            valid = "positions alone: measured positions do not determine a target's rotation"
+            raise InvalidSetting("rotations of a target", "given", valid)
+        if target is None and len(self.targets) > 1:
+            raise InvalidSetting("target", None, f"{listed(self.targets, 'or')} for each pose")
+        names = [target or self.targets[0]] if target is None or isinstance(target, str) else target
+        for name in names:
+            if name not in self.targets:
+                raise UnknownName("target", str(name), self.targets)
+        if len(names) not in (1, len(goals)):
+            raise InvalidSetting("target", f"{len(names)} names", f"one, or {len(goals)}")
+        numbers = np.array([self.targets.index(name) for name in names])
+        return goals.of_targets(np.resize(numbers, len(goals)))
+
+    def _reach(self, goals: Goals) -> np.ndarray:
+        """Joint coordinates (n, joints) that reach the goals. Raises NotReached."""
+        found = self.solve(goals)
+        if found.reached.all():
+            return found.joints
+        rows = np.flatnonzero(~found.reached)
+        first = rows[:1]
+        if not found.solved[first]:
+            (pose,) = goals[first].forward(self.calibration, found.joints[first])
+            gap = _gap(pose, goals[first].reachable(self.arm).poses[0])
+            raise NotReached((rows + 1).tolist(), f"the nearest posture found is {gap} away")
+        (low, high), joints = self.arm.coupling.limits, found.joints[rows[0]]
+        names = listed(np.array(self.arm.coupling.columns)[(joints < low) | (joints > high)], "and")
+        raise NotReached((rows + 1).tolist(), f"only beyond the limits of {names}")
+
+    def _outside(self, goals: Goals) -> np.ndarray:
+        """How far goals are from the poses that were measured: (n, 2) m and rad."""
+        far = np.zeros((len(goals), 2))
+        for target, rows in by_sight(goals.targets, len(goals)):
+            targets = None if goals.targets is None else np.full(len(self.postures), target)
+            known = Goals(self.postures, None, targets).forward(self.calibration, self.postures)
+            far[rows] = outside_of(known, goals.poses[rows])
+        return far
+
+    def _check_frame(self, goals: Goals) -> None:
+        """Raise InvalidSetting if the joints take the arm to the poses, but in the other frame."""
+        near, places = goals.near, goals.positions
+        if near is None or len(self.targets) > 1 or len(self.calibration.frames.sockets):
+            return
+        frame = BASE if goals.targets is None else INSTRUMENT
+        joints = self.arm.coupling.joints(near)
+        ends = {
+            BASE: self.calibration.forward(joints),
+            INSTRUMENT: self.calibration.predict(joints),
+        }
+        gaps = {
+            name: np.median(np.linalg.norm(poses[:, :3, 3] - places, axis=1))
+            for name, poses in ends.items()
+        }
+        (other,) = gaps.keys() - {frame}
+        if gaps[other] < min(NEAR, BETTER * gaps[frame]) and gaps[frame] > NEAR:
+            raise InvalidSetting(
+                "frame",
+                frame,
+                f"{other}, in which the joints take the arm to the poses; in the frame given, they"
+                f" are {1e3 * gaps[frame]:.0f} mm off; try: poses without joints, if they are only"
+                " to stay near to",
+            )
+
+    def _is_consistent(self) -> bool:
+        """Whether the parts of a file belong together; if not, it may raise anything."""
+        calibration, learned = self.calibration, self.learned
+        estimate, frames = calibration.estimate, calibration.model.frames
+        sights, ends = frames.sights, (len(frames.bases), len(frames.targets))
+        if not len(sights) or sights.dtype != int or ((sights < 0) | (sights >= ends)).any():
+            return False
+        if len({*map(str, self.targets)}) != len(sights):
+            return False
+        unknown = estimate.parameters @ estimate.covariance @ estimate.parameters
+        estimated = estimate.parameters, estimate.covariance, estimate.noise, estimate.weights
+        numbers = learned, *calibration.forward_and_jacobian(learned[:1]), unknown, *estimated
+        return learned.shape[1:] == (len(self.arm.joints),) and all(
+            array.size and array.dtype == float and np.isfinite(array).all() for array in numbers
+        )
+
+
+def load_correction(path: str | PathLike[str]) -> Correction:
+    """The calibrated arm in a file that `Correction.save` or `recalib calibrate` wrote.
+
+    Args:
+        path: of the file, or of the folder of a calibration.
+
+    Raises InvalidFile.
+    """
+    file = Path(path) if Path(path).is_file() else Path(path, NAME)
+    return Correction.from_archive(read_file(file, MOST), file)
+
+
+def _gap(pose: np.ndarray, goal: np.ndarray) -> str:
+    """How far a pose (4, 4) is from a desired pose or position, in words."""
+    if goal.ndim == 1:
+        return f"{1e3 * np.linalg.norm(pose[:3, 3] - goal):.4g} mm"
+    position, orientation = position_error(pose, goal), orientation_error(pose, goal)
+    return f"{1e3 * position:.4g} mm and {np.degrees(orientation):.4g} deg"

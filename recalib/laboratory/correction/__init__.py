@@ -1,1 +1,0 @@
-"""Corrected commands for an unchanged controller."""

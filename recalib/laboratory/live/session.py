@@ -1,0 +1,292 @@
+"""Calibration of an arm that moves and measures by itself; see docs/live.md."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from os import PathLike
+from typing import NamedTuple
+
+import numpy as np
+import pinocchio as pin
+
+from recalib.errors import InvalidFile, InvalidSetting, RecalibError, UnsuitableRobot
+from recalib.identification.checks.diagnostics import FEWEST
+from recalib.identification.model.observations import Observations
+from recalib.laboratory.live.allowed import AllowedPostures, Box
+from recalib.laboratory.live.clearance import Clearance
+from recalib.laboratory.live.record import Pictures, Record
+from recalib.laboratory.live.running import AHEAD, RunningCalibration
+from recalib.laboratory.tables.description import Description
+from recalib.nominal.kinematics import Arm
+from recalib.station.guarded import REACHED, Guarded, StationRaised
+from recalib.station.interface import Station, StationFailed
+
+USELESS = 0.05  # a part of the predicted error: what gains less is not worth ten moves
+SOON = 20  # rows before which that is not asked: errors beyond geometry do not show in fewer
+NARROWEST = 2 * REACHED  # rad: postures that are nearer count as one
+TRIES = 3  # measurements in a posture before it is given up
+LOST = 10  # postures in a row in which the target is not seen: it is lost, or they are too far
+
+
+@dataclass(frozen=True)
+class LiveSettings:
+    """How to calibrate.
+
+    Attributes:
+        error: m that the predicted mean error should have; None to go on while it is of use.
+        most: rows in the table, at which it ends.
+        span: rad that each joint may move either way from where it stood at first; half a metre for
+            each rad where it slides.
+        box: in which the nominal tool link stays; None where the limits of the joints are enough.
+        speed: of the fastest joint, as a part of what it allows.
+        floor: m, the height in the arm's base above which all moves; None without a floor.
+        self_collision: whether links keep apart.
+
+    Raises InvalidSetting: no calibration goes by these.
+    """
+
+    error: float | None = None
+    most: int = 60
+    span: float = np.radians(45)
+    box: Box | None = None
+    speed: float = 0.1
+    floor: float | None = 0.0
+    self_collision: bool = True
+
+    def __post_init__(self) -> None:
+        if self.error is not None and not 0 < self.error < np.inf:
+            raise InvalidSetting("error", f"{1e3 * self.error:g} mm", "more than zero")
+        if self.most < FEWEST:
+            valid = f"at least {FEWEST} rows, which a calibration needs"
+            raise InvalidSetting("most", self.most, valid)
+        if not NARROWEST < self.span < np.inf:
+            valid = f"more than {np.degrees(NARROWEST):.2g} deg: nearer postures count as one"
+            raise InvalidSetting("span", f"{np.degrees(self.span):g} deg", valid)
+        if not 0 < self.speed <= 1:
+            raise InvalidSetting("speed", self.speed, "above 0 and up to 1")
+
+
+class Interrupted(RecalibError):
+    """A person has stopped it."""
+
+
+class Answer(Enum):
+    """What a person says to a move of an arm, before it is made."""
+
+    MOVE, SKIP, END = "move", "skip the posture for good", "end"
+
+
+class Move(NamedTuple):
+    """A command before it is sent.
+
+    Attributes:
+        start, goal: (joints,) rad, m where the arm stands, and where it is to go.
+        tool_before, tool_after: (3,) m, the nominal tool there, in the arm's base.
+    """
+
+    start: np.ndarray
+    goal: np.ndarray
+    tool_before: np.ndarray
+    tool_after: np.ndarray
+
+
+class Ended(NamedTuple):
+    """Why a session ended, in words, and how many rows its table has."""
+
+    reason: str
+    rows: int
+
+
+def calibrate_live(
+    opening: Callable[[], Station],
+    arm: Arm,
+    table: str | PathLike[str],
+    settings: LiveSettings,
+    ask: Callable[[Move], Answer] = lambda move: Answer.MOVE,
+    description: Description | None = None,
+    on_progress: Callable[[str], None] = lambda line: None,
+    on_row: Callable[[Observations, RunningCalibration], None] = lambda rows, running: None,
+    pictures: Pictures | None = None,
+    shapes: pin.GeometryModel | None = None,
+) -> Ended:
+    """Move, measure and add rows to a table until it is enough.
+
+    It begins where the arm stands, or goes on with the rows that are there. Whatever goes wrong,
+    the station is stopped and nothing moves any more.
+
+    Args:
+        opening: makes the station.
+        arm: the nominal one.
+        table: CSV, new or begun by this function.
+        ask: called before each move; whether it may be made. All may unless given.
+        description: what the table does not say itself.
+        on_progress: called with lines for people.
+        on_row: called with the rows so far, and what calibrates by them.
+        pictures: what those of the column `picture` say, if the rows go by their pixels.
+        shapes: of the links, see `load_shapes`; without them, only the tool keeps off the floor.
+
+    Raises RecalibError: UnsuitableRobot, StationFailed, Interrupted, or rows that do not fit.
+    """
+    if len(arm.coupling.columns) < len(arm.joints):
+        followers = f"of {', '.join(arm.joints)} some follow others by <mimic>"
+        raise UnsuitableRobot(
+            f"{followers}; expected: a motor for each joint; try: a table for recalib calibrate"
+        )
+    description = description or Description()
+    record = Record(table, arm, description, pictures)
+    if record.dropped:
+        on_progress(f"a row without its end was dropped: {record.dropped!r}")
+    station = None
+    try:
+        station = Guarded(opening, arm)
+        started = record.observations
+        home = station.angles() if started is None else started.joints[0]
+        radius = 0.0 if pictures is None else pictures.tool_radius
+        checks = settings.floor, settings.self_collision, radius
+        clearance = Clearance(arm, home, shapes or pin.GeometryModel(), *checks)
+        postures = AllowedPostures(
+            arm, home, station.limits(), settings.span, settings.box, clearance
+        )
+        on_progress(_where_it_will_be(postures))
+        if not (shapes and shapes.ngeoms) and (settings.floor is not None or checks[1]):
+            on_progress(
+                "the URDF has no shapes of links that can be read: neither floor nor self-collision"
+                " is checked for links"
+            )
+        running = RunningCalibration(arm, description, postures, pictures)
+        going = station, record, settings, postures, running, on_progress
+        session = _Session(*going, [*record.skipped])
+        return Ended(session.run(ask, on_row), len(record))
+    except BaseException as error:
+        if station is not None:
+            station.stop()
+        if len(record):
+            on_progress(f"stopped; {len(record)} rows are in {record.path}: the same call goes on")
+        if isinstance(error, KeyboardInterrupt):
+            which = "was not open yet" if station is None else "was told to stop"
+            raise Interrupted(f"interrupted; the station {which}") from None
+        raise
+    finally:
+        if station is not None:
+            station.close()
+        record.close()
+
+
+def _where_it_will_be(postures: AllowedPostures) -> str:
+    """The range of all goals, in words."""
+    places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
+    ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
+    ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
+    return f"in all postures to choose from, the tool is at {ranges} in the arm's base"
+
+
+@dataclass(frozen=True)
+class _Session:
+    """A calibration that goes on: the station, what was measured, and what is to come.
+
+    Attributes:
+        avoided: postures that a person skipped, or in which the target is not seen; it grows.
+    """
+
+    station: Guarded
+    record: Record
+    settings: LiveSettings
+    postures: AllowedPostures
+    running: RunningCalibration
+    on_progress: Callable[[str], None]
+    avoided: list[np.ndarray]
+
+    def run(
+        self,
+        ask: Callable[[Move], Answer],
+        on_row: Callable[[Observations, RunningCalibration], None],
+    ) -> str:
+        """Measure until it is enough; why it is."""
+        rows, unseen = self.record.observations or self._measured(), 0
+        if rows is None:
+            raise StationFailed(
+                "the instrument does not see the target where the arm stands; try: begin where it"
+                " does"
+            )
+        while True:
+            reason = self._enough(rows)
+            on_row(rows, self.running)
+            if reason is not None:
+                return reason
+            goal = self.running.next_posture(rows, self.avoided)
+            if goal is None:
+                return "each allowed posture was measured"
+            answer = self._go_to(goal, ask)
+            if answer is Answer.SKIP:
+                self.record.skip(goal)
+                self.avoided.append(goal)
+                continue
+            if answer is not Answer.MOVE:
+                return "you ended it"
+            measured = self._measured()
+            rows, unseen = measured or rows, 0 if measured else unseen + 1
+            if measured is None:
+                self.avoided.append(goal)
+                self.on_progress("the instrument does not see the target there")
+            if unseen == LOST:
+                raise StationFailed(
+                    f"the instrument has not seen the target in {LOST} postures, one after the"
+                    " other; if it is still there, try: a smaller --span"
+                )
+
+    def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
+        """Move to a posture, unless a person does not want it."""
+        for posture in self.postures.path(self.station.angles(), goal):
+            start = self.station.angles()
+            self.postures.check(start, posture)
+            tool = self.postures.tool
+            answer = ask(Move(start, posture, tool(start), tool(posture)))
+            if answer is not Answer.MOVE:
+                return answer
+            # a person may have moved it while he was asked
+            self.postures.check(self.station.angles(), posture)
+            self.station.move(posture, self.settings.speed)
+        return Answer.MOVE
+
+    def _measured(self) -> Observations | None:
+        """All rows with one more, which is on the disk; None if the target is not seen."""
+        for left in reversed(range(TRIES)):
+            try:
+                angles, cells = self.station.measure()
+            except StationRaised:
+                if not left:
+                    raise
+                continue
+            if cells is not None:
+                break
+        else:
+            return None
+        try:
+            rows, line = self.record.read(angles, cells)
+        except InvalidFile as error:
+            raise StationFailed(f"what the station measured is no row: {error.reason}") from None
+        if (wrong := self.running.check(rows)) is not None:
+            raise StationFailed(wrong)
+        self.record.write(rows, line)
+        return rows
+
+    def _enough(self, rows: Observations) -> str | None:
+        """Why the rows are enough; None if they are not."""
+        count, settings = len(rows), self.settings
+        most = f"{count} rows are as many as allowed" if count >= settings.most else None
+        if not self.running.is_ready(rows):
+            self.on_progress(f"row {count}")
+            return most
+        error = self.running.error(rows)
+        if not np.isfinite(error):
+            self.on_progress(f"row {count}: too few for a predicted error")
+            return most
+        total = f"the predicted error is {1e3 * error:.3g} mm"
+        self.on_progress(f"row {count}: {total}")
+        # few pictures say nothing of postures that the camera does not see
+        trusted = rows.optics is None or count >= SOON
+        if settings.error is not None and error <= settings.error and trusted:
+            return f"{total}; {1e3 * settings.error:g} mm was asked for"
+        if count >= SOON and self.running.gain(rows, self.avoided) < USELESS:
+            return f"{total}, and {AHEAD} further postures would hardly make it smaller"
+        return most and f"{total}; {most}"

@@ -1,0 +1,163 @@
+"""Frames and distances of a description, checked against the measurements.
+
+They are accepted if an arm could be as they say. A rotation of the wrong sign, inches, or the frame
+of something else would make another arm.
+"""
+
+from contextlib import suppress
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import RecalibError
+from recalib.identification.initial_estimate import (
+    FARTHEST,
+    NoInitialEstimate,
+    initial_frames,
+    joined_frames,
+    median_error,
+)
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.observations import Observations
+from recalib.laboratory.data_set import DataSet
+from recalib.laboratory.plausibility.mistakes import likely_mistake
+from recalib.nominal.kinematics import Arm
+
+ALIKE = 2.0  # times the least error: as good an explanation
+STRETCHED = 0.2  # of a distance: no arm is so much longer or shorter than described
+
+
+class WrongKnowledge(RecalibError):
+    """A description contradicts the measurements."""
+
+
+def checked_frames(
+    arm: Arm,
+    observations: Observations,
+    instrument: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> Frames:
+    """The frames at both ends of the nominal arm, to start an identification from.
+
+    Args:
+        instrument: (4, 4) m in the arm's base frame, if known.
+        target: (4, 4) m in the tool link's frame, if known, the same for all targets.
+
+    Raises WrongKnowledge: without one of them that is given, the measurements are explained.
+    NoInitialEstimate: nothing explains them; with the likely mistake, if there is one.
+    """
+    described = {"base": instrument, "target": target}
+    stated = {name: pose for name, pose in described.items() if pose is not None}
+    given = {name: np.linalg.inv(pose) if name == "base" else pose for name, pose in stated.items()}
+    try:
+        return initial_frames(arm, observations, **given)
+    except NoInitialEstimate as error:
+        problem = error
+    without, errors, tool = {}, {}, arm.forward(observations.joints)
+    for wrong in [*combinations(given, 1), *combinations(given, 2)]:
+        right = {name: pose for name, pose in given.items() if name not in wrong}
+        with suppress(NoInitialEstimate):
+            without[wrong] = initial_frames(arm, observations, **right)
+            errors[wrong] = median_error(without[wrong], tool, observations)
+    if not without:
+        mistake = mistake_in(arm, observations) or _of_rotations(arm, observations)
+        raise NoInitialEstimate(f"{problem}; likely: {mistake}") if mistake else problem
+    likely = [wrong for wrong in errors if errors[wrong] <= ALIKE * min(errors.values())]
+    wrong = min(likely, key=lambda names: (len(names), errors[names]))
+    found = without[wrong]
+    there = {"base": np.linalg.inv(found.base), "target": found.targets[0]}
+    parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
+    where = " and ".join(_gap(stated[name], there[name]) for name in wrong)
+    raise WrongKnowledge(
+        f"the description's {parts} {where}; try: a description without it, for it to be estimated"
+    )
+
+
+def mistake_in(arm: Arm, observations: Observations, frames: Frames | None = None) -> str | None:
+    """A mistake without which the nominal arm explains rows far better, in words.
+
+    None if there is none, and of balls in sockets or several targets.
+
+    Args:
+        frames: that explain the rows as they are, if there are any.
+    """
+    measured = observations.measured
+    if measured is None or observations.targets.any():
+        return None
+    # what explains whole poses is likelier than what explains their positions alone
+    for part in (measured, observations.positions)[: observations.kinds]:
+        if mistake := likely_mistake(arm, observations.joints, part, FARTHEST, 1, frames):
+            return mistake
+    return None
+
+
+def _of_rotations(arm: Arm, observations: Observations) -> str | None:
+    """That only the rotations are wrong, in words; None otherwise."""
+    if observations.kinds == 1:
+        return None
+    with suppress(NoInitialEstimate):
+        initial_frames(arm, replace(observations, measured=observations.positions))
+        return "rotations of something else, or written otherwise: positions alone are explained"
+    return None
+
+
+def frames_of(arm: Arm, data: DataSet) -> Frames:
+    """The same of a data set; of several cameras, each sight is enough by itself.
+
+    Raises WrongKnowledge and NoInitialEstimate, which name the sight.
+    """
+    observations = replace(data.observations, optics=None)
+    if data.sights is None or len(data.sights) == 1:
+        return checked_frames(arm, observations, data.known.instrument, data.known.target)
+    parts = []
+    for number, name in enumerate(data.sight_names):
+        rows = observations[observations.targets == number]
+        try:
+            parts.append(initial_frames(arm, replace(rows, targets=0 * rows.targets)))
+        except NoInitialEstimate as error:
+            raise NoInitialEstimate(f"{name}: {error}") from None
+    frames = joined_frames(parts, data.sights)
+    for number, name in enumerate(data.sight_names):
+        rows = observations[observations.targets == number]
+        off = median_error(frames, arm.forward(rows.joints), rows)
+        if off > FARTHEST:
+            raise WrongKnowledge(
+                f"{name} is {1e3 * off:.0f} mm from where the other pictures put it; expected: a"
+                " camera or a board of one name in one place; try: another name"
+            )
+    return frames
+
+
+def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
+    """Raise WrongKnowledge if sockets are not about as far apart as the nominal arm has them.
+
+    Args:
+        frames: an initial estimate of them.
+    """
+    observations, names = data.observations, data.sockets
+    tool = arm.forward(observations.joints)
+    for one, other, length, _ in observations.distances:
+        nominal = np.linalg.norm(frames.sockets[one] - frames.sockets[other])
+        if abs(length - nominal) > STRETCHED * nominal + median_error(frames, tool, observations):
+            raise WrongKnowledge(
+                f"the description's distance between {names[one]} and {names[other]}"
+                f" is {1e3 * length:.5g} mm; by the arm's description they are"
+                f" {1e3 * nominal:.5g} mm apart; expected that, but for"
+                f" {100 * STRETCHED:.0f} percent"
+            )
+
+
+def _gap(given: np.ndarray, found: np.ndarray) -> str:
+    """How far apart two poses (4, 4) [m] are, and the other one as a description would have it."""
+    gap = np.linalg.inv(given) @ found
+    shift = 1e3 * np.linalg.norm(gap[:3, 3])
+    angle = np.degrees(Rotation.from_matrix(gap[:3, :3]).magnitude())
+    place = ", ".join(f'"{1e3 * number:.0f} mm"' for number in found[:3, 3])
+    angles = Rotation.from_matrix(found[:3, :3]).as_euler("xyz", degrees=True)
+    turn = ", ".join(f'"{angle:.0f} deg"' for angle in angles)
+    return (
+        f"is {shift:.0f} mm and {angle:.0f} deg from where the measurements put it; expected about"
+        f" position = [{place}], roll_pitch_yaw = [{turn}]"
+    )

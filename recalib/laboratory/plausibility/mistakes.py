@@ -1,0 +1,281 @@
+"""Checks of nominal positions against the nominal kinematics, before the fit.
+
+The tool positions that a controller reports reveal the most frequent mistakes in data: another
+zero, sign or order of joints, another unit, a rotated base, a forgotten tool. Each mistake is
+tried, alone and then in pairs; the one that explains the difference is named.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import RecalibError
+from recalib.identification.closed_forms import solutions
+from recalib.identification.model.frames import Frames
+from recalib.identification.model.linearisation import LEVER, displacements
+from recalib.identification.model.observations import Observations
+from recalib.nominal.kinematics import Arm
+from recalib.spelling import listed
+
+ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
+SHIFTED = "joints that are those of the row"
+EXPLAINED = 0.2  # the part of a difference that may remain without the mistake
+UNITS = {  # wrong units of positions, by the factor that corrects them
+    1e-3: "in millimetres that say m",
+    1e-2: "in centimetres that say m",
+    1e-1: "in millimetres that say cm",
+    1e1: "in centimetres that say mm",
+    25.4: "in inches that say mm",
+    1e2: "in metres that say cm",
+    1e3: "in metres that say mm",
+}
+SAME = 1e-6  # a difference of such parts below which two mistakes explain the same
+ENOUGH = 40  # rows to try mistakes on
+QUARTERS = 90, -90, -180  # degrees
+UNTURNED, MOVED = np.radians(1), 1e-3  # rad, m: less is not reported
+
+Change = Callable[[np.ndarray], np.ndarray]
+
+
+class WrongNominal(RecalibError):
+    """Nominal positions that differ from those of the nominal arm.
+
+    Args:
+        gap: m, the largest difference.
+        mistake: the likely one, in words; None if none explains it.
+    """
+
+    def __init__(self, gap: float, mistake: str | None):
+        unlikely = "no single mistake of zero, sign, order or unit explains it: is it another arm?"
+        super().__init__(
+            f"nominal positions are up to {1e3 * gap:.1f} mm from where the URDF's kinematics put"
+            f" the tool; {f'likely: {mistake}' if mistake else unlikely}"
+        )
+
+
+def check_nominal(
+    arm: Arm,
+    coordinates: np.ndarray,
+    nominal: np.ndarray,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> str | None:
+    """The base or target, in words, by which nominal positions differ from nominal kinematics.
+
+    None if they do not differ. An unknown base or target is identified anyway.
+
+    Args:
+        coordinates: (n, joints) rad, or m where a joint slides.
+        nominal: (n, 3) m.
+        base: (4, 4) m, the arm's base in the frame of the positions, if known.
+        target: (4, 4) m in the tool link's frame, if known.
+
+    Raises WrongNominal: they differ by something else.
+    """
+    known = np.eye(4) if base is None else base
+    place = np.eye(4) if target is None else target
+    gaps = _gaps(arm.forward(coordinates), nominal, known, place)
+    if gaps.max() <= ALIKE:
+        return None
+    rows = np.unique(np.linspace(0, len(nominal) - 1, ENOUGH).astype(int))
+    poses, positions = arm.forward(coordinates[rows]), nominal[rows]
+    frames, remaining = _fit(poses, positions, base, target)
+    if remaining.max() <= ALIKE:
+        return _words(frames.base, frames.targets[0, :3, 3])
+    frames, remaining = _fit(poses, positions)
+    if remaining.max() <= ALIKE:
+        point = frames.targets[0, :3, 3] - place[:3, 3]
+        words = _words(frames.base @ np.linalg.inv(known), point)
+        raise WrongNominal(gaps.max(), f"{words}, which the description does not say")
+    raise WrongNominal(gaps.max(), likely_mistake(arm, coordinates, nominal))
+
+
+def likely_mistake(
+    arm: Arm,
+    coordinates: np.ndarray,
+    measured: np.ndarray,
+    alike: float = ALIKE,
+    most_steps: int = 2,
+    frames: Frames | None = None,
+) -> str | None:
+    """The mistake in data that explains most of a difference, in words; None if none does.
+
+    One step is tried first, then several. What remains counts relative to the spread of the
+    positions: an arm and positions that shrink to a point explain nothing.
+
+    Args:
+        coordinates: (n, joints) rad, or m where a joint slides.
+        measured: (n, 3) m, positions of a point on the tool, in any frame; or poses (n, 4, 4).
+        alike: m that may remain; a turn counts by `LEVER`.
+        most_steps: mistakes at once.
+        frames: that explain the data without a mistake, if there are any. Closed forms alone may
+            miss these if few joints moved.
+    """
+    rows = np.unique(np.linspace(1, len(measured) - 2, ENOUGH).astype(int))  # each has neighbours
+    poses = arm.forward(coordinates[rows])
+    plain = _rms(_fit(poses, measured[rows])[1])
+    if frames is not None:
+        plain = min(plain, _rms(_gaps(poses, measured[rows], frames.base, frames.targets[0])))
+    if plain <= MOVED:  # a perfect arm's rounding is explained by many mistakes
+        return None
+    steps = [*_steps(arm), *(_steps_of_rotations() if measured.ndim == 3 else ())]
+    for count in range(1, most_steps + 1):
+        fits = []
+        for chosen in combinations(steps, count):
+            joints, righted = coordinates, measured
+            for step in chosen:
+                joints, righted = step.joints(joints), step.measured(righted)
+            _, gaps = _fit(arm.forward(joints[rows]), righted[rows])
+            positions = righted[rows] if righted.ndim == 2 else righted[rows, :3, 3]
+            spread = _rms(np.linalg.norm(positions - positions.mean(axis=0), axis=1))
+            words = " and ".join(step.words for step in chosen)
+            part = _rms(gaps) / spread if spread > 0 else np.inf
+            fits.append((part, _rms(gaps), gaps.max(), words))
+        part, rms, largest, _ = min(fits)
+        if largest <= alike and part < EXPLAINED and rms < EXPLAINED * plain:
+            # as the sign of a joint and a half turn of the next one, behind a base of any turn
+            return listed([words for other, *_, words in fits if other <= part + SAME], "or")
+    return None
+
+
+class Step(NamedTuple):
+    """A mistake in words, and what undoes it in joints and in positions or poses."""
+
+    words: str
+    joints: Change = np.asarray
+    measured: Change = np.asarray
+
+
+def _steps(arm: Arm) -> Iterator[Step]:
+    count, each = len(arm.joints), np.eye(len(arm.joints))
+    for words, factor in (
+        ("degrees that say rad", np.pi / 180),
+        ("radians that say deg", 180 / np.pi),
+    ):
+        scale = np.where(arm.slides, 1.0, factor)
+        yield Step(f"joint columns in {words}", partial(np.multiply, scale))
+    for factor, words in UNITS.items():
+        yield Step(f"positions {words}", measured=partial(_scaled, factor))
+    mirror = partial(_scaled, -1.0)
+    yield Step("positions of which an axis points the other way", measured=mirror)
+    for joint, name in enumerate(arm.joints):
+        yield Step(f"the sign of {name}", partial(np.multiply, 1 - 2 * each[joint]))
+    for joint, name in enumerate(arm.joints):
+        for degrees in () if arm.slides[joint] else QUARTERS:
+            shift = partial(np.add, np.radians(degrees) * each[joint])
+            yield Step(f"the zero of {name}, off by {-degrees} deg", shift)
+    for one, other in combinations(range(count), 2):
+        order = np.arange(count)
+        order[[one, other]] = other, one
+        names = f"{arm.joints[one]} and {arm.joints[other]}"
+        exchange = partial(np.take, indices=order, axis=1)
+        yield Step(f"the columns of {names} exchanged", exchange)
+        if other == one + 1 and arm.slides[one] == arm.slides[other]:  # as of a parallelogram
+            for column, by, sign in ((other, one, 1), (other, one, -1), (one, other, 1)):
+                change = np.eye(count)
+                change[by, column] = -sign
+                words = f"{arm.joints[column]} {'plus' if sign > 0 else 'minus'} {arm.joints[by]}"
+                without = partial(np.dot, b=change)
+                yield Step(f"a column {arm.joints[column]} that holds {words}", without)
+    yield Step("the joint columns in reverse order", np.fliplr)
+    for rows, row in ((-1, "before"), (1, "after")):
+        yield Step(f"{SHIFTED} {row}", partial(np.roll, shift=rows, axis=0))
+
+
+def _steps_of_rotations() -> Iterator[Step]:
+    """Mistakes in measured rotations, in whichever columns they are."""
+    inverse = "poses of the instrument in the target's frame; expected: of the target in the"
+    yield Step(f"{inverse} instrument's", measured=np.linalg.inv)
+    euler, changes = (
+        Rotation.from_euler,
+        {
+            "rotations of the instrument in the target's frame": Rotation.inv,
+            "a quaternion in the order qw, qx, qy, qz": (
+                lambda turns: Rotation.from_quat(np.roll(turns.as_quat(), -1, axis=1))
+            ),
+            "roll, pitch and yaw about axes that turn along": lambda turns: euler(
+                "XYZ", _angles(turns)
+            ),
+            "roll, pitch and yaw in radians that say deg": (
+                lambda turns: euler("xyz", np.degrees(_angles(turns)))
+            ),
+            "a rotation vector in radians that says deg": (
+                lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
+            ),
+            "roll, pitch and yaw in reverse order": lambda turns: euler(
+                "xyz", _angles(turns)[:, ::-1]
+            ),
+        },
+    )
+    for words, change in changes.items():
+        yield Step(words, measured=partial(_turned, change))
+
+
+def _angles(rotations: Rotation) -> np.ndarray:
+    """Roll, pitch and yaw (n, 3) [rad]; some of many at a pitch of a right angle."""
+    return rotations.as_euler("xyz", suppress_warnings=True)
+
+
+def _scaled(factor: float, measured: np.ndarray) -> np.ndarray:
+    """Positions (n, 3), or poses (n, 4, 4), with positions times a factor."""
+    scaled = measured.copy()
+    places = scaled if measured.ndim == 2 else scaled[:, :3, 3]
+    places *= factor
+    return scaled
+
+
+def _turned(change: Callable[[Rotation], Rotation], poses: np.ndarray) -> np.ndarray:
+    """Poses (n, 4, 4) with other rotations."""
+    turned = poses.copy()
+    turned[:, :3, :3] = change(Rotation.from_matrix(poses[:, :3, :3])).as_matrix()
+    return turned
+
+
+def _gaps(
+    poses: np.ndarray, nominal: np.ndarray, base: np.ndarray, target: np.ndarray
+) -> np.ndarray:
+    """Distances (n,) [m] from nominal positions or poses to where frames (4, 4) put the target."""
+    residuals = displacements(base @ poses @ target, nominal)
+    residuals[:, 3:] *= LEVER
+    return np.linalg.norm(residuals, axis=1)
+
+
+def _rms(gaps: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(gaps**2)))
+
+
+def _fit(
+    poses: np.ndarray,
+    nominal: np.ndarray,
+    base: np.ndarray | None = None,
+    target: np.ndarray | None = None,
+) -> tuple[Frames, np.ndarray]:
+    """The frames, as far as unknown, that explain positions or poses best, and gaps (n,) [m]."""
+    rows = Observations(np.empty((len(nominal), 0)), nominal)
+    fits = [
+        (frames, _gaps(poses, nominal, frames.base, frames.targets[0]))
+        for frames in solutions(poses, rows, base, target)
+    ]
+    return min(fits, key=lambda fit: _rms(fit[1]))
+
+
+def _words(base: np.ndarray, point: np.ndarray) -> str:
+    """A pose (4, 4) of the base and a point (3,) of the tool [m], as far as they are not zero."""
+    turn, words = Rotation.from_matrix(base[:3, :3]), []
+    if turn.magnitude() > UNTURNED:
+        axis = turn.as_rotvec() / turn.magnitude()
+        about = ", ".join(f"{round(number, 2) + 0.0:g}" for number in axis)
+        words.append(f"the base turned by {np.degrees(turn.magnitude()):.1f} deg about ({about})")
+    if np.linalg.norm(base[:3, 3]) > MOVED:
+        words.append(f"the base moved by {_millimetres(base[:3, 3])}")
+    if np.linalg.norm(point) > MOVED:
+        words.append(f"a tool point at {_millimetres(point)} of the tool link")
+    return " and ".join(words)
+
+
+def _millimetres(vector: np.ndarray) -> str:
+    return f"({', '.join(f'{round(1e3 * number, 1) + 0.0:g}' for number in vector)}) mm"

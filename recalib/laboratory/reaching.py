@@ -1,0 +1,166 @@
+"""Inverse kinematics of a calibrated arm, from postures in which it was measured."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial import KDTree
+
+from recalib.arrays import array_of, check_rotations
+from recalib.identification.calibration import Calibration
+from recalib.identification.model.error_model import by_sight
+from recalib.identification.model.linearisation import LEVER
+from recalib.nominal.kinematics import Arm
+from recalib.nominal.newton import solve_groups
+
+TOLERANCE = 1e-8  # m, rad
+STEPS = 60
+STARTS = 6  # learned postures to start from, if none is given
+
+
+@dataclass(frozen=True)
+class Goals:
+    """Desired poses.
+
+    Attributes:
+        poses: (n, 4, 4), or positions (n, 3) [m].
+        near: (n, columns) rad, m: postures to stay near to; None if any will do.
+        targets: (n,) numbers of the targets whose poses they are in the instrument's frame; None if
+            they are those of the tool link in the arm's base.
+    """
+
+    poses: np.ndarray
+    near: np.ndarray | None = None
+    targets: np.ndarray | None = None
+
+    @classmethod
+    def of(cls, poses: ArrayLike, near: ArrayLike | None, joints: int) -> "Goals":
+        """From one pose or many. Raises InvalidSetting: other shapes, no poses."""
+        shapes = ("n", 4, 4), (4, 4), ("n", 3), (3,)
+        given = array_of("poses", poses, *shapes)
+        if given.shape[-2:] == (4, 4):
+            check_rotations("poses", given)
+        if given.ndim == 1 or given.shape == (4, 4):
+            given = given[None]
+        if near is None:
+            return cls(given)
+        postures = array_of("near", near, (len(given), joints), *[(joints,)] * (len(given) == 1))
+        return cls(given, np.atleast_2d(postures))
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def __getitem__(self, rows: np.ndarray) -> "Goals":
+        given = {name: array[rows] for name, array in vars(self).items() if array is not None}
+        return replace(self, **given)
+
+    @property
+    def positions(self) -> np.ndarray:
+        """(n, 3) m."""
+        return self.poses if self.poses.ndim == 2 else self.poses[:, :3, 3]
+
+    def of_targets(self, targets: np.ndarray) -> "Goals":
+        """The same as poses of targets (n,) in the instrument's frame."""
+        return replace(self, targets=targets)
+
+    def reachable(self, arm: Arm) -> "Goals":
+        """What an arm reaches: of poses, with fewer than six joints, positions."""
+        few = len(arm.coupling.columns) < 6
+        return replace(self, poses=self.positions) if few else self
+
+    def forward(self, calibration: Calibration, joints: np.ndarray) -> np.ndarray:
+        """Poses (n, 4, 4) [m] that joints (n, columns) give of what is desired."""
+        joints = calibration.model.nominal.coupling.joints(joints)
+        if self.targets is None:
+            return calibration.forward(joints)
+        return calibration.predict(joints, self.targets)
+
+
+@dataclass(frozen=True)
+class Reached:
+    """What was found.
+
+    Attributes:
+        joints: (n, columns) rad, m, the best.
+        errors: (n,) m or rad that are left.
+        reached: (n,) whether a pose is reached within the arm's limits.
+    """
+
+    joints: np.ndarray
+    errors: np.ndarray
+    reached: np.ndarray
+
+    @property
+    def solved(self) -> np.ndarray:
+        """(n,) whether a pose is reached, within limits or beyond."""
+        return self.errors <= TOLERANCE
+
+
+def reach(calibration: Calibration, learned: np.ndarray, goals: Goals) -> Reached:
+    """From each start in turn, until a goal is reached.
+
+    Args:
+        learned: (n, columns) rad, m to start from if the goals have no postures.
+    """
+    arm, simple = calibration.model.nominal, goals.reachable(calibration.model.nominal)
+    starts = [goals.near] if goals.near is not None else _nearest(calibration, learned, goals)
+    lower, upper = arm.coupling.limits
+    found, errors = starts[0].copy(), np.full(len(goals), np.inf)
+    reached = np.zeros(len(goals), dtype=bool)
+    for start in starts:
+        rows = np.flatnonzero(~reached)
+        if not len(rows):
+            break
+        begin = start[rows]
+        if goals.poses.ndim > simple.poses.ndim:  # the least error of a pose, then its position
+            begin, _ = _newton(calibration, goals[rows], begin)
+        tried, remaining = _newton(calibration, simple[rows], begin)
+        within = ((tried >= lower) & (tried <= upper)).all(axis=1) & (remaining <= TOLERANCE)
+        better = within | (remaining < errors[rows])
+        found[rows[better]], errors[rows[better]] = tried[better], remaining[better]
+        reached[rows] = within
+    return Reached(found, errors, reached)
+
+
+def _nearest(calibration: Calibration, learned: np.ndarray, goals: Goals) -> list[np.ndarray]:
+    """Learned postures (n, joints) near goals, the nearest first."""
+    count, dimensions = min(STARTS, len(learned)), goals.poses.ndim
+    found = np.empty((count, len(goals), learned.shape[1]))
+    for target, rows in by_sight(goals.targets, len(goals)):
+        same = None if goals.targets is None else np.full(len(learned), target)
+        poses = Goals(learned, None, same).forward(calibration, learned)
+        tree, wanted = (
+            KDTree(_features(poses, dimensions)),
+            _features(goals.poses[rows], dimensions),
+        )
+        found[:, rows] = learned[tree.query(wanted, k=range(1, 1 + count))[1].T]
+    return list(found)
+
+
+def _features(poses: np.ndarray, dimensions: int) -> np.ndarray:
+    """Positions (n, 3), and with three dimensions the axes (n, 12), of which a turn moves two."""
+    if poses.ndim == 2:
+        return poses
+    places = poses[:, :3, 3]
+    if dimensions == 2:
+        return places
+    axes = poses[:, :3, :3].reshape(len(poses), 9) * LEVER / np.sqrt(2)
+    return np.concatenate([places, axes], axis=1)
+
+
+def _newton(
+    calibration: Calibration, goals: Goals, start: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Steps of least norm, for each goal by itself: redundant joints stay near the start."""
+    coupling = calibration.model.nominal.coupling
+
+    def kinematics(rows: np.ndarray, joints: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        every = coupling.joints(joints[:, 0])
+        if goals.targets is None:
+            poses, jacobians = calibration.forward_and_jacobian(every)
+        else:
+            poses, jacobians = calibration.predict_and_jacobian(every, goals.targets[rows])
+        return poses[:, None], (jacobians @ coupling.gains)[:, None]
+
+    found, errors = solve_groups(kinematics, goals.poses[:, None], start[:, None], TOLERANCE, STEPS)
+    return found[:, 0], errors[:, 0]

@@ -1,0 +1,1 @@
+"""Descriptions of arms: corrected ones, and those from Denavit-Hartenberg parameters."""

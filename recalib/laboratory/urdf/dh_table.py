@@ -1,0 +1,92 @@
+"""A table of Denavit-Hartenberg parameters (CSV), and the URDF of its arm."""
+
+import re
+from os import PathLike
+from xml.etree import ElementTree
+
+import pinocchio as pin
+
+from recalib.errors import InvalidFile
+from recalib.files.quantities import ANGLE, LENGTH
+from recalib.laboratory.tables.columns import TEXT, Columns
+from recalib.laboratory.tables.table import read_table
+from recalib.laboratory.urdf.origins import angles_of, written
+from recalib.nominal.arms import UNBOUNDED
+from recalib.nominal.denavit_hartenberg import BASE, MOST, TOOL, Row
+from recalib.nominal.kinematics import Arm, tool_frame
+
+MOUNT = f"{TOOL}_mount"  # the joint by which the tool hangs on the last link
+KINDS = "revolute", "prismatic"
+NO_XML = re.compile(r"[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+PARAMETERS = {"a": LENGTH, "alpha": ANGLE, "d": LENGTH, "theta": ANGLE}
+LAYOUT = (
+    Columns("joint", ("joint",), TEXT, needed=True),
+    *(Columns(name, (name,), quantity, needed=True) for name, quantity in PARAMETERS.items()),
+    Columns("kind", ("kind",), TEXT),
+)
+
+
+def read_rows(path: str | PathLike[str]) -> list[Row]:
+    """The rows of the table at `path`, from the base to the tool.
+
+    Its columns are `joint`, a name; `a` and `d`, lengths; `alpha` and `theta`, angles; and, if
+    joints slide, `kind`: revolute or prismatic.
+
+    Raises InvalidFile: not such a table, a column that is missing or unknown, a unit, a cell.
+    """
+    table = read_table(path)
+    columns = table.read(LAYOUT)
+    names = columns["joint"].tolist()
+    if len(table) > MOST:
+        raise InvalidFile(path, f"it has {len(table)} joints; expected: at most {MOST}")
+    kinds = columns["kind"].tolist() if "kind" in columns else [KINDS[0]] * len(table)
+    for row, (name, kind) in enumerate(zip(names, kinds, strict=True), 1):
+        if name in ("", MOUNT):
+            found = "is empty" if not name else f"is {MOUNT!r}, the name of the tool's joint"
+            raise InvalidFile(path, f"row {row} of column 'joint' {found}; try: another name")
+        if NO_XML.search(name):
+            found = f"row {row} of column 'joint' is {name!r}"
+            raise InvalidFile(path, f"{found}, with a character that XML does not allow")
+        if kind not in KINDS:
+            valid = " or ".join(KINDS)
+            raise InvalidFile(path, f"row {row} of column 'kind' is {kind!r}; expected: {valid}")
+    numbers = zip(*(columns[name].tolist() for name in PARAMETERS), strict=True)
+    return [
+        Row(name, **dict(zip(PARAMETERS, row, strict=True)), slides=kind == KINDS[1])
+        for name, kind, row in zip(names, kinds, numbers, strict=True)
+    ]
+
+
+def urdf_of(arm: Arm) -> str:
+    """The URDF of an arm, without masses and limits: a link for each joint, and the tool."""
+    robot = ElementTree.Element("robot", name="arm")
+    model, parent = arm.model, BASE
+    ElementTree.SubElement(robot, "link", name=BASE)
+    for index, (name, axis, slides) in enumerate(
+        zip(arm.joints, arm.axes, arm.slides, strict=True), start=1
+    ):
+        child = f"{name}_link"
+        kind = "prismatic" if slides else "continuous"
+        joint = _add(robot, name, kind, parent, child, model.jointPlacements[index])
+        ElementTree.SubElement(joint, "axis", xyz=written(axis))
+        if slides:  # which a URDF must bound
+            bounds = {"lower": str(-UNBOUNDED), "upper": str(UNBOUNDED)}
+            ElementTree.SubElement(joint, "limit", bounds, effort="0", velocity="0")
+        parent = child
+    tool = model.frames[tool_frame(model, arm.tool)].placement
+    _add(robot, MOUNT, "fixed", parent, TOOL, tool)
+    ElementTree.indent(robot)
+    return ElementTree.tostring(robot, encoding="unicode") + "\n"
+
+
+def _add(
+    robot: ElementTree.Element, name: str, kind: str, parent: str, child: str, placement: pin.SE3
+) -> ElementTree.Element:
+    """A link, and the joint by which it hangs on another."""
+    ElementTree.SubElement(robot, "link", name=child)
+    joint = ElementTree.SubElement(robot, "joint", name=name, type=kind)
+    ElementTree.SubElement(joint, "parent", link=parent)
+    ElementTree.SubElement(joint, "child", link=child)
+    angles = written(angles_of(placement.homogeneous))
+    ElementTree.SubElement(joint, "origin", xyz=written(placement.translation), rpy=angles)
+    return joint

@@ -1,0 +1,205 @@
+"""The user's own URDF with other origins: every other byte of the file stays as it was.
+
+A calibration moves placements by twists and joints by offsets. Both go into the origins of joints:
+an offset turns a joint's frame about its own axis. If a moving joint carries the tool link
+directly, no origin is left to move it by: the corrected tool is a new link.
+"""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from xml.etree import ElementTree
+from xml.parsers import expat
+
+import numpy as np
+import pinocchio as pin
+from scipy.spatial.transform import Rotation
+
+from recalib.errors import UnsuitableRobot
+from recalib.files.xml import encoding
+from recalib.identification.calibration import Calibration
+from recalib.nominal.descriptions import link_of, local_name, parsed
+from recalib.nominal.kinematics import Arm, tool_frame
+
+CORRECTED = "_corrected"  # after the tool's name, in that of the new link
+_TAG = re.compile(rb"</?(?P<prefix>(?:[^\s:>\"']+:)?)(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
+
+
+def corrected_urdf(source: bytes, calibration: Calibration) -> tuple[bytes, str]:
+    """The URDF of the nominal arm with corrected geometry, and the link that is the tool there.
+
+    Args:
+        source: the file from which the nominal arm was read.
+
+    Raises UnsuitableRobot: joints inside entities, which have no place in the file.
+    """
+    nominal = calibration.model.nominal
+    origins, tool = corrected_origins(source, calibration)
+    if tool is None:
+        return with_origins(source, origins), nominal.tool
+    name = nominal.tool + CORRECTED
+    added = (
+        f'  <link name="{name}"/>\n  <joint name="{name}" type="fixed">\n'
+        f'    <parent link="{nominal.tool}"/>\n    <child link="{name}"/>\n'
+        f"    {_origin(tool)}\n  </joint>\n"
+    )
+    return with_origins(source, origins, added), name
+
+
+def corrected_origins(
+    source: bytes, calibration: Calibration
+) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
+    """New origins (4, 4) by joint, and that of a new link for the tool, if it needs one."""
+    nominal, parameters = calibration.model.nominal, calibration.estimate.parameters
+    arm, offsets = calibration.model.own_arm(parameters), offset_poses(calibration)
+    moving, (fixed, name) = _segments(source, nominal)
+    origins = {}
+    for joint, (before, moved) in enumerate(moving, start=1):
+        placement = arm.model.jointPlacements[joint].homogeneous
+        origins[moved] = np.linalg.inv(before) @ placement @ offsets[joint - 1]
+    tool = arm.model.frames[tool_frame(arm.model, arm.tool)].placement.homogeneous
+    if name is None:
+        return origins, tool
+    return origins | {name: np.linalg.inv(fixed) @ tool}, None
+
+
+def with_origins(source: bytes, origins: Mapping[str, np.ndarray], added: str = "") -> bytes:
+    """A URDF with other origins (4, 4) [m] for the named joints; nothing else changes.
+
+    Args:
+        added: XML to insert at its end.
+
+    Raises UnsuitableRobot, as `corrected_urdf`.
+    """
+    code = encoding(source)
+    text = source.decode(code).encode("utf-8")
+    spans, last, prefix = _origin_spans(text)
+    pieces, done = [], 0
+    for joint in sorted(origins, key=lambda joint: spans[joint]):
+        start, end = spans[joint]
+        new = _origin(origins[joint]).replace("<", f"<{prefix}")
+        pieces += [text[done:start], (new if start < end else f"\n    {new}").encode()]
+        done = end
+    more = re.sub("(</?)", rf"\1{prefix}", added).encode("utf-8")
+    changed = b"".join([*pieces, text[done:last], more, text[last:]])
+    return changed.decode("utf-8").encode(code)
+
+
+def _origin(pose: np.ndarray) -> str:
+    return f'<origin xyz="{written(pose[:3, 3])}" rpy="{written(angles_of(pose))}"/>'
+
+
+def written(vector: np.ndarray) -> str:
+    """Numbers (n,) as a URDF has them, with all digits."""
+    return " ".join(f"{number + 0.0:.17g}" for number in vector)
+
+
+def offset_poses(calibration: Calibration) -> list[np.ndarray]:
+    """For each joint, the motion (4, 4) of its frame by its offset."""
+    arm = calibration.model.nominal
+    offsets = calibration.model.coefficients(calibration.estimate.parameters)["offset"]
+    moves = arm.axes * offsets[:, None]
+    poses = [np.eye(4) for _ in arm.joints]
+    for pose, move, slides in zip(poses, moves, arm.slides, strict=True):
+        if slides:
+            pose[:3, 3] = move
+        else:
+            pose[:3, :3] = Rotation.from_rotvec(move).as_matrix()
+    return poses
+
+
+def angles_of(pose: np.ndarray) -> np.ndarray:
+    """Roll, pitch and yaw (3,) [rad] of a pose (4, 4), which give it back even at a pitch of 90.
+
+    Each angle is taken from what the ones before it leave.
+    """
+    turn = pose[:3, :3]
+    roll = np.arctan2(turn[2, 1], turn[2, 2])
+    rest = turn @ pin.rpy.rpyToMatrix(roll, 0.0, 0.0).T
+    return np.array(
+        [roll, np.arctan2(-rest[2, 0], rest[2, 2]), np.arctan2(-rest[0, 1], rest[1, 1])]
+    )
+
+
+def _segments(
+    source: bytes, arm: Arm
+) -> tuple[list[tuple[np.ndarray, str]], tuple[np.ndarray, str | None]]:
+    """For each moving joint, and for the tool: the joint whose origin places it, and the origins
+    (4, 4) of the fixed joints before that one. The tool may have no such joint.
+    """
+    joints = parsed(source, Path("arm.urdf")).findall("joint")
+    by_child = {link_of(joint, "child"): joint for joint in joints}
+    path, link = [], arm.tool
+    while link in by_child and link != arm.base:
+        path.append(by_child[link])
+        link = link_of(path[-1], "parent")
+    moving, fixed = [], np.eye(4)
+    last: tuple[np.ndarray, str | None] = fixed, None
+    for joint in reversed(path):
+        name = joint.attrib["name"]
+        if name in arm.joints:
+            moving.append((fixed, name))
+            fixed = np.eye(4)
+            last = fixed, None
+        else:
+            last = fixed, name
+            fixed = fixed @ _pose(joint.find("origin"))
+    return moving, last
+
+
+def _pose(origin: ElementTree.Element | None) -> np.ndarray:
+    pose = np.eye(4)
+    if origin is not None:
+        x, y, z = map(float, origin.get("xyz", "0 0 0").split())
+        roll, pitch, yaw = map(float, origin.get("rpy", "0 0 0").split())
+        pose[:3, 3], pose[:3, :3] = (x, y, z), pin.rpy.rpyToMatrix(roll, pitch, yaw)
+    return pose
+
+
+def _origin_spans(text: bytes) -> tuple[dict[str, tuple[int, int]], int, str]:
+    """First and last byte of each joint's origin, or of where it would be inserted.
+
+    Args:
+        text: in UTF-8, whatever encoding it declares.
+
+    Returns also where the root ends, and the prefix of a namespace before the names of tags.
+    """
+    spans: dict[str, tuple[int, int]] = {}
+    path: list[tuple[str, int]] = []  # names, and where tags end that end their element, else 0
+    joint, last, prefix = "", 0, ""
+    parser = expat.ParserCreate("utf-8", "}")
+
+    def tag() -> re.Match[bytes]:
+        found = _TAG.match(text, parser.CurrentByteIndex)
+        if not found:
+            raise UnsuitableRobot("the URDF has elements in entities; try: an expanded file")
+        return found
+
+    def names() -> list[str]:
+        return [local_name(name, path[0][0]) for name, _ in path[1:]]
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal joint, prefix
+        found = tag()
+        path.append((name, found.end() if found[0].endswith(b"/>") else 0))
+        if len(path) == 1:
+            prefix = found["prefix"].decode("utf-8")
+        elif names() == ["joint"]:
+            joint = attributes["name"]
+            spans[joint] = found.end(), found.end()
+        elif names() == ["joint", "origin"] and spans[joint][0] == spans[joint][1]:
+            spans[joint] = found.start(), 0
+
+    def end(name: str) -> None:
+        nonlocal last
+        # behind an empty element, expat's index is that of whatever comes next
+        last = path[-1][1] or tag().end()
+        if names() == ["joint", "origin"] and not spans[joint][1]:
+            spans[joint] = spans[joint][0], last
+        path.pop()
+        if not path:
+            last = tag().start()
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.Parse(text, True)
+    return spans, last, prefix

@@ -1,0 +1,185 @@
+"""The lens by pictures of a board anywhere: its model, chosen by evidence, and its parameters.
+
+Poses of the board are no unknowns of the search: for each lens, each has its best pose. So the
+normal equations of the lens alone remain (variable projection, Golub and Pereyra 1973), and what
+they leave says how far the search is from its end, in standard deviations.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from recalib.identification.calibration import CONVINCING
+from recalib.identification.model.optics import BOARD, OPTICS
+from recalib.vision.boards import Board
+from recalib.vision.detection import Corners
+from recalib.vision.lenses import Lens
+from recalib.vision.views import board_pose, optics_kinds, reprojection, sighting
+
+View = tuple[Board, Corners]  # what a picture shows
+FEWEST = 6  # pictures, to know a lens by
+# How many coefficients of distortion a pinhole may have, the simplest first. A fisheye has 4.
+PINHOLES = 4, 5, 8
+FOCAL_LENGTHS = 0.25, 0.4, 0.6, 0.9, 1.3, 2.0, 3.5  # over the larger side, to start from
+STEPS, DAMPING, STIFFEST = 60, 1e-3, 1e9
+CONVERGED = 0.01  # standard deviations from the end of the search
+LEAST_NOISE = 1e-6  # px
+
+
+@dataclass(frozen=True)
+class FoundLens:
+    """A lens by pictures.
+
+    Attributes:
+        lens: as found.
+        error: px, the root mean square of what remains along an axis, over the degrees of freedom.
+        evidence: the logarithm of the model's, by Schwarz' criterion, up to a constant.
+        converged: whether the search came to its end.
+    """
+
+    lens: Lens
+    error: float
+    evidence: float
+    converged: bool
+
+
+def find_lens(views: Sequence[View], size: tuple[int, int]) -> FoundLens:
+    """The lens by the pictures (at least `FEWEST`) of boards anywhere.
+
+    A richer model has to be far more probable than a simpler one, to be chosen, and so does a
+    fisheye. They are tried only if a simpler pinhole leaves what they could explain.
+    """
+    search = _Search(views)
+    best = last = search.best_from(search.straight(size, False))
+    for count in PINHOLES[1:]:
+        if best.converged and search.gain(_extended(best.lens, PINHOLES[-1])) < CONVINCING:
+            return best
+        last = search.best_from(_extended(last.lens, count))
+        best = _more_probable(best, last)
+    return _more_probable(best, search.best_from(search.straight(size, True)))
+
+
+def _extended(lens: Lens, count: int) -> Lens:
+    """The same lens with as many coefficients of distortion."""
+    return replace(lens, distortion=np.resize([*lens.distortion, *np.zeros(count)], count))
+
+
+def _more_probable(simpler: FoundLens, richer: FoundLens) -> FoundLens:
+    further = len(richer.lens.distortion)
+    if simpler.lens.fisheye == richer.lens.fisheye:
+        further -= len(simpler.lens.distortion)
+    gain = richer.evidence - simpler.evidence
+    probable = gain > CONVINCING * np.sqrt(further)
+    return richer if probable and richer.converged >= simpler.converged else simpler
+
+
+class _Normal(NamedTuple):
+    """The best poses of the board by a lens, and the normal equations of the lens at them.
+
+    Attributes:
+        poses: (4, 4) m of the board in the camera, in each picture.
+        squares: px^2, the sum of those of reprojection errors.
+        free: how many of these the poses do not make up for.
+        information, gradient: (k, k) and (k,), by the parameters of the lens [px, 1].
+    """
+
+    poses: list[np.ndarray]
+    squares: float
+    free: int
+    information: np.ndarray
+    gradient: np.ndarray
+
+    @property
+    def variance(self) -> float:
+        """px^2, of the noise along an axis."""
+        return max(self.squares / (self.free - len(self.gradient)), LEAST_NOISE**2)
+
+
+class _Search:
+    """Pictures of boards, by which lenses are sought."""
+
+    def __init__(self, views: Sequence[View]):
+        self._views = views
+
+    def straight(self, size: tuple[int, int], fisheye: bool) -> Lens:
+        """The best of a few lenses that look straight ahead, without distortion."""
+        some = slice(None, None, max(1, len(self._views) // FEWEST))
+        x, y = (side / 2 - 0.5 for side in size)
+        lenses = [
+            Lens(size, np.array([[focal, 0, x], [0, focal, y], [0, 0, 1]]), np.zeros(4), fisheye)
+            for focal in max(size) * np.array(FOCAL_LENGTHS)
+        ]
+        return min(lenses, key=lambda lens: _squares(lens, self._views[some]))
+
+    def best_from(self, lens: Lens) -> FoundLens:
+        """The best lens of its model, by Levenberg's and Marquardt's steps from one nearby."""
+        here, damping, converged = self._normal(lens), DAMPING, False
+        for _ in range(STEPS):
+            precision = _precision(lens, here)
+            whole = np.linalg.solve(precision, here.gradient)
+            if converged := bool(here.gradient @ whole < CONVERGED**2 * here.variance):
+                break
+            damped = precision + damping * np.diag(precision.diagonal())
+            moved = moved_lens(lens, np.linalg.solve(damped, here.gradient))
+            if moved and _squares(moved, self._views, here.poses) < here.squares:
+                lens, here, damping = moved, self._normal(moved, here.poses), damping / 10
+            elif damping < STIFFEST:
+                damping *= 10
+            else:
+                break
+        squares = max(here.squares, here.free * LEAST_NOISE**2)
+        count = len(here.gradient)
+        evidence = -here.free / 2 * np.log(squares) - count / 2 * np.log(here.free)
+        return FoundLens(lens, float(np.sqrt(here.variance)), float(evidence), converged)
+
+    def gain(self, lens: Lens) -> float:
+        """How much more probable the best lens of this model is, about, than this one."""
+        here = self._normal(lens)
+        step = np.linalg.solve(_precision(lens, here), here.gradient)
+        return float(here.gradient @ step / here.variance - np.log(here.free)) / 2
+
+    def _normal(self, lens: Lens, starts: Sequence[np.ndarray | None] = ()) -> _Normal:
+        pairs = zip(self._views, starts or [None] * len(self._views), strict=True)
+        seen = [sighting(board, lens, view, True, False, at) for (board, view), at in pairs]
+        own = slice(len(BOARD), None)
+        return _Normal(
+            [one.pose for one in seen],
+            sum(one.squares for one in seen),
+            sum(one.free for one in seen),
+            np.sum([one.information[own, own] for one in seen], axis=0),
+            np.sum([one.gradient[own] for one in seen], axis=0),
+        )
+
+
+def _precision(lens: Lens, found: _Normal) -> np.ndarray:
+    """The information (k, k) of pictures on a lens, and what is known of any lens before."""
+    prior = np.array([unit * spread for _, _, unit, spread in OPTICS])[optics_kinds(lens)]
+    return found.information + np.diag(found.variance / prior**2)
+
+
+def reprojection_error(views: Sequence[View], lens: Lens) -> float:
+    """What a lens leaves in pictures [px], like `FoundLens.error`; infinite if it sees nothing."""
+    free = sum(2 * len(view.numbers) - 6 for _, view in views)
+    return float(np.sqrt(_squares(lens, views) / free))
+
+
+def _squares(lens: Lens, views: Sequence[View], starts: Sequence[np.ndarray | None] = ()) -> float:
+    """The sum [px^2] of what remains by a lens; infinite if it cannot see the corners."""
+    total = 0.0
+    for (board, view), start in zip(views, starts or [None] * len(views), strict=True):
+        pose = board_pose(board, lens, view, start)
+        if not np.isfinite(pose).all():
+            return np.inf
+        total += float(np.sum(reprojection(board, lens, view, pose) ** 2))
+    return total
+
+
+def moved_lens(lens: Lens, step: np.ndarray) -> Lens | None:
+    """The lens beside another by a step of its parameters (k,); None if there is none."""
+    fx, fy, cx, cy, *distortion = step
+    matrix = lens.matrix + np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 0]])
+    if min(matrix[0, 0], matrix[1, 1]) <= 0:
+        return None
+    return replace(lens, matrix=matrix, distortion=lens.distortion + distortion)

@@ -1,0 +1,115 @@
+"""Arrays in wrong shapes, units and numbers: each ends in our own exception, before any work."""
+
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening, apply
+from recalib.errors import InvalidSetting, RecalibError
+from recalib.laboratory.calibrate import calibrate
+from tests.laboratory.conftest import postures
+
+ROWS = 12
+JOINTS = postures(1, ROWS)
+POSES = np.tile(np.eye(4), (ROWS, 1, 1))
+
+
+@pytest.mark.parametrize(
+    ("joints", "measured", "options", "message"),
+    [
+        (JOINTS[0], POSES, {}, r"joints is 'of shape \(3,\)'; expected: .* of shape \(n, 3\)"),
+        (JOINTS[:, :2], POSES, {}, r"joints is 'of shape \(12, 2\)'; expected: .* \(n, 3\)"),
+        ("joints", POSES, {}, "joints is 'str'; expected: an array of finite numbers"),
+        (JOINTS * np.nan, POSES, {}, "joints is 'NaN or infinity in places'"),
+        (JOINTS[:5], POSES[:5], {}, "it has 5 rows; expected: at least 10"),
+        (
+            np.degrees(JOINTS),
+            POSES,
+            {},
+            r"joints is 'up to 96.1'; expected: up to 720 deg; is its unit",
+        ),
+        (JOINTS, 900 * POSES[:, :3, 0], {}, "measured is 'up to 900'; expected: up to 10 m"),
+        (JOINTS * 0, POSES, {}, "no joint moves in it"),
+        (JOINTS, POSES[:5], {}, r"measured is 'of shape \(5, 4, 4\)'; expected: .* \(12, 3\) or"),
+        (JOINTS, 2 * POSES, {}, "measured is 'matrices of something else'; expected: poses"),
+        (JOINTS, POSES.swapaxes(1, 2) + np.eye(4, k=-3), {}, "matrices of something else"),
+        (JOINTS, None, {}, "nothing was measured in it; expected: x, y, z or socket"),
+        (JOINTS, POSES, {"sockets": ["a"] * ROWS}, "it has both positions and sockets"),
+        (JOINTS, POSES, {"targets": ["a"]}, r"targets is 'of shape \(1,\)'; expected: 12 names"),
+        (JOINTS, POSES, {"times": np.arange(ROWS)[::-1]}, "row 2 was measured before row 1"),
+        (JOINTS, POSES, {"instrument": np.zeros(3)}, r"instrument is 'of shape \(3,\)'"),
+        (JOINTS, POSES, {"distances": {("a", "b"): 1}}, "has a distance between sockets"),
+        (
+            JOINTS,
+            None,
+            {"sockets": ["a", "b"] * 6, "distances": {("a", "c"): 1}},
+            "names socket 'c'; the table has a, b",
+        ),
+    ],
+)
+def test_wrong_arrays_are_refused_with_what_was_expected(joints, measured, options, message, arm):
+    with pytest.raises(RecalibError, match=message):
+        calibrate(arm, joints, measured, **options)
+
+
+def test_an_arm_is_needed_and_not_its_name():
+    with pytest.raises(RecalibError, match="arm is 'str'; expected: an Arm, as load_arm returns"):
+        calibrate("ur10_robot.urdf", JOINTS, POSES)
+
+
+SHAPES = arrays.array_shapes(min_dims=0, max_dims=4, min_side=0, max_side=13)
+ANY = st.one_of(
+    st.none(),
+    st.text(max_size=3),
+    arrays.arrays(st.sampled_from([np.float64, np.int64, np.bool_, np.complex128, "U3"]), SHAPES),
+    arrays.arrays(np.float64, st.sampled_from([(ROWS, 3), (ROWS, 4, 4), (11, 3), (4, 4)])),
+)
+
+
+@settings(max_examples=100)
+@given(ANY, ANY, st.sampled_from(["targets", "sockets", "times", "instrument", "target"]), ANY)
+def test_whatever_is_given_ends_in_our_own_exception(arm, joints, measured, option, value):
+    """Few of these arrays are of an arm; none of them ends in a traceback of NumPy's."""
+    for given_joints, given_measured in ((joints, measured), (JOINTS, measured), (joints, POSES)):
+        with np.errstate(all="ignore"), suppress(RecalibError):
+            calibrate(arm, given_joints, given_measured, **{option: value})
+
+
+@given(ANY)
+def test_one_posture_or_many_and_no_other_shape(arm, joints):
+    """Whatever is asked where the tool is says so, in the shape of the question, or refuses."""
+    damaged = apply(arm, [LinkShortening("link_2", 0.01), EncoderShift("lift", 0.02)])
+    for ask in (arm.forward, arm.gravity_torque, arm.skeleton, damaged.forward):
+        with suppress(RecalibError):
+            assert len(ask(joints)) == np.shape(joints)[0] or np.ndim(joints) == 1
+
+
+def test_one_posture_is_a_row_of_many(arm):
+    poses, jacobians = arm.forward_and_jacobian(JOINTS)
+    for many, one in (
+        (poses, arm.forward(JOINTS[3].tolist())),
+        (poses, arm.forward_and_jacobian(JOINTS[3])[0]),
+        (jacobians, arm.forward_and_jacobian(JOINTS[3])[1]),
+        (arm.skeleton(JOINTS), arm.skeleton(JOINTS[3])),
+        (arm.gravity_torque(JOINTS), arm.gravity_torque(JOINTS[3])),
+    ):
+        assert np.array_equal(many[3], one)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: EncoderShift("lift", 4),
+        lambda: EncoderShift("lift", "4 deg"),
+        lambda: LinkShortening("link_2", 40.0),
+        lambda: BaseShift((0.0, 0.1)),
+        lambda: BaseShift(rotation=(0.0, 0.0, 90.0)),
+    ],
+)
+def test_amounts_and_shapes_that_cannot_be(wrong):
+    with pytest.raises(InvalidSetting, match="is .*; expected: "):
+        wrong()

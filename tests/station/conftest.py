@@ -1,0 +1,84 @@
+"""A live calibration that several tests look at, and waits that are short."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import rerun as rr
+from watched import LiveView
+
+from recalib.identification.model.observations import Observations
+from recalib.laboratory.live.running import RunningCalibration
+from recalib.laboratory.live.session import Answer, Ended, LiveSettings, Move, calibrate_live
+from recalib.nominal.descriptions import find_urdf
+from recalib.nominal.shapes import load_shapes
+from tests.station.simulated import Simulated
+
+WAITS = {"APART": 0.0002, "SETTLING": 0.02, "PATIENCE": 0.3}  # s
+
+
+MOST = "recalib.laboratory.live.allowed.MOST"
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """A simulated arm stands at once, and a few postures are enough to choose from."""
+    monkeypatch.setattr(MOST, 60)
+    for name, seconds in WAITS.items():
+        monkeypatch.setattr(f"recalib.station.guarded.{name}", seconds)
+
+
+@pytest.fixture
+def all_postures(quick, monkeypatch):
+    """As many postures to choose from as there are."""
+    monkeypatch.setattr(MOST, 400)
+
+
+class Lived(NamedTuple):
+    """What happened in a live calibration, of a UR5 as the bar for its end has it."""
+
+    station: Simulated
+    ended: Ended
+    lines: list[str]
+    asked: list[Move]
+    rows: Observations
+    running: RunningCalibration
+    table: Path
+    recording: Path
+
+
+@pytest.fixture(scope="session")
+def lived(tmp_path_factory) -> Lived:
+    """Until the predicted error is 0.3 mm, and a few rows more."""
+    folder, station = tmp_path_factory.mktemp("lived"), Simulated("UR5", 1, FINE)
+    urdf, lines, asked, seen = find_urdf("ur5_robot.urdf"), [], [], []
+    with pytest.MonkeyPatch.context() as patch, rr.RecordingStream("live") as rec:
+        for name, seconds in WAITS.items():
+            patch.setattr(f"recalib.station.guarded.{name}", seconds)
+        rec.save(folder / "live.rrd")
+        view = LiveView(station.arm, urdf, rec)
+
+        def ask(move: Move) -> Answer:
+            asked.append(move)
+            return Answer.MOVE
+
+        def show(rows, running):
+            seen[:] = rows, running
+            view.show(rows, running)
+
+        ended = calibrate_live(
+            lambda: station,
+            station.arm,
+            folder / "table.csv",
+            LiveSettings(3e-4, speed=0.37),
+            ask,
+            None,
+            lines.append,
+            show,
+            shapes=load_shapes(station.arm, urdf)[0],
+        )
+    return Lived(station, ended, lines, asked, *seen, folder / "table.csv", folder / "live.rrd")
+
+
+FINE = 1e-4, np.radians(0.01)  # m, rad
