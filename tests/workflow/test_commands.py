@@ -86,7 +86,7 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make study STUDY=ur3": "a minute, and as make quick",
     "make study STUDY=coarse": "three minutes",
     "snakemake --cores 2 figures/figure1.svg": "most of the replication, which make has made",
-    "snakemake --cores 2 --forcerun claims -- results/claims.json": "the same",
+    "snakemake --cores 2 --forcerun findings -- results/claims.json": "the same",
 }
 BY_HAND = {
     "pip install '.[laboratory,vision]'": "part of what make vision installs",
@@ -96,7 +96,7 @@ BY_HAND = {
     "recalib calibrate ur5_robot.urdf results/real/fit.csv --tool tool0"
     " --description workflow/real/ur5.toml": "with the table that was fetched",
     "git status --short": "of the reader's own checkout",
-    "snakemake --profile profiles/slurm universes": "an hour on a cluster; see make slurm",
+    "snakemake --profile profiles/slurm campaign": "hours on a cluster; see make slurm",
     "python -m replication.config.schema": "a test compares what it has written",
     "python -m replication.judgement.deviations": "a test compares what it prints",
     "python -m tests.station.bars": "whole tables of calibrations",
