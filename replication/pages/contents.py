@@ -68,7 +68,7 @@ class Judged:
         """In a word or two."""
         if self.finding:
             return str(self.finding.verdict)
-        return f"{self.earlier.verdict} (second campaign)" if self.earlier else NOT_MEASURED
+        return f"{self.earlier.verdict} †" if self.earlier else NOT_MEASURED
 
     @property
     def slug(self) -> str:
