@@ -125,7 +125,7 @@ reproduce: archive ## unpack the archive elsewhere, and check that it reproduces
 	  cd recalib-* && make PYTHON=$(PYTHON) CORES=$(CORES) && cd results && sha256sum --check --quiet ../published/SHA256SUMS
 
 docs: tools ## these pages and a reference as a site, results/site/index.html
-	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet --strict
+	NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --quiet --strict
 	@echo "the site: results/site/index.html"
 
 pictures: setup ## pictures before and after, and a film; SCENARIO=NAME for another one; needs a Vulkan driver such as mesa-vulkan-drivers

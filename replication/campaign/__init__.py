@@ -1,1 +1,1 @@
-"""The multiverse: the replication in many universes, each with its own reading of the paper."""
+"""The campaign: every variant, tuned in many setups, each with its own reading of the paper."""

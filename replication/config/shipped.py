@@ -3,6 +3,7 @@
 SHIPPED = "replication"  # the name of the study that writes README, docs and figures/
 RESULTS = "results"
 CAMPAIGN = "workflow/campaign"  # setups, and what was measured in them
+SECOND = f"{CAMPAIGN}/second.yaml"  # verdicts that stand until the campaign has its own
 DEVIATIONS = "workflow/deviations.yaml"  # what changed after a result had been seen
 
 

@@ -8,10 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+import yaml
+from pydantic import TypeAdapter
 
 from replication.campaign.variants import variants
 from replication.config.campaign import Factors
-from replication.config.shipped import root_of
+from replication.config.part import Frozen
+from replication.config.shipped import SECOND, root_of
 from replication.config.study import Study
 from replication.config.switches import IMPROVED
 from replication.judgement.claims import claims
@@ -32,6 +35,16 @@ NOT_MEASURED = "not measured"
 SYSTEMS = {IMPROVED: "improved system"}
 
 
+class Earlier(Frozen):
+    """What the second campaign found about a claim, in words."""
+
+    verdict: Verdict
+    result: str
+
+
+_EARLIER = TypeAdapter(dict[str, Earlier])
+
+
 @dataclass(frozen=True)
 class Judged:
     """A claim, and what was found about it.
@@ -40,18 +53,22 @@ class Judged:
         statement: what the paper says.
         finding: None if it was not measured.
         needs: then, what would measure it.
+        earlier: then, what the second campaign found, if it judged the claim.
         shares: names and systems of those of its numbers that are shares of an error.
     """
 
     statement: Statement
     finding: Finding | None
     needs: str
+    earlier: Earlier | None
     shares: frozenset[tuple[str, str]]
 
     @property
     def verdict(self) -> str:
         """In a word or two."""
-        return str(self.finding.verdict) if self.finding else NOT_MEASURED
+        if self.finding:
+            return str(self.finding.verdict)
+        return f"{self.earlier.verdict} †" if self.earlier else NOT_MEASURED
 
     @property
     def slug(self) -> str:
@@ -66,12 +83,14 @@ class Judged:
     @property
     def value(self) -> str:
         """That number with its interval."""
-        return self.text(self.number) if self.number else NOT_MEASURED
+        if self.number:
+            return self.text(self.number)
+        return self.earlier.result if self.earlier else NOT_MEASURED
 
     @property
     def result(self) -> str:
         """That number with its name."""
-        return f"{_named(self.number.name)}: {self.value}" if self.number else NOT_MEASURED
+        return f"{_named(self.number.name)}: {self.value}" if self.number else self.value
 
     def name(self, number: Number, before: Number | None = None) -> str:
         """What a number is, and of which algorithm if it is another one than that before."""
@@ -123,7 +142,15 @@ class Contents:
             numbers = {(claim.name, claim.system): claim.estimand, **claim.beside}
         shares = frozenset(key for key, its in numbers.items() if isinstance(its, Remaining))
         needs = "" if finding else self._needs(claim)
-        return Judged(claim.statement, finding, needs, shares)
+        earlier = None if finding else self._earlier.get(claim.statement.id)
+        return Judged(claim.statement, finding, needs, earlier, shares)
+
+    @cached_property
+    def _earlier(self) -> dict[str, Earlier]:
+        """What the second campaign found about the shipped study's claims."""
+        if not self.evidence.shipped:
+            return {}
+        return _EARLIER.validate_python(yaml.safe_load((self.project / SECOND).read_bytes()))
 
     def _needs(self, claim: Claim) -> str:
         if isinstance(claim, OfSetups):
@@ -137,10 +164,11 @@ class Contents:
     @cached_property
     def verdicts(self) -> dict[str, list[Judged]]:
         """The claims by their verdicts; those that were not measured come last."""
-        names = [*map(str, Verdict), NOT_MEASURED]
-        found = {
-            name: [its for its in self.claims.values() if its.verdict == name] for name in names
-        }
+        found: dict[str, list[Judged]] = {name: [] for name in map(str, Verdict)}
+        for its in self.claims.values():
+            found.setdefault(str(its.finding.verdict) if its.finding else NOT_MEASURED, []).append(
+                its
+            )
         return {name: its for name, its in found.items() if its}
 
     @cached_property
@@ -152,6 +180,13 @@ class Contents:
         except NotMeasured:
             return 0
         return int(measured.map(every.issubset).sum())
+
+    fewest = FEWEST  # setups from which verdicts may follow
+
+    @property
+    def waiting(self) -> bool:
+        """Whether there are too few setups for a verdict."""
+        return self.setups < FEWEST
 
     @cached_property
     def own(self) -> dict[str, Any]:

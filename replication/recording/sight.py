@@ -27,10 +27,6 @@ class Sight:
         """A point (3,) [m] of the plane that faces the eye, by its place in the picture."""
         return self.target + [aside, above] @ self.axes
 
-    def projected(self, points: np.ndarray) -> np.ndarray:
-        """About where in the picture points (..., 3) [m] are: (..., 2) aside and above."""
-        return (points - self.target) @ self.axes.T / np.square(self.axes[0]).sum()
-
 
 def sight_of(workspace: Workspace, misses: np.ndarray) -> Sight:
     """From before the arm, on the side where misses look longest.

@@ -1,7 +1,6 @@
 """The page that says how many mutants the tests notice, and which they do not."""
 
 import difflib
-import inspect
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from cosmic_ray.work_item import WorkItem, WorkResult
 from scipy.stats import binomtest
 
 from tests.mutants import operators
-from tests.mutants.parts import LEFT_OUT
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "mutants.md"
@@ -56,8 +54,6 @@ def write_page(sessions: Mapping[str, Path]) -> None:
         rows=rows,
         whole=whole | {"part": "together", "interval": _interval(whole)},
         left=survivors,
-        science=[(name, inspect.getdoc(getattr(operators, name))) for name in operators.OPERATORS],
-        left_out=LEFT_OUT.items(),
     )
     PAGE.write_text(page + "\n", encoding="utf-8")
 

@@ -47,7 +47,6 @@ def context(errors: pd.DataFrame, versions: Mapping[str, str]) -> dict:
         },
         "untold": _untold(errors[errors.scenario == UNTOLD]),
         "right": f"{1e3 * RIGHT:g}",
-        "notes": _noted(features),
         "features": features,
     }
 
@@ -84,19 +83,6 @@ def _untold(rows: pd.DataFrame) -> list[dict]:
         for who in WHO
         if len(its := rows[rows.who == who])
     ]
-
-
-def _noted(features: list[dict]) -> list[str]:
-    """The notes in their order, once each; cells get the numbers of theirs."""
-    notes = []
-    for part in features:
-        for row in part["rows"]:
-            for peer, note in row.get("where", {}).items():
-                note = f"{peer}: {note}"
-                if note not in notes:
-                    notes.append(note)
-                row[peer] += f" [{notes.index(note) + 1}]"
-    return notes
 
 
 def render(errors: pd.DataFrame, versions: Mapping[str, str]) -> str:

@@ -10,7 +10,15 @@ import pytest
 
 from tests.conftest import ROOT, copy_project
 
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+TEMPLATES = ROOT / "workflow" / "templates"
+PAGES = [  # as they are written: those with results as templates
+    template if (template := TEMPLATES / f"{page.name}.j2").exists() else page
+    for page in (
+        ROOT / "README.md",
+        ROOT / "CONTRIBUTING.md",
+        *sorted((ROOT / "docs").glob("*.md")),
+    )
+]
 BLOCK = re.compile(r"^ *```(\w*)\n(.*?)^ *```", re.MULTILINE | re.DOTALL)
 CONTINUED = re.compile(r"\\\n *")  # on the next line
 MODULE = re.compile(r"`(python -m [^`]+)`")  # in the text
@@ -34,6 +42,9 @@ EXECUTED = {  # by a test, or by the check of a change
     "../.venv/bin/python damage_and_train.py": EXAMPLE,
     ".venv/bin/python examples/own_learner.py": EXAMPLE,
     "recalib calibrate ARM.urdf measurements.csv --tool tool0": (
+        f"{LABORATORY}::test_a_calibration_is_a_folder_of_files"
+    ),
+    "recalib calibrate my_arm.urdf measurements.csv --tool tool0": (
         f"{LABORATORY}::test_a_calibration_is_a_folder_of_files"
     ),
     "recalib correct calibration/ desired.csv": (
@@ -83,10 +94,9 @@ PLANNED = {  # Snakemake or make says what would run, and the reason why it does
     "make view STUDY=ur3": "opens a window",
     "make web STUDY=my_arm": "serves until it is interrupted",
     "make web STUDY=quick": "serves until it is interrupted",
-    "make study STUDY=ur3": "a minute, and as make quick",
     "make study STUDY=coarse": "three minutes",
     "snakemake --cores 2 figures/figure1.svg": "most of the replication, which make has made",
-    "snakemake --cores 2 --forcerun claims -- results/claims.json": "the same",
+    "snakemake --cores 2 --forcerun findings -- results/claims.json": "the same",
 }
 BY_HAND = {
     "pip install '.[laboratory,vision]'": "part of what make vision installs",
@@ -96,7 +106,7 @@ BY_HAND = {
     "recalib calibrate ur5_robot.urdf results/real/fit.csv --tool tool0"
     " --description workflow/real/ur5.toml": "with the table that was fetched",
     "git status --short": "of the reader's own checkout",
-    "snakemake --profile profiles/slurm universes": "an hour on a cluster; see make slurm",
+    "snakemake --profile profiles/slurm campaign": "hours on a cluster; see make slurm",
     "python -m replication.config.schema": "a test compares what it has written",
     "python -m replication.judgement.deviations": "a test compares what it prints",
     "python -m tests.station.bars": "whole tables of calibrations",

@@ -79,7 +79,7 @@ def visit(site, tmp_path_factory) -> SimpleNamespace:
                 browser.execute_script(axe)
                 name = f"{page.relative_to(site)}, {scheme}"
                 met.violations[name] = browser.execute_async_script(AXE)
-        met.found = search(browser, "multiverse")
+        met.found = search(browser, "campaign")
         met.console, met.requests = severe(browser), requests(browser)
     return met
 
@@ -163,4 +163,4 @@ def test_a_recording_is_shown_on_its_page_without_a_server(site, tmp_path):
 
 @needs_chromium
 def test_the_search_works_without_a_server(visit):
-    assert "multiverse" in visit.found.lower()
+    assert "campaign" in visit.found.lower()

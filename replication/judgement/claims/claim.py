@@ -82,7 +82,7 @@ class OfSetups:
         return self.statement.words, self.statement.criterion, self.estimand, self.comparison
 
     def judge(self, evidence: Evidence) -> Finding:
-        """Raises NotMeasured: fewer than three setups have the number."""
+        """Raises NotMeasured: too few setups have the number."""
         values = self.values(evidence)
         its, setups = values.model(), values.table.index
         numbers = [number(self.name, self.system, its.mean, its.another)]
@@ -110,11 +110,11 @@ class OfSetups:
         return values
 
 
-FEWEST = 3  # setups
+FEWEST = 20  # setups: until then no verdict follows from them (docs/registration.md)
 
 
 def enough(values: Values) -> bool:
-    """Whether luck and heterogeneity can be told: in three setups, of which one was repeated."""
+    """Whether a verdict may follow: luck and heterogeneity can be told, and setups are enough."""
     counts = np.isfinite(values.table).sum(axis=1)
     return len(counts) >= FEWEST and bool(counts.max() > 1)
 

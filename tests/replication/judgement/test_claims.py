@@ -17,7 +17,7 @@ from replication.running.outputs import write
 from replication.training.measured import ERRORS, KINDS
 from tests.conftest import ROOT
 
-SETUPS, OWN, LUCK = 12, 0.05, 0.01
+SETUPS, OWN, LUCK = 24, 0.05, 0.01
 BEST, LEFT = np.log(0.03), np.log(0.5)  # shares that the improved system and Ritter's map leave
 WORSE = 0.5  # of a logarithm: by which what the paper calls worse is
 

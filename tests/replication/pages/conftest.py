@@ -19,7 +19,8 @@ from replication.training.measured import ERRORS, KINDS
 from replication.training.plan import Place, places
 from tests.conftest import ROOT
 
-COMMITTED = "config.yaml", "workflow/deviations.yaml", "workflow/campaign/design.csv"
+COMMITTED = "config.yaml", "workflow/deviations.yaml"
+CAMPAIGN = "workflow/campaign/design.csv", "workflow/campaign/second.yaml"
 INITIAL, FINAL = (8.4, 4.7), (0.32, 0.23)  # cm, degrees
 LUCK, BETWEEN = 0.01, 0.1
 
@@ -71,7 +72,7 @@ def project(tmp_path_factory) -> Callable[[Study, int], Path]:
 
     def make(study: Study, setups: int) -> Path:
         folder = tmp_path_factory.mktemp("project")
-        for name in COMMITTED:
+        for name in (*COMMITTED, *CAMPAIGN):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, folder / name)
         shutil.copytree(ROOT / "workflow" / "templates", folder / "workflow" / "templates")

@@ -182,12 +182,16 @@ def test_the_real_arm_shows_no_line_where_nothing_was_measured(figures, evidence
     assert errors[0] == pytest.approx(table["position_error_mm"].iloc[0])
 
 
-def test_a_default_run_draws_what_a_study_has_results_for(small):
+def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_path, monkeypatch):
     every = [its.file for its in Figure if its not in APART]
+    monkeypatch.chdir(project())
     assert figures_of(small) == every and every[0] == "figure1"
-    other = small.model_copy(update={"name": "other"})
     campaign = {Figure.STEPS.file, Figure.CONTRASTS.file}
-    assert figures_of(other) == [name for name in every if name not in campaign]
+    untold = [name for name in every if name not in campaign]
+    other = small.model_copy(update={"name": "other"})
+    assert figures_of(other) == untold
+    monkeypatch.chdir(tmp_path)
+    assert figures_of(small) == untold, "no setup is measured"
     plan = small.experiments.model_copy(update={"evidence": False})
     quick = other.model_copy(update={"experiments": plan})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
