@@ -13,7 +13,7 @@ from typing import Any
 from recalib.errors import RecalibError
 from recalib.files.storage import digest
 from recalib.spelling import listed
-from recalib.study.checks.consistency import check
+from recalib.study.checks.consistency import check, unused
 from recalib.study.configuration.messages import InvalidConfiguration, Mistake, unknown, unlike
 from recalib.study.configuration.reading import Check, Source, placed, read_study
 from recalib.study.configuration.shipped import SHIPPED, root_of
@@ -69,8 +69,9 @@ def read_studies(
         layers = [[*layers_of(source, known)] for source in sources]
         begun = [layer for its in layers for layer in its[:-1]]
         base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
-        named = partial(named_files, project)
-        return read_study(base, *(its[-1] for its in layers), checks=(check, named, *checks))
+        inherited = base.content["scenarios"].content if "scenarios" in base.content else ()
+        further = partial(named_files, project), partial(unused, [*inherited])
+        return read_study(base, *(its[-1] for its in layers), checks=(check, *further, *checks))
 
     own = [*files, *([_typed(changes)] if changes else [])]
     base = read()  # a mistake in it is none in what is laid over it

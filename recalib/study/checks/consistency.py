@@ -13,7 +13,7 @@ import numpy as np
 from recalib.damaged.damage import BaseShift, Damage
 from recalib.damaged.kinds import DISTURBANCES
 from recalib.damaged.words import words
-from recalib.spelling import instead
+from recalib.spelling import instead, listed
 from recalib.study.configuration.damages import Assigned, Entry, describe
 from recalib.study.configuration.messages import KeyPath, Mistake, dotted, shown, unknown, unlike
 from recalib.study.configuration.study import Study
@@ -29,10 +29,20 @@ MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 n
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_names, _meanings, _amounts, _evidence):
+    for kind in (_names, _meanings, _halves, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
+
+
+def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
+    """Scenarios that a study adds to those inherited, and that nothing of it uses."""
+    plans = study.experiments.scenarios, study.benchmark.scenarios
+    used = {study.scenario, *(name.partition("-")[0] for names in plans for name in names)}
+    for name in study.scenarios:
+        if name not in used and name not in inherited:
+            valid = "scenario, experiments.scenarios or benchmark.scenarios to name it"
+            yield Mistake(("scenarios", name), f": nothing uses it; expected: {valid}")
 
 
 def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
@@ -122,6 +132,14 @@ def _meanings(study: Study) -> Iterator[Mistake]:
             path, " is something else; expected: translate, then rotate, for the universes"
         )
     yield from _rungs(study)
+
+
+def _halves(study: Study) -> Iterator[Mistake]:
+    """A scenario on which learners are trained, but which no figure shows."""
+    shown = study.experiments.scenarios
+    if study.scenario not in shown:
+        valid = f"one of experiments.scenarios, which are {listed(shown, 'and') or 'none'}"
+        yield unlike(("scenario",), study.scenario, valid, ("experiments", "scenarios"))
 
 
 def _rungs(study: Study) -> Iterator[Mistake]:
