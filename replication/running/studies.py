@@ -18,7 +18,7 @@ from replication.config.reading import Check, Source, placed, read_study
 from replication.config.shipped import SHIPPED, root_of
 from replication.config.study import Study
 from replication.config.values import Placed, from_mapping, shown
-from replication.running.checks.consistency import check
+from replication.running.checks.consistency import check, unused
 from replication.running.checks.geometry import check_robots
 
 CONFIGURATION = "config.yaml"
@@ -68,7 +68,8 @@ def study_of(
     begun = [layer for its in layers for layer in its[:-1]]
     base = reduce(Placed.under, begun, placed(project / CONFIGURATION))
     own = [its[-1] for its in layers] + ([from_mapping(_typed(changes))] if changes else [])
-    checks: list[Check] = [check, partial(named_files, project)]
+    inherited = base.content["scenarios"].content if "scenarios" in base.content else ()
+    checks: list[Check] = [check, partial(named_files, project), partial(unused, [*inherited])]
     study = read_study(base, checks=checks)  # a mistake in it is none in what is laid over it
     if asking:
         checks.append(check_robots)

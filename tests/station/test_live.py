@@ -115,6 +115,18 @@ def test_a_command_takes_the_target_where_it_should_be(lived):
         correction.command(goal, near, target="the board")
 
 
+def test_a_target_that_is_known_within_a_deviation_is_not_taken_as_exact(lived):
+    real, place = lived.station.real, lived.station.real.targets[0].copy()
+    place[:3, 3] += [0.02, 0, 0]
+    off = []
+    for within in (None, np.repeat([0.02, np.radians(1)], 3)):
+        description = Description(target=place, target_deviations=within)
+        running = RunningCalibration(lived.station.arm, description, lived.running._postures)
+        found = running.calibration(lived.rows).frames.targets[0]
+        off.append(np.linalg.norm((found - real.targets[0])[:3, 3]))
+    assert off[0] == pytest.approx(0.02) and off[1] < 0.005
+
+
 def test_three_rows_in_a_row_that_do_not_fit_are_no_outliers(lived):
     """A tripod was bumped; one or two may be outliers."""
     rows, bump = lived.rows, anywhere(np.random.default_rng(0), 0)

@@ -72,7 +72,8 @@ class RunningCalibration:
         if some not in self._frames:
             given = self._description.instrument, self._description.target
             poses = replace(observations[:some], optics=None)
-            self._frames[some] = checked_frames(self._arm, poses, *given)
+            frames = checked_frames(self._arm, poses, *given)
+            self._frames[some] = self._description.stated_in(frames)
         if count not in self._calibrations:
             frames = self._frames[some]
             if observations.optics is not None:

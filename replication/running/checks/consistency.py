@@ -11,6 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 from recalib.damaged.damage import BaseShift, Damage
+from recalib.spelling import listed
 from replication.config.damages import Assigned, Entry, describe
 from replication.config.messages import KeyPath, Mistake, shown, unknown, unlike
 from replication.config.study import Study
@@ -28,6 +29,15 @@ def check(study: Study) -> list[Mistake]:
         if found := list(kind(study)):
             return found
     return []
+
+
+def unused(inherited: Iterable[str], study: Study) -> Iterator[Mistake]:
+    """Scenarios that a study adds to those inherited, and that nothing of it uses."""
+    used = {study.scenario, *study.experiments.scenarios, *study.benchmark.scenarios}
+    for name in study.scenarios:
+        if name not in used and name not in inherited:
+            valid = "scenario, experiments.scenarios or benchmark.scenarios to name it"
+            yield Mistake(("scenarios", name), f": nothing uses it; expected: {valid}")
 
 
 def _places(path: KeyPath, names: Iterable[Each]) -> dict[KeyPath, Each]:
@@ -78,6 +88,9 @@ def _meanings(study: Study) -> Iterator[Mistake]:
     """What would not be what it is called."""
     if not any(map(_damages, study.scenarios[study.scenario])):
         valid = "a scenario with a damage: of an intact robot nothing is learned"
+        yield unlike(("scenario",), study.scenario, valid)
+    if study.scenario not in (shown := study.experiments.scenarios):
+        valid = f"one of experiments.scenarios, which are {listed(shown, 'and')}"
         yield unlike(("scenario",), study.scenario, valid)
     if study.experiments.switches:
         for switch in SWITCHES:
