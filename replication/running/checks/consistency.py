@@ -25,7 +25,7 @@ MOST_CELLS = 1_000_000  # of a map; each training has many maps, and a cell 42 n
 
 def check(study: Study) -> list[Mistake]:
     """The mistakes that can be seen without a robot; those of one kind hide those of the next."""
-    for kind in (_robot, _names, _meanings, _amounts, _evidence):
+    for kind in (_robot, _names, _meanings, _halves, _amounts, _evidence):
         if found := list(kind(study)):
             return found
     return []
@@ -89,9 +89,6 @@ def _meanings(study: Study) -> Iterator[Mistake]:
     if not any(map(_damages, study.scenarios[study.scenario])):
         valid = "a scenario with a damage: of an intact robot nothing is learned"
         yield unlike(("scenario",), study.scenario, valid)
-    if study.scenario not in (shown := study.experiments.scenarios):
-        valid = f"one of experiments.scenarios, which are {listed(shown, 'and')}"
-        yield unlike(("scenario",), study.scenario, valid)
     if study.experiments.switches:
         for switch in SWITCHES:
             for name, valid in ((IMPROVED, switch.improved), (RITTER, switch.ritter)):
@@ -99,6 +96,14 @@ def _meanings(study: Study) -> Iterator[Mistake]:
                 if stood != valid:
                     when = "while experiments.switches is true"
                     yield unlike(("learners", name, switch.key), stood, f"{valid} {when}")
+
+
+def _halves(study: Study) -> Iterator[Mistake]:
+    """A scenario on which learners are trained, but which no figure shows."""
+    shown = study.experiments.scenarios
+    if study.scenario not in shown:
+        valid = f"one of experiments.scenarios, which are {listed(shown, 'and')}"
+        yield unlike(("scenario",), study.scenario, valid, ("experiments", "scenarios"))
 
 
 def _amounts(study: Study) -> Iterator[Mistake]:
