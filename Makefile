@@ -21,7 +21,7 @@ LOCK = .venv/bin/uv pip compile pyproject.toml --universal --generate-hashes --n
 export PYTHONDONTWRITEBYTECODE =
 ELSEWHERE = folder=$$(mktemp -d) && trap 'rm -r "$$folder"' EXIT
 
-.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers check bench latency article archive reproduce docs pictures view web notebook tune design campaign ship lock clean
+.PHONY: all help quick study setup tools cluster vision live lint lines test test-all dist elsewhere lowest slurm faults mutants peers witness check bench latency article archive reproduce docs pictures view web notebook tune design campaign ship lock clean
 
 all: setup ## the full replication
 	$(SNAKEMAKE)
@@ -104,6 +104,9 @@ mutants: tools .venv/extras ## plant small random errors in the code, and list t
 
 peers: tools ## compare our calibration with figaroh and robotkinecal, each in an environment of its own: docs/peers.md
 	.venv/bin/python -m tests.peers $(addprefix --recording ,$(RECORDED))
+
+witness: setup ## train variants of three setups in a second implementation, from the paper alone, and compare (30 minutes)
+	.venv/bin/python -m tests.witness config.yaml workflow/campaign/design.csv workflow/campaign/outcomes.csv 0 1 2
 
 check: setup ## only compare the final errors with their bands
 	$(SNAKEMAKE) --forcerun check -- $(RESULTS)/check.txt
