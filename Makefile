@@ -115,7 +115,7 @@ bench: setup ## measure moves per second, and their ratio to a bare loop
 	$(SNAKEMAKE) --forcerun bench -- $(RESULTS)/bench.txt
 
 latency: vision live ## measure how fast a live calibration answers, and a corrected command
-	.venv/bin/python -m tests.station.latency
+	.venv/bin/python -m tests.bars.latency
 
 article: tools all ## the article, results/article.pdf
 	$(SNAKEMAKE) -- results/article.pdf

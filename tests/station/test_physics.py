@@ -182,7 +182,7 @@ def test_a_picture_shows_the_board_where_it_is(tmp_path):
 
 def test_identification_explains_droop():
     pytest.importorskip("cv2", reason="needs OpenCV, of the extra vision")
-    from tests.station.paper_live import calibrated
+    from tests.bars.paper_live import calibrated
 
     row = calibrated(("physics", 0))
     assert row["before"] > 10 and row["geometry"] > 3 and row["after"] < 0.3  # mm

@@ -6,7 +6,7 @@ from recalib.station.interface import cells_of
 from recalib.station.pictures import PICTURE, BoardInPictures
 from recalib.vision.detection import FEWEST, Corners
 from recalib.vision.lens_search import find_lens
-from tests.vision.bars import NOISE
+from tests.bars.pictures import NOISE
 from tests.vision.rendering import Cell
 
 FOR_THE_LENS = 15  # pictures that were taken before, for a lens to begin with

@@ -28,8 +28,8 @@ from recalib.laboratory.tables.table import MOST_ROWS
 from recalib.nominal.arms import load_arm
 from recalib.vision.detection import Corners, find_corners
 from recalib.vision.lenses import read_lens
+from tests.bars.pictures import Draw
 from tests.conftest import few_folds
-from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell
 from tests.vision.sessions import write_joints, write_views
 

@@ -15,7 +15,7 @@ from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.live.session import SOON
 from recalib.laboratory.tables.description import Description
 from recalib.station.pictures import BoardInPictures, PicturesOfABoard
-from tests.station.bars import FINER, pictured
+from tests.bars.live import FINER, pictured
 from tests.vision.rendering import Cell
 from tests.vision.test_stations import Photographs
 

@@ -18,8 +18,8 @@ from recalib.laboratory.pictures.sessions import calibrate_pictures
 from recalib.laboratory.report.hand_eye import pixel_error
 from recalib.laboratory.report.summary import summary, verdict
 from recalib.vision.lenses import Lens, read_lens
+from tests.bars.pictures import Draw
 from tests.conftest import few_folds
-from tests.vision.bars import Draw
 from tests.vision.rendering import LENS, Cell, frame
 from tests.vision.sessions import LONGER, PICTURES, SHIFT, SMALL, TURN, beside, write_session
 

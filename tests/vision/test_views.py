@@ -22,7 +22,7 @@ from recalib.vision.detection import (
 )
 from recalib.vision.lenses import Lens
 from recalib.vision.views import board_pose, good_corners, optics_of, predicted_views, sighting
-from tests.vision.bars import NOISE, Draw
+from tests.bars.pictures import NOISE, Draw
 from tests.vision.rendering import BOARD, LENS, Cell, frame
 
 PLACES = pytest.mark.parametrize("in_hand", [False, True], ids=["fixed", "hand"])

@@ -109,13 +109,13 @@ BY_HAND = {
     "snakemake --profile profiles/slurm campaign": "hours on a cluster; see make slurm",
     "python -m replication.config.schema": "a test compares what it has written",
     "python -m replication.judgement.deviations": "a test compares what it prints",
-    "python -m tests.station.bars": "whole tables of calibrations",
-    "python -m tests.station.bars ur5": "part of these tables",
-    "python -m tests.station.film": "a film that was looked at",
-    "python -m tests.station.paper_live": "15 minutes",
-    "python -m tests.station.recording": "5 minutes; a test makes its learners",
-    "python -m tests.vision.bars": "whole tables of calibrations; tests use its parts",
-    "python -m tests.vision.several": "whole tables of calibrations",
+    "python -m tests.bars.live": "whole tables of calibrations",
+    "python -m tests.bars.live ur5": "part of these tables",
+    "python -m tests.bars.film": "a film that was looked at",
+    "python -m tests.bars.paper_live": "15 minutes",
+    "python -m tests.bars.recording": "5 minutes; a test makes its learners",
+    "python -m tests.bars.pictures": "whole tables of calibrations; tests use its parts",
+    "python -m tests.bars.several": "whole tables of calibrations",
 }
 
 

@@ -3,7 +3,7 @@
 It writes results/live_paper/live_paper.rrd (5 minutes). The links are drawn where kinematics has
 them; where the tool lands is where the physics takes it.
 
-    python -m tests.station.recording
+    python -m tests.bars.recording
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from replication.recording.recorded import published_errors
 from replication.recording.writing import watch_all, write_recording
 from replication.scenarios.plants import Resolved
 from replication.scenarios.resolving import resolve
-from tests.station.paper_live import CONDITIONS, KEPT, study, tuned
+from tests.bars.paper_live import CONDITIONS, KEPT, study, tuned
 
 SEED = 0
 

@@ -4,7 +4,7 @@ Robot, damage, learners, poses and searches are those of the study. The controll
 both arms are measured with the same noise. Only what moves differs. It writes docs/live_paper.md,
 figures/live_paper.png and tables in results/live_paper (15 minutes on 2 cores).
 
-    python -m tests.station.paper_live
+    python -m tests.bars.paper_live
 """
 
 from concurrent.futures import ProcessPoolExecutor

@@ -1,4 +1,4 @@
-"""What pictures have to show, measured: python -m tests.vision.bars prints the tables.
+"""What pictures have to show, measured: python -m tests.bars.pictures prints the tables.
 
 A Panda off as in docs/peers.md, 30 pictures, lens, camera and board unknown. In most draws the
 corners are projected, with a noise of 0.15 px; in some the pictures are rendered, and the corners

@@ -1,6 +1,6 @@
-"""What several cameras are worth, and which slips are named: python -m tests.vision.several.
+"""What several cameras are worth, and which slips are named: python -m tests.bars.several.
 
-The Panda of `tests.vision.bars`, with 30 pictures by each camera, whose lens is sought. A slip is
+The Panda of `tests.bars.pictures`, with 30 pictures by each camera, whose lens is sought. A slip is
 by 1 mm or by 0.2 degrees, after half of the pictures; it is named where that picture is, too.
 """
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from recalib.laboratory.calibrate import Calibrated
 from recalib.laboratory.pictures.sessions import calibrate_pictures
-from tests.vision.bars import Draw
+from tests.bars.pictures import Draw
 from tests.vision.rendering import Cell
 from tests.vision.sessions import PICTURES, SHIFT, SMALL, TURN, beside, write_session
 

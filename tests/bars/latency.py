@@ -1,4 +1,4 @@
-"""How fast a live calibration is beside an arm that waits: python -m tests.station.latency.
+"""How fast a live calibration is beside an arm that waits: python -m tests.bars.latency.
 
 Wall times of an update with one more row, of the next proposal, and of a corrected command, in a
 process that has begun. Each is a median.
@@ -23,8 +23,8 @@ from recalib.laboratory.live.record import Pictures
 from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
+from tests.bars.live import FINE, GEARS
 from tests.identification.real import ARMS, Real
-from tests.station.bars import FINE, GEARS
 from tests.station.simulated import Simulated
 from tests.vision.rendering import Cell
 from tests.vision.stations import Seeing

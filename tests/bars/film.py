@@ -1,6 +1,6 @@
 """A film of the paper, live: an arm in MuJoCo misses three poses, learns, and hits them.
 
-python -m tests.station.film
+python -m tests.bars.film
 """
 
 import mujoco
@@ -11,7 +11,7 @@ from simulated_arm import PhysicsStation
 from recalib.damaged.plant import Plant
 from recalib.nominal.poses import position_error
 from replication.training.poses import Stream
-from tests.station.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tuned
+from tests.bars.paper_live import CONDITIONS, FIGURE, NOISY, scenario, study, tuned
 
 FILM, SIZE = FIGURE.with_suffix(".webp"), (640, 480)
 LEARNER, SHOWN, GOALS = "improved", (0, 5, 20, 200), 3

@@ -1,4 +1,4 @@
-"""What a live calibration has to show, measured: python -m tests.station.bars prints the tables.
+"""What a live calibration has to show, measured: python -m tests.bars.live prints the tables.
 
 Simulated arms are off as in tests/identification/real.py, with gears that are right or eccentric.
 Those in MuJoCo have bent links and shifted encoders, and droop. The instrument's noise is 0.05 mm

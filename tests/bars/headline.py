@@ -1,4 +1,4 @@
-"""What the headline says with a camera, over the true error: python -m tests.vision.headline.
+"""What the headline says with a camera, over the true error: python -m tests.bars.headline.
 
 A UR5 before a fixed camera and a Panda with the camera on the hand, off as in tests/identification/
 real.py. 30 pictures of the default board about 1 m away, corners off by 0.1 px, lens, camera and
