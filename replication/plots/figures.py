@@ -130,22 +130,21 @@ def scaled(study: Study) -> str | None:
 
 def figures_of(study: Study) -> list[str]:
     """The files, without suffix, of the figures for which a default run of a study has results."""
-    evidence, campaign = study.experiments.evidence, _has_campaign(study)
+    evidence, setups = study.experiments.evidence, _setups(study)
     lacking = {
-        Figure.STEPS: not campaign,
-        Figure.CONTRASTS: not campaign,
+        Figure.STEPS: not setups,
+        Figure.CONTRASTS: len(setups) < FEWEST,
         Figure.MAPPING: not evidence,
         Figure.AMOUNTS: not (evidence and scaled(study)),
     }
     return [its.file for its in Figure if its not in APART and not lacking.get(its)]
 
 
-def _has_campaign(study: Study) -> bool:
-    """Whether enough of the campaign is measured for a mean over setups."""
+def _setups(study: Study) -> set[int]:
+    """The setups of the campaign that are measured so far, if the study judges by them."""
     if study.name != SHIPPED or not study.experiments.evidence:
-        return False
+        return set()
     try:
-        measured = Evidence(study).outcomes().groupby("setup")["replicate"].nunique()
+        return set(Evidence(study).outcomes()["setup"])
     except NotMeasured:
-        return False
-    return len(measured) >= FEWEST and bool(measured.max() > 1)
+        return set()

@@ -160,7 +160,7 @@ def disturbed(table: pd.DataFrame) -> pd.DataFrame:
 @pytest.fixture(scope="module")
 def small() -> Study:
     """The shipped study with fewer seeds, setups and poses."""
-    changes = {"training": {"seeds": 3}, "campaign": {"setups": 8}}
+    changes = {"training": {"seeds": 3}, "campaign": {"setups": 20}}
     return read_study(ROOT / "config.yaml", changes)
 
 
