@@ -31,7 +31,7 @@ SLIPS = {  # a setup, and what slips in its last session
     "the board, seen by a fixed camera": ("one fixed", "sheet"),
     "the camera on the hand": ("one on the hand", "eye"),
     "the board, seen by one of two fixed cameras": ("two fixed", "sheet"),
-    "the camera on the hand, beside a fixed one": ("one fixed, one on the hand", "eye"),
+    "the camera on the hand, with a fixed one": ("one fixed, one on the hand", "eye"),
 }
 
 
@@ -46,7 +46,7 @@ def calibration(sessions: Sequence[tuple], slip: tuple | None = None) -> Calibra
 
 def main(draws: int = 20) -> None:
     """Print errors of each setup, how many clean ones are doubted, and which slips are named."""
-    print("| cameras | error | largest | doubted |")
+    print("| cameras | error | largest | false alarms |")
     print("| --- | --- | --- | --- |")
     for name, sessions in SETUPS.items():
         errors, doubted = [], 0
