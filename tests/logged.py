@@ -1,13 +1,10 @@
-"""What a recording holds, and how a viewer arranges it, in values that can be kept."""
+"""What a recording holds, in values that can be compared."""
 
-from enum import Enum
 from pathlib import Path
 from typing import Any
-from uuid import UUID
 
 import numpy as np
 import pyarrow as pa
-from rerun import AsComponents
 from rerun.chunk import RrdReader
 
 
@@ -28,28 +25,6 @@ def logged(path: Path) -> dict[str, Any]:
                     its = [len(its), *dict.fromkeys(its.tolist())]
                 found.setdefault(f"{chunk.entity_path} {name}", []).append(its)
     return {key: found[key] for key in sorted(found)}
-
-
-def arranged(part: Any) -> Any:
-    """A blueprint, or a part of one, without what is drawn by lot."""
-    match part:
-        case UUID():
-            return None
-        case str() | int() | float() | None:
-            return part
-        case Enum():
-            return part.name
-        case list() | tuple():
-            return [arranged(each) for each in part]
-        case dict():
-            return {str(key): arranged(each) for key, each in part.items()}
-        case AsComponents() if not vars(part):
-            batches = part.as_component_batches()
-            return {
-                str(its.component_descriptor()): its.as_arrow_array().to_pylist() for its in batches
-            }
-    its = {key: arranged(each) for key, each in vars(part).items() if key != "id"}
-    return {type(part).__name__: {key: each for key, each in its.items() if each is not None}}
 
 
 def _values(column: pa.Array) -> np.ndarray:

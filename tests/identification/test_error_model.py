@@ -10,6 +10,7 @@ from recalib.identification.model.error_model import (
     ErrorModel,
 )
 from replication.scenarios.plants import nominal_robot
+from tests.arms import RAILED
 
 TWISTS = 42  # parameters of an arm of six joints and one target
 
@@ -18,13 +19,17 @@ def drawn(model: ErrorModel, seed: int) -> np.ndarray:
     return model.deviations * np.random.default_rng(seed).standard_normal(len(model.deviations))
 
 
-@pytest.mark.parametrize("name", ["ur10", "z1"])
+@pytest.mark.parametrize("name", ["ur10", "z1", "railed"])
 @pytest.mark.parametrize("at_nominal", [True, False])
-def test_jacobians_agree_with_finite_differences(name, at_nominal, plan):
-    robot = nominal_robot(plan.nominal(name))
-    model = ErrorModel(robot.arm, JOINT_ERRORS)
+def test_jacobians_agree_with_finite_differences(name, at_nominal, plan, load):
+    if name == "railed":
+        arm, home, terms = load(RAILED), np.full(7, 0.4), JOINT_WAVES
+    else:
+        robot = nominal_robot(plan.nominal(name))
+        arm, home, terms = robot.arm, robot.home, JOINT_ERRORS
+    model = ErrorModel(arm, terms)
     parameters = drawn(model, 1) * (not at_nominal)
-    angles = robot.home + np.random.default_rng(2).uniform(-0.5, 0.5, (3, 6))
+    angles = home + np.random.default_rng(2).uniform(-0.5, 0.5, (3, len(home)))
     poses, jacobians = model.linearise(parameters, angles, model.terms(angles))
     assert np.allclose(poses, model.predict(parameters, angles), atol=1e-12)
     for index, unit in enumerate(np.eye(len(parameters))):

@@ -17,6 +17,10 @@ from tests.laboratory.test_urdf import random_calibration
 
 PATH = Path("arm.urdf")
 ARM = urdf(("one", "revolute", "0 0 1", "0 0 0.3"), ("two", "revolute", "0 1 0", "0.4 0 0"))
+GRIPPER = (
+    '<link name="hand"/><joint name="grip" type="revolute"><parent link="link_1"/>'
+    '<child link="hand"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>'
+)
 LOOP = (
     '<joint name="back" type="revolute"><parent link="base"/><child link="link_2"/></joint></robot>'
 )
@@ -34,6 +38,13 @@ LOOP = (
             "the mass of link_1 in arm.urdf has value 'nan'",
         ),
         (('mass value="0.0"', 'mass value="-1"'), "one carries has no mass of an arm's link"),
+        (('mass value="0.0"', 'mass value="1e7"'), "one carries has no mass of an arm's link"),
+        (
+            ('<mass value="0.0"/>', '<origin xyz="0 1350 0"/><mass value="1"/>'),
+            "one carries has no mass of an arm's link",
+        ),
+        (('xyz="0.4 0 0"', 'xyz="1350 0 0"'), "two is 1000 m or more from what carries it"),
+        (("</robot>", GRIPPER), "tool is missing; .*; at its ends are hand, link_2"),
         (('xyz="0 0 1"', 'xyz="0 0 1e-200"'), "the axis of one has no length"),
         ((' xyz="0 0 1"', ""), "the axis of one has no length"),
         (('xyz="0 0 1"', 'xyz=""'), "the axis of one in arm.urdf has xyz ''"),
@@ -47,7 +58,7 @@ LOOP = (
     ],
 )
 def test_a_mistake_is_named(change, message):
-    with pytest.raises(UnsuitableRobot, match=message):
+    with pytest.raises(RecalibError, match=message):
         arm_of(ARM.replace(*change, 1).encode(), PATH)
 
 

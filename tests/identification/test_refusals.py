@@ -1,0 +1,109 @@
+"""Rows from which no arm can be identified are refused in a sentence that says why."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from recalib.errors import RecalibError
+from recalib.identification.calibration import Calibration
+from recalib.identification.checks.diagnostics import check_estimate, check_postures
+from recalib.identification.checks.postures import find_postures
+from recalib.identification.estimation import identify
+from recalib.identification.initial_estimate import initial_frames
+from recalib.identification.model.error_model import OFFSETS, ErrorModel
+from recalib.identification.model.observations import Observations
+from tests.arms import RAILED
+from tests.identification.real import Real
+
+
+@pytest.fixture(scope="module")
+def model(ur10) -> ErrorModel:
+    return ErrorModel(ur10, OFFSETS)
+
+
+@pytest.fixture(scope="module")
+def good(ur10) -> Observations:
+    return Real(ur10, 3).observe(30, False)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda its: its[:0], r"the number of observations measured \(0\); expected: one or more"),
+        (
+            lambda its: replace(its, joints=its.joints + 14 * (np.arange(30) == 7)[:, None]),
+            r"joint angles of measurement 7 .*; expected: numbers up to 12.6 \(rad\)",
+        ),
+        (lambda its: replace(its, joints=its.joints[:, :5]), r"'joints' .*; expected: \(30, 6\)"),
+        (
+            lambda its: replace(its, measured=its.measured[:, :2]),
+            r"'measured' .* \(30, 2, 4\); expected: \(30, 3\) or \(30, 4, 4\)",
+        ),
+        (
+            lambda its: replace(its, measured=60 * its.measured),
+            r"measurement 0 .*; expected: numbers up to 10 \(m in the base frame\)",
+        ),
+        (
+            lambda its: replace(its, targets=np.arange(30) // 20),
+            r"target of measurement 20 measured \(1\); expected: below 1",
+        ),
+    ],
+    ids=["none", "far joints", "a joint less", "half a pose", "far poses", "unknown target"],
+)
+def test_rows_that_are_no_observations(spoil, said, good, model):
+    with pytest.raises(RecalibError, match=said):
+        identify(model, spoil(good))
+
+
+@pytest.mark.parametrize(
+    ("measured", "said"),
+    [
+        (np.outer(np.arange(30.0), [0.1, 0.2, 0.3]), "the targets lie along a line, so the instr"),
+        (
+            np.random.default_rng(1).normal(size=(30, 3)),
+            "no place of instrument and target explains the measurements: the best leaves 1207 mm",
+        ),
+    ],
+    ids=["a line", "noise"],
+)
+def test_positions_that_place_no_instrument(measured, said, good, ur10):
+    with pytest.raises(RecalibError, match=said):
+        initial_frames(ur10, Observations(good.joints, measured))
+
+
+def test_two_rows(good, ur10):
+    with pytest.raises(RecalibError, match="cannot be estimated from 2 rows; expected: at least 3"):
+        initial_frames(ur10, good[:2])
+
+
+def test_a_joint_that_slides_farther_than_an_arm_does(load):
+    joints = np.full((12, 7), 0.4)
+    joints[3, 0] = 11.0
+    model = ErrorModel(load(RAILED), OFFSETS)
+    with pytest.raises(RecalibError, match=r"joint positions of measurement 3 .* up to 10 \(m\)"):
+        identify(model, Observations(joints, np.zeros((12, 3))))
+
+
+def test_nine_postures():
+    joints = np.random.default_rng(2).uniform(-1, 1, (9, 6))
+    found = find_postures(joints, np.zeros(6, dtype=bool), 0.0)
+    with pytest.raises(RecalibError, match="9 rows of 9 postures; expected: at least 10 postures"):
+        check_postures(found)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"converged": False}, "the geometry was still changing when its identification was stop"),
+        (
+            {"noise": np.array([0.02, 0.1])},  # m, rad
+            "the best fit are 20.0 mm and 5.7 deg along each .*; expected: up to 5 mm and 2 deg",
+        ),
+    ],
+)
+def test_an_estimate_that_says_little(change, said, good, model, ur10):
+    seen = Observations(good.joints, ur10.forward(good.joints))
+    calibration = Calibration(model, replace(identify(model, seen), **change))
+    with pytest.raises(RecalibError, match=said):
+        check_estimate(calibration, good)
