@@ -89,19 +89,6 @@ def study() -> Study:
     return read_study(ROOT / "config.yaml")
 
 
-@pytest.fixture
-def roots(monkeypatch) -> list[tuple]:
-    """What random numbers follow from, as `generator` notes it: the seed, and hashed keys."""
-    noted, begin = [], np.random.SeedSequence
-
-    def beginning(words):
-        noted.append(tuple(words))
-        return begin(words)
-
-    monkeypatch.setattr(np.random, "SeedSequence", beginning)
-    return noted
-
-
 class Plan(NamedTuple):
     """Parts of a study, as jobs get them."""
 

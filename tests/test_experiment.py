@@ -110,15 +110,6 @@ def test_the_table_has_a_row_for_each_run_and_measurement(history):
     assert last["orientation_error_max_deg"] == np.degrees(history.orientation[2, -1, 2])
 
 
-def test_progress_tells_the_means_over_all_runs(history, controller, damaged, poses):
-    seen = []
-    train(Plant(controller, damaged), improved(3), *poses, [0, 8], lambda *said: seen.append(said))
-    means = history.position[:, [0, 2], 0].mean(axis=0), history.orientation[:, [0, 2], 0]
-    assert [its[0] for its in seen] == [0, 8]
-    assert [its[1] for its in seen] == pytest.approx(100 * means[0])
-    assert [its[2] for its in seen] == pytest.approx(np.degrees(means[1].mean(axis=0)))
-
-
 def test_each_measurement_that_is_asked_for_is_made_once_or_refused(controller, damaged, poses):
     desired, tests = poses[0][:, :4], poses[1]
     history = train(Plant(controller, damaged), improved(3), desired, tests, iter([4, 0, 4]))

@@ -4,7 +4,6 @@ import json
 import tempfile
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +17,7 @@ from recalib.damaged.plant import Plant
 from recalib.errors import InvalidFile, InvalidSetting, OtherRobot, RecalibError, UnknownName
 from recalib.learners.hierarchical import HierarchicalLearner
 from recalib.learners.kinds import KINDS
-from recalib.learners.learned import VERSION, differences, identity, join, load, read, save
+from recalib.learners.learned import VERSION, join, load, read, save
 from recalib.learners.polynomial import PolynomialLearner
 from recalib.learners.rules import Rules
 from recalib.learners.schedules import Schedule
@@ -112,48 +111,13 @@ OTHERS = {
 @pytest.mark.parametrize("message", OTHERS)
 def test_another_robot_is_refused_with_what_differs(message, robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
-    with pytest.raises(OtherRobot, match=rf"a\.npz is of another robot: its {message}"):
+    with pytest.raises(OtherRobot, match=rf"a\.npz belongs to another robot: its {message}"):
         load(tmp_path / "a.npz", OTHERS[message](robot))
-
-
-@pytest.mark.parametrize("name", ["a_joint", "z_joint"])
-def test_of_robots_with_other_joints_nothing_else_is_compared(robot, name):
-    here = identity(robot)
-    other = here | {
-        "joints": [name, *here["joints"][1:]],
-        "home": [its + 1 for its in here["home"]],
-    }
-    (told,) = differences(other, here)
-    assert told.startswith(f"its joints are ['{name}', ")
 
 
 def test_another_name_is_no_other_robot(robot, tmp_path):
     save(tmp_path / "a.npz", PolynomialLearner(1), robot)
     load(tmp_path / "a.npz", replace(robot, name="Marvin"))
-
-
-def truncated(path, left: float) -> None:
-    path.write_bytes(path.read_bytes()[: int(left * path.stat().st_size)])
-
-
-SPOILT = (
-    *(partial(truncated, left=left) for left in (0.0, 0.01, 0.5, 0.9999)),
-    lambda path: path.write_text("seed,iteration\n0,1\n"),
-    lambda path: np.savez(path, theta=np.zeros(3)),
-    lambda path: np.savez(path, header="{}"),
-    lambda path: np.savez(path, header="[]"),
-    lambda path: np.savez(path, header=np.array({"a": 1}, dtype=object)),
-    lambda path: path.write_bytes(b"\x93NUMPY"),
-)
-
-
-@pytest.mark.parametrize("spoil", SPOILT)
-def test_a_file_of_something_else_or_a_part_of_one_is_refused_by_its_name(spoil, robot, tmp_path):
-    path = tmp_path / "a.npz"
-    save(path, PolynomialLearner(2, runs=3), robot)
-    spoil(path)
-    with pytest.raises(InvalidFile, match=r"a\.npz: it is not whole, or not written by"):
-        load(path, robot)
 
 
 def test_a_newer_format_is_refused_with_the_valid_one(robot, tmp_path):

@@ -10,7 +10,6 @@ from recalib.damaged.plant import Plant
 from recalib.errors import BadMeasurement
 from recalib.identification.calibration import calibrate
 from recalib.identification.estimation import identify
-from recalib.identification.initial_estimate import initial_frames
 from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.observations import Observations
 from recalib.learners.kinds import KINDS
@@ -190,20 +189,6 @@ def spoilt(values, bad):
 def test_a_table_from_which_no_arm_can_be_identified_is_refused(spoil, said, table, robot):
     with pytest.raises(BadMeasurement, match=said):
         calibrate(robot.arm, [OFFSETS], Observations(*spoil(*table)))
-
-
-@pytest.mark.parametrize(
-    ("spoil", "said"),
-    [
-        (lambda q, p: (spoilt(q, np.nan), p), "joint angles of measurement 7 .*numbers"),
-        (lambda q, p: (q, spoilt(p[:, :3, 3], np.inf)), "^measurement 7 .*numbers"),
-        (lambda q, p: (q, p @ np.diag([-1, 1, 1, 1])), "^measurement 0 .*a rotation"),
-    ],
-    ids=["NaN", "infinite", "mirrored"],
-)
-def test_a_table_from_which_no_frames_can_be_found_is_refused(spoil, said, table, robot):
-    with pytest.raises(BadMeasurement, match=said):
-        initial_frames(robot.arm, Observations(*spoil(*table)))
 
 
 def test_an_identification_that_is_led_astray_names_a_measurement(table, robot):

@@ -24,10 +24,10 @@ from recalib.laboratory.live.running import RunningCalibration
 from recalib.laboratory.tables.description import Description
 from recalib.nominal.kinematics import Arm
 from tests.bars.live import FINE, GEARS
+from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import Simulated
 from tests.vision.rendering import Cell
-from tests.vision.stations import Seeing
 
 TIMES = 20  # that are measured, for a median
 

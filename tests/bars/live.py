@@ -32,10 +32,10 @@ from recalib.laboratory.tables.description import Description
 from recalib.nominal.arms import load_arm
 from recalib.nominal.kinematics import Arm
 from recalib.station.interface import Station
+from tests.bars.stations import Seeing
 from tests.identification.real import ARMS, Real
 from tests.station.simulated import HOMES, Simulated
 from tests.vision.rendering import Cell
-from tests.vision.stations import Seeing
 
 Forward = Callable[[np.ndarray], np.ndarray]
 FINE, ROUGH = (5e-5, np.radians(0.01)), (1e-4, np.radians(0.01))  # m, rad

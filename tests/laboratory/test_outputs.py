@@ -71,20 +71,6 @@ COMMANDS = {
 }
 
 
-@pytest.mark.parametrize(
-    ("out", "sentence"),
-    [
-        ("rows.csv/new", "nothing can be written in .*rows.csv; try: another --out"),
-        ("x" * 300, "File name too long"),
-        ("/", "cannot use /: it exists already"),
-    ],
-)
-def test_a_place_where_nothing_can_be_written_is_refused(out, sentence, laboratory):
-    code, printed = run(laboratory, *COMMANDS["urdf"], f"--out={out}")
-    assert code == REFUSED
-    assert re.search(sentence, printed) and printed.count("\n") == 1
-
-
 def test_an_empty_folder_will_do_and_parents_are_made(tmp_path):
     (tmp_path / "empty").mkdir()
     for out in (tmp_path / "empty", tmp_path / "a" / "b"):

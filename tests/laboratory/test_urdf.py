@@ -85,7 +85,7 @@ def test_a_tool_that_hangs_on_a_joint_gets_a_link_of_its_own():
 
 
 ORIGINS = """<?xml version="1.0"?>
-<!-- kept > here -->
+<!-- kept > here: <joint name="a"><origin/></joint> -->
 <robot name='r'><joint name="a" type="fixed" ><origin rpy='0 0 0'
   xyz='1 > 0'></origin><parent link="x"/></joint>
   <joint name="b"><parent link="x"/></joint>
@@ -98,7 +98,7 @@ def test_origins_are_replaced_or_added_whatever_they_look_like():
     pose[:3, 3] = 1, 2, 3
     text = with_origins(ORIGINS.encode(), {"b": pose, "a": pose}).decode()
     new = '<origin xyz="1 2 3" rpy="0 0 0"/>'
-    start = ORIGINS.index("<origin")
+    start = ORIGINS.index("<origin rpy")
     end = ORIGINS.index("<parent")
     expected = ORIGINS[:start] + new + ORIGINS[end:]
     assert text == expected.replace('<joint name="b">', f'<joint name="b">\n    {new}', 1)
@@ -111,7 +111,7 @@ def test_whatever_it_is_encoded_in_every_other_byte_stays(encoding):
     text = text.replace("kept", letters) + f"<!-- {letters} </robot> -->"
     added = f"<!-- {letters} -->"
     changed = with_origins(text.encode(encoding), {"a": np.eye(4)}, added).decode(encoding)
-    start, end = text.index("<origin"), text.index("<parent")
+    start, end = text.index("<origin rpy"), text.index("<parent")
     new = '<origin xyz="0 0 0" rpy="0 0 0"/>'
     assert changed == (text[:start] + new + text[end:]).replace("</robot>", f"{added}</robot>", 1)
 

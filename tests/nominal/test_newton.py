@@ -3,7 +3,6 @@ import pytest
 
 from recalib.nominal.arms import load_arm
 from recalib.nominal.chain import TOLERANCE, Chain
-from recalib.nominal.kernels import _eliminate
 from recalib.nominal.newton import LONGEST_STEP, solve_groups
 
 # Tools, and postures away from where these arms are singular.
@@ -137,14 +136,3 @@ def test_half_a_turn_is_not_reached_without_a_move():
     goal = arm.forward(start + np.pi * np.eye(6)[[5]])
     _, left = by_chain(arm, goal, start)
     assert left == np.inf
-
-
-def test_what_is_eliminated_is_what_numpy_solves():
-    """No equation may be divided by a zero that it begins with, in whatever order they come."""
-    shifts = [np.roll(np.eye(6), shift, axis=0) for shift in range(6)]
-    for matrix in (*shifts, *np.random.default_rng(1).normal(size=(20, 6, 6))):
-        vector = np.arange(1.0, 7)
-        wanted = np.linalg.solve(matrix, vector)
-        assert _eliminate(matrix.copy(), vector)
-        np.testing.assert_allclose(vector, wanted, rtol=1e-9)
-    assert not _eliminate(np.ones((6, 6)), np.arange(6.0)), "no numbers solve these"

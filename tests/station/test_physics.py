@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 
 from recalib.damaged.damage import DamagedArm, EncoderShift, LinkShortening, apply
-from recalib.errors import UnsuitableRobot
 from recalib.nominal.arms import load_arm
-from recalib.nominal.denavit_hartenberg import Row, arm_of_table
-from recalib.nominal.poses import orientation_error, position_error
+from recalib.nominal.poses import orientation_error
 from recalib.nominal.robots import load_robot
-from recalib.station.interface import Station, StationFailed
+from recalib.station.interface import Station
 
 pytest.importorskip("mujoco", reason="of the extra live")
 import simulated_arm as physics
@@ -40,14 +38,6 @@ def postures(damaged: DamagedArm, count: int) -> np.ndarray:
     )
 
 
-@pytest.mark.parametrize("damaged", [bent()], ids=["bent ur10"])
-def test_without_gravity_it_stands_where_kinematics_says(damaged):
-    damaged.arm.model.gravity.linear, joints = np.zeros(3), postures(damaged, 5)
-    poses, expected = PhysicsStation(damaged).forward(joints), damaged.forward(joints)
-    assert position_error(poses, expected).max() < 1e-6
-    assert orientation_error(poses, expected).max() < 1e-6
-
-
 @pytest.mark.parametrize("damaged", [bent(), intact("panda")], ids=["bent ur10", "panda"])
 def test_joints_droop_by_their_torque_over_their_stiffness(damaged):
     joints, stiffness = postures(damaged, 5), np.linspace(2e4, 5e3, damaged.arm.model.nv)
@@ -66,21 +56,6 @@ def test_joints_droop_by_their_torque_over_their_stiffness(damaged):
     )
 
 
-def test_friction_and_play_make_it_depend_on_where_it_came_from():
-    damaged = bent()
-    joints = postures(damaged, 3)
-
-    def gap(gears):
-        there, back = (
-            PhysicsStation(damaged, gears).forward(way) for way in (joints, joints[::-1])
-        )
-        return position_error(there, back[::-1]).max()
-
-    assert gap(Gears(1e4)) < 1e-6
-    rubbing, loose = gap(Gears(1e4, friction=5.0)), gap(Gears(1e4, play=1e-3))
-    assert 5e-5 < rubbing < 5e-3 and 5e-5 < loose < 5e-3
-
-
 def test_encoders_say_what_was_asked_for_and_the_instrument_sees_the_target():
     damaged, target, instrument = bent(), np.eye(4), np.eye(4)
     target[:3, 3], instrument[:3, 3] = [0, 0, 0.1], [1, 0, 0]
@@ -92,41 +67,6 @@ def test_encoders_say_what_was_asked_for_and_the_instrument_sees_the_target():
     expected = (pose @ target)[:3, 3] - [1, 0, 0]
     assert np.allclose([seen["x [m]"], seen["y [m]"], seen["z [m]"]], expected)
     assert list(seen)[3:] == ["qx", "qy", "qz", "qw"]
-
-
-def test_motors_go_straight_and_slowly_from_start_to_goal(monkeypatch):
-    """At most as fast as the fastest joint may be, which takes it the whole way."""
-    damaged, asked = intact("panda"), []
-    station = PhysicsStation(damaged)
-    start, goal = postures(damaged, 2)
-    station.move(start)
-    monkeypatch.setattr(station, "_hold", lambda angles, missed=0.0: asked.append(angles.copy()))
-    station.move(goal, 0.5)
-    shares = (np.array(asked) - start) / (goal - start)
-    assert np.ptp(shares, axis=1).max() < 1e-9  # all joints together
-    assert shares[0, 0] == 0 and shares[-1, 0] == 1 and (np.diff(shares[:, 0]) >= 0).all()
-    speeds = np.abs(np.diff(asked[:-1], axis=0)).max(axis=0) / physics.STEP
-    assert (speeds / damaged.arm.model.velocityLimit).max() == pytest.approx(0.5, rel=0.01)
-
-
-def test_what_was_stopped_moves_no_more():
-    damaged = bent()
-    station = PhysicsStation(damaged)
-    station.stop()
-    station.stop()
-    before = station.pose()
-    with pytest.raises(StationFailed, match="stopped"):
-        station.move(postures(damaged, 1)[0], 1.0)
-    assert np.allclose(station.pose(), before, atol=1e-6)
-
-
-def test_it_refuses_what_it_cannot_do():
-    station = PhysicsStation(bent())
-    with pytest.raises(StationFailed, match="limits"):
-        station.move(np.full(6, 7.0), 1.0)
-    table = arm_of_table([Row("a", 0.1, 0.0, 0.0, 0.0)])
-    with pytest.raises(UnsuitableRobot, match="masses"):
-        PhysicsStation(DamagedArm(table, np.zeros(1)))
 
 
 @pytest.fixture(scope="module")

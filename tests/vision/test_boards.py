@@ -1,6 +1,5 @@
 """Boards on paper and in TOML, and lenses in YAML."""
 
-from dataclasses import replace
 from io import BytesIO
 
 import cv2
@@ -137,10 +136,6 @@ def test_the_bar_below_a_board_is_100_mm_long(size):
     assert np.ptp(rows) * 25.4 / DOTS == pytest.approx(2, abs=0.4)
     left = (wide - 1e3 * board.size[0]) / 2
     assert columns[0] * 25.4 / DOTS == pytest.approx(left, abs=0.3)
-
-
-def test_the_smallest_board_has_two_markers():
-    assert replace(BOARDS["charuco"], columns=2, rows=2).markers == 2
 
 
 def test_a_lens_is_written_as_ros_reads_it():

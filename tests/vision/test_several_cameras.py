@@ -2,7 +2,6 @@
 
 import csv
 import json
-import re
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -240,14 +239,6 @@ def test_a_board_that_moved_between_two_sessions_is_named(tmp_path):
     assert "try each folder by itself" in told
 
 
-def test_pictures_that_the_others_contradict_are_told_by_camera_and_board(tmp_path):
-    moved = changed(1, sheet=Cell(SEED).sheet @ frame([0, 0, 0], [0.02, 0, 0]))
-    left = write_session(tmp_path / "left", Cell(SEED), "left", pictures=45)
-    right = write_session(tmp_path / "right", moved, "right", pictures=20)
-    told = verdict(calibrated(left, right))
-    assert re.search(r"Careful: \d+ of 20 pictures of the board by camera right contradict", told)
-
-
 FAR = frame([0, 0, 1.5], [0.05, 0, 0]) @ Cell(SEED).sheet
 NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
 
@@ -269,17 +260,6 @@ def test_what_cannot_be_one_cell_is_refused_by_camera_and_board(session, said, t
     left = write_session(tmp_path / "left", Cell(SEED), "left")
     with pytest.raises(RecalibError, match=said):
         calibrated(left, write_session(tmp_path / "right", *session))
-
-
-def test_joints_of_other_pictures_are_told_by_camera_and_board(tmp_path):
-    left, right = beside_left(tmp_path, beside(SEED))
-    lines = [line.split(",") for line in (right / "measurements.csv").read_text().splitlines()]
-    joints = slice(1, 8)
-    for row, line in enumerate(lines[1:PICTURES:2]):
-        line[joints] = lines[PICTURES - row][joints]
-    (right / "measurements.csv").write_text("\n".join(map(",".join, lines)))
-    with pytest.raises(RecalibError, match="the board by camera right: no place of instrument"):
-        calibrated(left, right)
 
 
 def test_several_tables_and_known_frames_are_refused(in_one_fit, tmp_path, capsys):

@@ -13,10 +13,7 @@ from recalib.identification.model.error_model import OFFSETS, ErrorModel
 from recalib.identification.model.linearisation import displacements
 from recalib.vision.boards import printable
 from recalib.vision.detection import (
-    MISPLACED,
     Unusable,
-    _misplaced,
-    _softness,
     find_corners,
     read_picture,
 )
@@ -212,22 +209,3 @@ def test_blur_by_motion_along_half_of_the_edges_is_seen(cell, poses):
     moved = cv2.blur(still, (8, 1))  # by 8 px to the side: a deviation of 8 / sqrt(12)
     found = find_corners(BOARD, moved)
     assert found.softness == pytest.approx(8 / np.sqrt(12), rel=0.3)
-
-
-def test_a_tenth_of_markers_elsewhere_is_chance_and_two_fifths_are_another_board(cell, poses):
-    places = np.array(BOARD.drawn.getObjPoints())[:, :, :2]
-    flat = np.concatenate([places.reshape(-1, 2), np.zeros((places.size // 2, 1))], axis=1)
-    turn = cv2.Rodrigues(poses[0][:3, :3])[0]
-    seen = cv2.projectPoints(flat, turn, poses[0][:3, 3], LENS.matrix, np.zeros(5))[0]
-    for few, misplaced in ((len(places) // 10, False), (2 * len(places) // 5, True)):
-        markers = seen.reshape(-1, 4, 2).copy()
-        markers[:few] += 2 * np.linalg.norm(markers[0, 0] - markers[0, 1])
-        assert (_misplaced(places, markers) > MISPLACED) == misplaced
-
-
-def test_the_edges_of_highest_contrast_tell_how_sharp_a_picture_is():
-    """Not a soft background, of which there is more."""
-    stripes = (np.arange(400) // 40 % 2 * 2 - 1) * np.ones((300, 1))
-    board, behind = 130 + 100 * stripes[:, :120], 130 + 40 * stripes[:, 120:]
-    picture = np.hstack([cv2.GaussianBlur(board, (0, 0), 1.0), cv2.GaussianBlur(behind, (0, 0), 4)])
-    assert _softness(picture.astype(np.uint8)) == pytest.approx(1.0, abs=0.3)

@@ -33,11 +33,6 @@ def test_github_runs_what_the_check_of_a_change_runs():
     assert elsewhere == here
 
 
-def test_the_browser_is_there_before_a_test_needs_it():
-    before, tests, _ = (ROOT / ".ci" / "run").read_text(encoding="utf-8").partition("\nmake test\n")
-    assert tests and " chromium chromium-driver " in before
-
-
 def test_every_python_that_is_promised_runs_the_tests():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     python = "Programming Language :: Python :: "

@@ -1,23 +1,21 @@
 """Figures show the numbers of the tables, and are the same on every machine."""
 
 import runpy
-import shutil
 
 import numpy as np
 import pytest
 
 from replication.campaign.variants import DOUBLE
-from replication.config.shipped import RESULTS, root_of
 from replication.config.switches import IMPROVED, RITTER
 from replication.judgement.claims import claims
 from replication.judgement.contrasts import Crossing, Remaining
-from replication.judgement.evidence import Evidence, NotMeasured
+from replication.judgement.evidence import Evidence
 from replication.plots import drawing, steady
 from replication.plots.contrasts import LABELS, rows
 from replication.plots.figures import APART, Figure, figures_of
 from replication.plots.learning import leading
 from replication.plots.palette import BOTH, STYLES, styles_of, styles_of_trainings
-from replication.plots.style import STYLE, plt
+from replication.plots.style import plt
 from tests.conftest import ROOT
 from tests.replication.plots.conftest import NEEDED, NOISE, disturbed
 
@@ -72,17 +70,6 @@ def test_learners_are_named_with_their_iterations(figures, evidence):
     assert errors[-1] == pytest.approx(evidence.errors(IMPROVED, 200)[:, 0].mean())
 
 
-def test_scenarios_show_every_place_before_and_after(figures, evidence):
-    position, _ = figures[Figure.SCENARIOS].axes
-    names = [label.get_text() for label in position.get_yticklabels()]
-    assert len(names) == 9 and names[-1] == "links and encoders,\non the Z1"
-    signs = {its.get_label(): its.get_offsets()[:, 0] for its in position.collections}
-    before, after = signs["before learning"], signs["improved, 200 iterations"]
-    history = evidence.history(IMPROVED, 200, "links_encoders", "z1")
-    errors = history.groupby("iteration")["position_error_cm"].mean()
-    assert (before[-1], after[-1]) == pytest.approx((errors.iloc[0], errors.iloc[-1]))
-
-
 def right_of(axes):
     """The words to the right of rows."""
     (beside,) = axes.child_axes
@@ -135,12 +122,6 @@ def test_every_claim_that_setups_decide_by_errors_is_shown(small):
     assert isinstance(estimands["figure-1"], Remaining)
 
 
-def test_the_damage_grows_by_the_scale(figures):
-    for axes, error in zip(figures[Figure.AMOUNTS].axes, BOTH, strict=True):
-        before, after = (its.get_ydata() for its in axes.lines)
-        assert after / before == pytest.approx([0.04] * 3), error.kind
-
-
 def test_the_mapping_shows_the_assignment_that_is_used(figures, evidence):
     initial, coupling, propagation, _ = figures[Figure.MAPPING].axes
     used, published = (its.get_offsets() for its in initial.collections[1:])
@@ -150,17 +131,6 @@ def test_the_mapping_shows_the_assignment_that_is_used(figures, evidence):
         name.upper() for name in robots.unique()
     ]
     assert propagation.lines[0].get_ydata().tolist() == pytest.approx([0.002, 0.02, 0.2])
-
-
-def test_another_study_s_mapping_is_shown_without_the_campaign(small, project):
-    other = small.model_copy(update={"name": "other"})
-    folder = project()
-    shutil.copytree(folder / RESULTS, folder / root_of("other"))
-    with plt.rc_context(STYLE):
-        figure = drawing.FUNCTIONS["mapping"](Evidence(other, folder))
-    titles = [axes.get_title(loc="left") for axes in figure.axes]
-    assert titles == ["initial errors", "what to propagate", "expected learning"]
-    plt.close(figure)
 
 
 def test_the_benchmark_shows_two_scenarios(figures, evidence):
@@ -196,17 +166,6 @@ def test_a_default_run_draws_what_a_study_has_results_for(small, project, tmp_pa
     quick = other.model_copy(update={"experiments": plan})
     trained = Figure.FIGURE_1, Figure.LEARNERS, Figure.SCENARIOS
     assert figures_of(quick) == [its.file for its in trained]
-
-
-def test_a_figure_without_its_results_says_what_is_lacking(small, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(NotMeasured, match="benchmark.csv"):
-        drawing.draw(small, [tmp_path / f"{Figure.BENCHMARK.file}.svg"])
-
-
-def test_a_study_without_the_improved_system_has_a_first_figure(small):
-    plan = small.experiments.model_copy(update={"learners": {"mine": (300, 50)}})
-    assert leading(small.model_copy(update={"experiments": plan}))[:2] == ("mine", 50)
 
 
 def test_captions_have_the_numbers_of_the_study(small):

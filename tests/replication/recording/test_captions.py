@@ -1,12 +1,7 @@
 """What a recording says of itself."""
 
 import numpy as np
-import pytest
 
-from recalib.damaged.bending import LinkBend
-from recalib.damaged.damage import BaseShift, EncoderShift, LinkShortening
-from recalib.damaged.disturbances import Noise
-from replication.recording.naming import in_words
 from replication.scenarios.plants import Resolved
 from tests.replication.recording.conftest import reader
 
@@ -49,18 +44,3 @@ def test_of_an_undamaged_arm_it_speaks_of_no_damage_and_no_misses(files):
     assert captions[0][0].startswith("before learning: ")
     assert captions[-1][0].startswith("after learning: ")
     assert "damage" not in columns("/legend", "Points3D:labels")[1][0]
-
-
-@pytest.mark.parametrize(
-    ("entry", "words"),
-    [
-        (LinkShortening("forearm_link", 0.04), "forearm: 4 cm short"),
-        (LinkShortening("wrist_1_link", 0.01, "axis"), "wrist 1: 1 cm short, along axis"),
-        (EncoderShift("wrist_2_joint", np.radians(-3)), "wrist 2: encoder -3 deg"),
-        (LinkBend("upper_arm_link", np.radians(5)), "upper arm: bend 5 deg"),
-        (BaseShift((0.01, 0, 0)), "translate 1 cm, 0 m, 0 m"),
-        (Noise(0.0003, 0.001), "position noise 0.3 mm, orientation noise 0.001 rad"),
-    ],
-)
-def test_a_damage_is_told_in_the_words_of_the_configuration(entry, words):
-    assert in_words(entry) == words

@@ -1,28 +1,21 @@
 """What a recording shows is what was measured, where it was."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation
 
-from recalib.damaged.damage import EncoderShift, apply
-from recalib.damaged.plant import Plant
-from recalib.learners.polynomial import PolynomialLearner
-from recalib.nominal.controller import Controller
+from recalib.damaged.damage import apply
 from recalib.nominal.poses import position_error
 from replication.config.damages import damages_among
 from replication.recording import colours
-from replication.recording.blueprint import TITLES, _plots
 from replication.recording.phases import BEFORE, FRAMES_A_SECOND, POSES, VISIT, move
 from replication.recording.recorded import typical_seed
 from replication.recording.scene import AXIS, unit_of
 from replication.recording.sight import sight_of
-from replication.recording.watched import visiting_order, watch
+from replication.recording.watched import visiting_order
 from replication.training.measured import ERRORS
 from replication.training.poses import Stream
-from tests.arms import panda
 from tests.replication.recording.conftest import ITERATIONS, LEARNERS, OWN, TESTS
 
 VISITS = POSES * VISIT  # frames
@@ -216,18 +209,6 @@ def test_the_arm_moves_smoothly_and_rests_at_every_pose(robot):
     assert np.allclose(motion.angles[waiting], angles[0, -1])
 
 
-def test_an_arm_of_seven_joints_is_watched_and_moved():
-    robot = panda()
-    damaged, controller = apply(robot, [EncoderShift("panda_joint3", 0.05)]), Controller(robot)
-    its = Stream.REPLAY.draw(1, [0], 5, 15)
-    plant = Plant(controller, damaged, None, [np.random.default_rng(2)])
-    watched = watch(controller, plant, PolynomialLearner(1), its, [0, 5])
-    reached = damaged.forward(watched.angles[-1])
-    np.testing.assert_allclose(reached, watched.achieved[-1], rtol=0, atol=1e-12)
-    motion = move(watched.angles, watched.history.iterations, robot.home, 5)
-    assert np.allclose(motion.angles[-1], watched.angles[-1, -1])
-
-
 def in_picture(sight, points) -> np.ndarray:
     """Where in the picture points (..., 3) [m] are: (..., 2) aside and above."""
     right, up = sight.axes / np.square(sight.axes[0]).sum()
@@ -247,23 +228,3 @@ def test_the_eye_is_on_the_side_from_which_misses_look_longest(robot):
     for sight in sights:
         assert in_picture(sight, np.zeros(3))[0] > 0, "the base is aside"
         assert np.allclose(in_picture(sight, sight.place(0.3, -0.8)), [0.3, -0.8])
-
-
-def test_plots_reach_to_the_last_iteration_of_the_longest_training():
-    def trained(iterations):
-        columns = dict.fromkeys(TITLES, np.array([1.0, 0.5]))
-        history = SimpleNamespace(iterations=np.array([0, iterations]), columns=columns.copy)
-        return SimpleNamespace(history=history)
-
-    views = _plots(["long", "short"], {"long": trained(200), "short": trained(50)}, {})
-    for view in views:
-        (shown,) = view.properties["TimeAxis"].view_range.as_arrow_array().to_pylist()
-        assert [shown["start"], shown["end"]] == [0, 220], "with room for the number of the last"
-
-
-def test_a_plot_of_no_error_reaches_as_far_as_one_can_read():
-    nothing = dict.fromkeys(TITLES, np.zeros(2))
-    history = SimpleNamespace(iterations=np.array([0, 200]), columns=nothing.copy)
-    for view in _plots(["intact"], {"intact": SimpleNamespace(history=history)}, {}):
-        (ends,) = view.properties["ScalarAxis"].range.as_arrow_array().to_pylist()
-        assert ends[1] >= 0.1

@@ -12,7 +12,6 @@ from recalib.damaged.damage import LinkShortening
 from recalib.errors import InvalidFile
 from recalib.laboratory.viewer.process import PROGRAM, quiet
 from recalib.learners.polynomial import PolynomialLearner
-from recalib.nominal import meshes
 from replication.recording.recorded import typical_seed
 from replication.recording.watched import watch
 from replication.recording.writing import check_end, record, write_recording
@@ -101,14 +100,6 @@ def test_one_of_todays_learners_is_recorded_in_the_own_scenario_alone(files):
 
 def entities(recording) -> set[str]:
     return {chunk.entity_path for chunk in RrdReader(recording).store().stream().to_chunks()}
-
-
-def test_missing_meshes_leave_no_recording(small, files, tmp_path, monkeypatch):
-    monkeypatch.setattr(meshes, "KINDS", ())
-    rrds = [tmp_path / "a.rrd", tmp_path / "b.rrd"]
-    with pytest.raises(InvalidFile, match="mesh 'package:.* is in none of its packages"):
-        record(small, files.scenarios, files.settings, files.histories, rrds)
-    assert not list(tmp_path.iterdir())
 
 
 def test_one_learner_other_than_the_improved_of_an_arm_described_elsewhere(small, robot, tmp_path):

@@ -12,7 +12,6 @@ from recalib.damaged.nongeometric import EccentricGear
 from recalib.errors import InvalidFile, RecalibError
 from recalib.laboratory.plausibility.mistakes import WrongNominal
 from recalib.laboratory.tables.description import Description, read_description
-from recalib.learners.uncorrected import UncorrectedLearner
 from recalib.nominal.denavit_hartenberg import Row, arm_of_table
 from replication.config.study import Source
 from replication.scenarios.plants import nominal_robot
@@ -81,16 +80,6 @@ def test_the_nominal_arm_gets_to_the_recorded_nominal_positions(recording, ur5):
     assert distance.max() < 5e-5
 
 
-def test_the_tool_point_moves_the_tool_and_the_workspace(ur5, plan):
-    flange = nominal_robot(plan.nominal("ur5"))
-    assert np.allclose(
-        np.linalg.inv(flange.workspace.centre) @ [*ur5.workspace.centre[:3, 3], 1], [*TOOL_POINT, 1]
-    )
-    by_vectors = replace(flange.workspace, coordinates="rotation_vector")
-    moved = with_tool_point(replace(flange, workspace=by_vectors), TOOL_POINT)
-    assert moved.workspace.coordinates == "rotation_vector"
-
-
 def test_learners_leave_ever_smaller_errors(recording, ur5):
     known, unknown = recording[:100], recording[100:]
     left = {name: 1e3 * remaining_errors(name, ur5, known, unknown).mean() for name in peers()}
@@ -102,20 +91,6 @@ def test_learners_leave_ever_smaller_errors(recording, ur5):
     assert left["gaussian_process"] < left["affine"]
     assert left["geometric"] < left["quadratic"]
     assert left["hybrid"] < 0.04 < 0.07 < left["geometric"]
-
-
-def test_a_learner_without_a_model_sees_a_workspace_that_just_holds_what_it_learns_from(
-    recording, ur5, monkeypatch
-):
-    seen = []
-
-    class Seeing(UncorrectedLearner):
-        from_settings = classmethod(lambda cls, *_: cls())
-        observe = staticmethod(lambda sent, *_: seen.append(sent))
-
-    monkeypatch.setattr("replication.training.real_arm.class_of", lambda kind: Seeing)
-    remaining_errors("affine", ur5, recording[:30], recording[100:])
-    assert np.abs(seen[0]).max(axis=(0, 1)) == pytest.approx(np.ones(6))
 
 
 @pytest.mark.parametrize("learner", peers())
