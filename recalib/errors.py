@@ -8,11 +8,11 @@ from recalib.spelling import instead
 
 
 class RecalibError(Exception):
-    """Base of every error that this library raises on purpose."""
+    """Base class of this library's errors."""
 
 
 class UnknownName(RecalibError):
-    """A name that is not among the valid ones; the message suggests the nearest of these."""
+    """An unknown name; the message suggests the nearest valid one."""
 
     def __init__(self, kind: str, name: str, valid: Iterable[str]):
         self.kind, self.name, self.valid = kind, name, sorted(valid)
@@ -20,18 +20,18 @@ class UnknownName(RecalibError):
 
 
 class InvalidQuantity(RecalibError):
-    """A length or an angle that does not read as a number with one of its units."""
+    """A length or an angle that is not a number with a unit."""
 
     def __init__(self, text: object, units: Iterable[str]):
         self.text, self.units = text, sorted(units)
         super().__init__(
-            f"{text!r} is no quantity: a number and one of {', '.join(self.units)},"
+            f"{text!r} is not a quantity; expected: a number and one of {', '.join(self.units)},"
             f" as in '4 {self.units[0]}'"
         )
 
 
 class InvalidSetting(RecalibError):
-    """A value outside of what its key allows; the message says what that is."""
+    """A setting with an invalid value; the message has the valid ones."""
 
     def __init__(self, key: str, value: object, valid: str):
         self.key, self.value, self.valid = key, value, valid
@@ -40,7 +40,7 @@ class InvalidSetting(RecalibError):
 
 
 class BadMeasurement(RecalibError):
-    """A measurement from which nothing can be learned.
+    """An invalid measurement.
 
     Attributes: which one it is, what was measured, and what would be valid.
     """
@@ -76,7 +76,7 @@ class Unreachable(RecalibError):
 
 
 class InvalidFile(RecalibError):
-    """A file that is damaged or holds something else than expected."""
+    """A file that is damaged or has unexpected content."""
 
     def __init__(self, path: str | PathLike[str], reason: str):
         self.path, self.reason = fspath(path), reason
@@ -84,15 +84,15 @@ class InvalidFile(RecalibError):
 
 
 class OtherRobot(RecalibError):
-    """A file of what was learned on another robot.
+    """A file that was learned on another robot.
 
     Attributes: path, and differences, a sentence for each.
     """
 
     def __init__(self, path: str | PathLike[str], differences: Iterable[str]):
         self.path, self.differences = fspath(path), [*differences]
-        super().__init__(f"{self.path} is of another robot: {'; '.join(self.differences)}")
+        super().__init__(f"{self.path} belongs to another robot: {'; '.join(self.differences)}")
 
 
 class UnfitWorkspace(RecalibError):
-    """A workspace that the nominal robot cannot serve everywhere."""
+    """A workspace that the nominal robot cannot reach everywhere."""

@@ -25,7 +25,7 @@ Along = Literal["line", "axis"]  # in which a link is shortened
 
 @dataclass
 class DamagedArm:
-    """The arm that really moves: its kinematics, and what its encoders hide.
+    """The real arm: its kinematics and its encoder offsets.
 
     All damages are done before it is asked where it goes: see `apply`.
 
@@ -60,7 +60,7 @@ class DamagedArm:
         return Chain.of(self.arm, self.offsets)
 
     def standing(self, angles: np.ndarray) -> np.ndarray:
-        """Joint angles (n, joint) [rad] at which the arm stands.
+        """True joint angles (n, joint) [rad].
 
         Every deflection starts from the shifted angles, so that the order of the damages does not
         matter.
@@ -101,7 +101,7 @@ class Damage(Imperfection):
 
 @dataclass(frozen=True)
 class BaseShift(Damage, words=("translate", "rotate")):
-    """The whole robot moved in the world, which the controller does not notice."""
+    """A displacement of the whole robot, unknown to the controller."""
 
     translate: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
     """Of the whole robot along the base's x, y and z."""
@@ -176,7 +176,7 @@ def joint_index(arm: Arm, joint: str) -> int:
 
 
 def apply(nominal: Robot | Arm, damages: Iterable[Damage]) -> DamagedArm:
-    """The nominal arm with the damages done to it, one after the other.
+    """The nominal arm with damages applied in order.
 
     Raises what they raise: see `Damage.apply`.
     """

@@ -24,7 +24,7 @@ class Noise(Imperfection, words=("position_noise", "orientation_noise")):
 
 @dataclass(frozen=True)
 class Repeatability(Imperfection, words=("repeatability",)):
-    """An arm that does not stop where it should."""
+    """Random errors of the joint angles at which an arm stops."""
 
     repeatability: bounded.NoiseOfTurn = 0.0
     """Standard deviation of the angle at which each joint stops."""
@@ -32,7 +32,7 @@ class Repeatability(Imperfection, words=("repeatability",)):
 
 @dataclass(frozen=True)
 class Outliers(Imperfection, words=("outlier_share", "outlier_size")):
-    """Measurements that are grossly wrong, in a random direction."""
+    """Gross measurement errors in random directions."""
 
     outlier_share: bounded.Share = 0.0
     """Of all measurements."""
@@ -45,7 +45,7 @@ Disturbance = Noise | Repeatability | Outliers
 
 @dataclass(frozen=True)
 class Disturbances:
-    """Random errors of a move and of its measurement; none unless given."""
+    """Random errors of moves and measurements; none by default."""
 
     noise: Noise = Noise()
     repeatability: Repeatability = Repeatability()
@@ -76,7 +76,7 @@ class Disturbances:
         )
 
     def measure(self, generators: Sequence[np.random.Generator], poses: np.ndarray) -> np.ndarray:
-        """What the instrument says of the poses (run, move, 4, 4).
+        """Measured poses (run, move, 4, 4).
 
         Args:
             generators: one for each run.

@@ -40,7 +40,7 @@ class Deflection(Damage):
 
 @dataclass(frozen=True)
 class EccentricGear(Deflection, words=("eccentricity",)):
-    """A gear out of centre: its joint is wrong by eccentricity * sin(angle + phase)."""
+    """An eccentric gear: the joint's error is eccentricity * sin(angle + phase)."""
 
     eccentricity: Turn
     """Amplitude of its error, which goes as the sine of its angle."""
@@ -53,7 +53,7 @@ class EccentricGear(Deflection, words=("eccentricity",)):
 
 @dataclass(frozen=True)
 class Sag(Deflection, words=("compliance",)):
-    """A joint that gives way to gravity in proportion to the torque that it holds."""
+    """A compliant joint: it yields to gravity in proportion to its torque."""
 
     compliance: Compliance
     """By how much it gives way to gravity."""
@@ -64,7 +64,7 @@ class Sag(Deflection, words=("compliance",)):
 
 @dataclass(frozen=True)
 class Backlash(Deflection, words=("gap",)):
-    """A gap in a gear: gravity pushes the joint to one side, by half the gap.
+    """A gap in a gear: gravity displaces the joint by half the gap.
 
     Gravity decides rather than the last motion, so that the achieved pose is a function of the
     command alone: measuring an arm in any order, or in between, changes nothing. A joint without

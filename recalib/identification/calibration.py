@@ -63,7 +63,7 @@ class Calibration:
         return self._moved(poses, joints), jacobians
 
     def predict(self, joints: np.ndarray, targets: np.ndarray | None = None) -> np.ndarray:
-        """Poses (n, 4, 4) of targets in the frame of the instrument [m]: what it should measure.
+        """Predicted measurements: poses (n, 4, 4) of targets in the instrument's frame [m].
 
         Args:
             joints: (n, joints) rad, m that the controller assumes.
@@ -110,7 +110,7 @@ class Calibration:
         return rows @ estimate.covariance @ rows.swapaxes(1, 2)
 
     def unseen(self, observations: Observations) -> float | np.ndarray:
-        """Deviations (n,) [m] of predicted positions along lines of sight; 0 without cameras."""
+        """Standard deviations (n,) [m] of predictions along lines of sight; 0 without cameras."""
         if observations.optics is None:
             return 0.0
         lines = observations.optics.lines
@@ -128,12 +128,12 @@ class Calibration:
 
     @property
     def parameters(self) -> dict[str, Parameter]:
-        """What is known of each parameter that is not held at nominal, by name."""
+        """Estimates of all parameters that are not held at nominal, by name."""
         every = zip(parameters_of(self.model, self.estimate), self.model.deviations, strict=True)
         return {its.name: its for its, before in every if before > HELD}
 
     def summary(self) -> str:
-        """A page of text: how it was found, and the parameters that are surely not zero."""
+        """A page of text: the fit, and the parameters that differ significantly from zero."""
         estimate, (position, *orientation) = self.estimate, self.estimate.noise
         noise = [f"{1e3 * position:.3g} mm", *(f"{np.degrees(x):.3g} deg" for x in orientation)]
         doubted = int(np.sum(estimate.weights < DOUBTFUL))
@@ -154,7 +154,7 @@ class Calibration:
         return self.model.found(self.estimate.parameters)
 
     def axes(self, targets: np.ndarray) -> np.ndarray:
-        """From the first instrument's axes to those of a sight's instrument (n, 3, 3)."""
+        """Rotations (n, 3, 3) from the first instrument's axes to each sight's instrument."""
         turns = self.frames.bases[:, :3, :3]
         between = turns @ turns[0].T
         between[0] = np.eye(3)  # but for rounding

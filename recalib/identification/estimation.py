@@ -52,7 +52,7 @@ CONVERGED = 0.1  # the last change of parameters, in posterior deviations, and o
 
 @dataclass(frozen=True)
 class Identification:
-    """What is known of an arm.
+    """An identified arm: its parameters and their uncertainty.
 
     Attributes:
         parameters: (P,) of the error model.

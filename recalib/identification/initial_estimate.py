@@ -34,11 +34,11 @@ KEPT = 1e-6
 
 
 class NoInitialEstimate(RecalibError):
-    """The place of the instrument or of a target is not identifiable."""
+    """The frame of the instrument or of a target is not identifiable."""
 
 
 def fewest(observations: Observations) -> int:
-    """How many rows an initial estimate needs, if each of them is of use."""
+    """The least number of rows for an initial estimate."""
     targets = int(np.max(observations.targets, initial=0)) + 1
     if observations.sockets is not None:
         return targets + int(np.max(observations.sockets, initial=0)) + 2
@@ -51,7 +51,7 @@ def initial_frames(
     base: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> Frames:
-    """The frames at both ends of the nominal arm, to start an identification from.
+    """Initial estimates of the frames at both ends of the nominal arm.
 
     Args:
         base: (4, 4) m in the frame of the instrument, where it is known.

@@ -39,7 +39,7 @@ class Calibrated(Results):
     """A calibrated arm: `summary()`, `predict(joints)`, `correct(poses)`."""
 
     def summary(self) -> str:
-        """A page of text: errors before and after, and what is known of the arm."""
+        """The printed summary: errors before and after, and the identified arm."""
         return summary(self)
 
 

@@ -38,7 +38,7 @@ def calibrate(options: Options) -> int:
     paths: list[Path] = options.measurements
     folders = [path for path in paths if path.is_dir()]
     if len(paths) > 1 and len(folders) < len(paths):
-        valid = "expected: one, or the folders that observe wrote"
+        valid = "expected: one table, or folders from recalib observe"
         raise InvalidFile(paths[0], f"it is one of {len(paths)} tables; {valid}")
     settings = options.description, options.tool, options.base, print_progress
     if folders:
@@ -68,7 +68,10 @@ def live(options: Options) -> int:
     print_progress(f"ended: {ended.reason}")
     if ended.rows < FEWEST:
         rows = counted(ended.rows, "row")
-        print(f"{rows} in {options.table}; a calibration needs {FEWEST}: the same call goes on")
+        print(
+            f"{rows} in {options.table}; a calibration needs {FEWEST}; to continue, repeat the"
+            " command"
+        )
         return DONE
     options.measurements = [options.table]
     if options.board is not None:  # all corners together determine more, also of the lens
@@ -104,8 +107,8 @@ def correct(options: Options) -> int:
     turned = np.degrees(commands.turned)
     if turned.max() > TURNED:
         _warn(
-            f"an arm of {len(arm.coupling.columns)} joints reaches positions; rotations stay up to"
-            f" {turned.max():.2g} deg from those desired, the most in row {turned.argmax() + 1}"
+            f"an arm of {len(arm.coupling.columns)} joints cannot reach every rotation; errors are"
+            f" up to {turned.max():.2g} deg, the largest in row {turned.argmax() + 1}"
         )
     if commands.beyond.any():
         _warn(_beyond(correction, commands))
@@ -134,7 +137,7 @@ def next_(options: Options) -> int:
     print(f"{postures} in {options.out}, the most informative first.")
     print(
         f"They would reduce the uncertainty of predicted positions from {before:.3g} mm to"
-        f" {after:.3g} mm" + ("." if proposal.worthwhile else ": enough has been measured.")
+        f" {after:.3g} mm" + ("." if proposal.worthwhile else ": more rows are not worthwhile.")
     )
     return DONE
 

@@ -38,7 +38,7 @@ MARGIN = 0.05  # beyond the range learned from, as a part of it
 
 
 class NotReached(RecalibError):
-    """Desired poses that the arm cannot take. Attributes: rows, counted from 1."""
+    """Desired poses that the arm cannot reach. Attributes: rows, counted from 1."""
 
     def __init__(self, rows: Sequence[int], reason: str):
         self.rows = [*rows]
@@ -48,7 +48,7 @@ class NotReached(RecalibError):
 
 @dataclass(frozen=True)
 class Commands:
-    """What to send to the controller.
+    """Commands to send to the controller.
 
     Attributes:
         joints: (n, columns) rad, or m where a joint slides, that the controller has to assume.
@@ -68,7 +68,7 @@ class Commands:
 
 @dataclass(frozen=True)
 class Correction:
-    """A calibrated arm, and the postures in which it was measured.
+    """A calibrated arm that corrects commands, with its measured postures.
 
     Attributes:
         urdf: the nominal arm's file, as the user gave it; empty if there is none.
@@ -141,7 +141,7 @@ class Correction:
         return joints
 
     def solve(self, goals: Goals) -> Reached:
-        """Joint coordinates for poses in the base, whether the arm reaches them or not."""
+        """Joint coordinates for poses in the base, reached or not."""
         return reach(self.calibration, self.postures, goals)
 
     @cached_property
@@ -151,7 +151,7 @@ class Correction:
 
     @property
     def unidentifiable_ends(self) -> str | None:
-        """The ends of the arm whose errors are unknown and remain in the base, in words."""
+        """The ends of the arm whose errors are not identifiable, in words."""
         frames = self.calibration.frames
         positions_alone = len(self.calibration.estimate.noise) == 1
         ends = {
@@ -178,13 +178,13 @@ class Correction:
         return archive_of(header, state)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write it, whole or not at all."""
+        """Write the file completely or not at all."""
         with whole(path) as temporary:
             temporary.write_bytes(self.archive())
 
     @classmethod
     def from_archive(cls, content: bytes, path: Path) -> "Correction":
-        """What `archive` returned; the path is for messages. Raises InvalidFile."""
+        """Restore from `archive`; the path appears in messages. Raises InvalidFile."""
         header, state = opened(content, path, FORMAT, WRITER)
         with refused(path, WRITER):
             urdf = state["urdf"].tobytes()
@@ -215,7 +215,7 @@ class Correction:
                 raise InvalidSetting(
                     "frame",
                     frame,
-                    "instrument, since the measurements do not determine where the arm's base is;"
+                    "instrument, because the arm's base is not identifiable from the measurements;"
                     " try: a calibration with [instrument] in its description",
                 )
             return goals
@@ -279,9 +279,9 @@ class Correction:
             raise InvalidSetting(
                 "frame",
                 frame,
-                f"{other}, in which the joints take the arm to the poses; in the frame given, they"
-                f" are {1e3 * gaps[frame]:.0f} mm off; try: poses without joints, if they are only"
-                " to stay near to",
+                f"{other}, because the joints reach the poses there; in the given frame they are"
+                f" {1e3 * gaps[frame]:.0f} mm off; try: omit the joints if they only select a"
+                " posture",
             )
 
     def _is_consistent(self) -> bool:

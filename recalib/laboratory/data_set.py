@@ -1,4 +1,4 @@
-"""What was measured of an arm, with the names of what measured and what was measured."""
+"""Measurements of an arm, with the names of instruments, targets and sockets."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ TARGET: tuple[str, ...] = ("the target",)
 
 
 class Cameras(Protocol):
-    """What pictures were taken with."""
+    """The cameras of a data set."""
 
     @property
     def doubts(self) -> Sequence[str]:
@@ -77,7 +77,7 @@ class DataSet:
 
     @property
     def scaled(self) -> list[str]:
-        """What may be of another size than described: boards, distances or all positions."""
+        """Names of scales to check: boards, distances or all positions."""
         if self.observations.sockets is not None:
             pairs = [(self.sockets[a], self.sockets[b]) for a, b, *_ in self.observations.distances]
             return [f"the distance between {one} and {other}" for one, other in pairs]

@@ -14,7 +14,7 @@ CAMERAS = "fixed", "hand"
 FILES = "correct", "next", "urdf"  # commands that write a file
 FOLDERS = "calibrate", "live", "board", "observe"  # commands that write a folder
 DONE, REFUSED, NO_BETTER = 0, 1, 3
-EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no better than doing nothing."
+EPILOGUE = f"Exit codes: {DONE} done, {REFUSED} refused, {NO_BETTER} no improvement."
 URDF = "URDF file, or the name of an arm of example-robot-data"
 CALIBRATION = "folder of calibrate, or its correction.npz"
 
@@ -70,7 +70,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         "measurements",
         type=_path,
         nargs="+",
-        help="table (CSV), or the folders that observe wrote, one for each camera",
+        help="table (CSV), or folders from recalib observe, one for each camera",
     )
     add_arm(own)
 
@@ -78,20 +78,18 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add("live", text, "calibration")
     own.add("station", "FILE.py:NAME, MODULE:NAME, or a quoted command line", _name)
     own.add("urdf", URDF, _name)
-    own.add("--error", "predicted error to end at, such as '0.3 mm'")
-    own.add("--most", "rows to end at in any case", int, 60)
-    own.add("--span", "range of each joint about the first posture, either way", str, "45 deg")
+    own.add("--error", "end at this predicted error, such as '0.3 mm'")
+    own.add("--most", "maximum number of rows", int, 60)
+    own.add("--span", "largest distance of each joint from the first posture", str, "45 deg")
     own.add_argument(
         "--box",
         nargs=3,
         metavar=("X", "Y", "Z"),
         help="ranges of the tool's position: '-40 cm to 40 cm' '30 cm to 80 cm' '0 m to 1 m'",
     )
-    own.add("--speed", "share of the possible speed", float, 0.1)
-    own.add("--floor", "height in the arm's base that all stays above, or none", str, "0 mm")
-    own.add_argument(
-        "--no-self-collision", action="store_true", help="let links come near each other"
-    )
+    own.add("--speed", "fraction of the fastest joint's limit", float, 0.1)
+    own.add("--floor", "height of the floor in the arm's base, or none", str, "0 mm")
+    own.add_argument("--no-self-collision", action="store_true", help="allow links near each other")
     own.add("--board", "board in the station's pictures (TOML)", _path)
     own.add("--lens", "lens calibration (YAML), with --board", _path)
     own.add_argument("--camera", choices=CAMERAS, help="where the camera is (default: fixed)")
@@ -110,7 +108,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         " of balls in sockets: base)",
     )
 
-    text = "propose the most informative postures, and say whether more are worth measuring"
+    text = "propose the most informative postures, and report whether more would help"
     own = add("next", text, "next.csv")
     own.add("calibration", CALIBRATION, _path)
     candidates = "postures to choose from (CSV; default: drawn at random)"
@@ -158,7 +156,7 @@ def _path(text: str) -> Path:
 
 def _positive(text: str) -> int:
     if not text.isdecimal() or not int(text):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 1 on")
+        raise argparse.ArgumentTypeError(f"{text!r} is not a positive whole number")
     return int(text)
 
 

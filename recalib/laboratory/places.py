@@ -61,7 +61,7 @@ def found_places(
     tool: str,
     instruments: Sequence[str] = ("the instrument",),
 ) -> list[Place]:
-    """The places that were not given.
+    """The estimated places.
 
     Args:
         unidentifiable: see `unidentifiable_parameters`.

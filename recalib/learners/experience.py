@@ -94,7 +94,7 @@ class Refitting(Observer):
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Take over what `state` returned."""
+        """Restore a `state`."""
         self._moves = {
             name: np.stack([state["moves"][name] for state in states]) for name in self._moves
         }

@@ -47,5 +47,5 @@ class GaussianProcessLearner(Refitting):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
-        """The learner of so many runs that has learned nothing; there are no settings."""
+        """An untrained learner for a number of runs; it has no settings."""
         return cls(runs=runs)

@@ -67,7 +67,7 @@ class GeometricLearner(Refitting):
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
-        """What it would learn from measurements of an arm that were made before, all at once.
+        """Learn at once from earlier measurements of an arm.
 
         Args:
             arm: the nominal one.
@@ -79,7 +79,7 @@ class GeometricLearner(Refitting):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: Robot) -> Self:
-        """The learner of so many runs that has learned nothing; there are no settings.
+        """An untrained learner for a number of runs; it has no settings.
 
         Its controller's singularity margin was accepted when it learned.
         """

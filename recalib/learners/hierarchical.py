@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class HierarchicalLearner:
-    """Hierarchical maps that learn by the cycle of section 2, but for its first step.
+    """Hierarchical maps with the learning cycle of section 2, without its first step.
 
     The centres of the cells stay where they are (section 3).
 
@@ -86,7 +86,7 @@ class HierarchicalLearner:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
-        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        """An untrained learner for a number of runs, from its `settings`."""
         rules: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value
             for name, value in settings["rules"].items()
@@ -111,7 +111,7 @@ class HierarchicalLearner:
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Take over what `state` returned."""
+        """Restore a `state`."""
         self.maps.settle()
         for name, theta, jacobian in self._held():
             theta[:] = [state[name]["theta"] for state in states]

@@ -8,7 +8,7 @@ from recalib.nominal.kinematics import Arm
 
 
 class HybridLearner(GeometricLearner):
-    """A geometric learner that also learns what no geometry explains; see `calibrate`.
+    """A geometric learner with joint errors and a model of residuals; see `calibrate`.
 
     Such as eccentric gears and sag.
     """
@@ -19,5 +19,5 @@ class HybridLearner(GeometricLearner):
 
     @classmethod
     def identify(cls, arm: Arm, observations: Observations) -> Calibration:
-        """As a geometric learner's; at once, there is time to look for more errors of joints."""
+        """As for a geometric learner, with more kinds of joint errors."""
         return calibrate(arm, (OFFSETS, JOINT_ERRORS, JOINT_WAVES), observations)

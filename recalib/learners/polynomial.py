@@ -64,7 +64,7 @@ class PolynomialLearner(Observer):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
-        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        """An untrained learner for a number of runs, from its `settings`."""
         return cls(**settings, runs=runs)
 
     def settings(self) -> dict[str, Any]:
@@ -79,6 +79,6 @@ class PolynomialLearner(Observer):
         ]
 
     def restore(self, states: Sequence[State]) -> None:
-        """Take over what `state` returned."""
+        """Restore a `state`."""
         self._coefficients = np.stack([state["coefficients"] for state in states])
         self._spread = np.stack([state["spread"] for state in states])

@@ -18,7 +18,7 @@ SPACING = 2 / 3  # of three cells along a coordinate of the workspace, which is 
 
 
 class RadialLearner:
-    """Units i that hold commands theta_i at centres w_i; the answer blends what they correct.
+    """Units i with commands theta_i at centres w_i; the output blends their corrections.
 
     To a desired pose u they command
 
@@ -63,7 +63,7 @@ class RadialLearner:
         return desired + (phi_kl[..., None, :] @ by_subnet)[..., 0, :]
 
     def learn(self, desired: np.ndarray, execute: Execute, fraction: float) -> None:
-        """One move, and what all units learn of it; see `Learner.learn`.
+        """Make one move and update all units; see `Learner.learn`.
 
         Nothing is learned from a refused move. Raises BadMeasurement where what is achieved is no
         number, or far off.

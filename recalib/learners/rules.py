@@ -90,7 +90,7 @@ class Rules:
 
     @property
     def law_of_rate(self) -> str:
-        """How the learning rate falls: `rate`, or what goes with how the widths fall."""
+        """The law of the learning rate: `rate`, or the one that matches the widths' law."""
         return self.rate or ("linear" if self.equal_visits else "exponential")
 
     @property
@@ -100,7 +100,7 @@ class Rules:
 
     @property
     def rate_power(self) -> float:
-        """The same of the learning rate."""
+        """As `width_power`, for the learning rate."""
         return RATES[self.law_of_rate]
 
 

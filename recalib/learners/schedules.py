@@ -77,7 +77,7 @@ class Schedule:
                 raise InvalidSetting("learning rate", rate, "above 0 and at most 1")
 
     def over(self, runs: int) -> "Schedule":
-        """The same for so many runs, all arrays (run,)."""
+        """The same for a number of runs, all arrays (run,)."""
         return self._with(lambda number: np.full(runs, number))
 
     def widths(self, maps: Collection[str]) -> tuple[np.ndarray, np.ndarray]:
@@ -96,7 +96,7 @@ class Schedule:
         return first, last
 
     def of_run(self, run: int) -> "Schedule":
-        """That of one of several runs, all numbers."""
+        """The schedule of one run, all numbers."""
         return self._with(lambda numbers: float(np.asarray(numbers)[run]))
 
     def _with(self, change: Callable[[Any], Any]) -> "Schedule":
@@ -110,7 +110,7 @@ class Schedule:
 
     @classmethod
     def of_runs(cls, schedules: Sequence["Schedule"]) -> "Schedule":
-        """One for several runs, from that of each."""
+        """A schedule for several runs, from one for each."""
 
         def together(widths: Sequence[Any]) -> Any:
             if isinstance(widths[0], Mapping):

@@ -6,7 +6,7 @@ from recalib.learners.observer import Observer
 
 
 class UncorrectedLearner(Observer):
-    """Commands what is desired. It makes the moves that the others make, and no use of them."""
+    """A baseline that commands the desired poses and learns nothing."""
 
     def command(self, desired: np.ndarray) -> np.ndarray:
         """The desired poses (run, pose, 6) themselves."""

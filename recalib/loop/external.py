@@ -10,7 +10,7 @@ from recalib.nominal.poses import Workspace
 
 
 class ExternalRobot:
-    """A robot that learners can drive, real or simulated elsewhere; see `Commandable`.
+    """A robot of your own, real or simulated, for learners to command; see `Commandable`.
 
     It serves any number of runs, one move after the other.
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Outcome(NamedTuple):
-    """What came of commanded moves, axes (run, move).
+    """The outcome of commanded moves, axes (run, move).
 
     Attributes:
         achieved: (run, move, 6) coordinates of the achieved poses; a refused move leaves the arm
@@ -31,7 +31,7 @@ Execute = Callable[[np.ndarray], Outcome]
 
 
 class Learner(Protocol):
-    """Given a desired pose, what to command; given what happened, what to learn.
+    """The interface of a learner: it commands desired poses and learns from the outcomes.
 
     Nothing but pose commands and measured poses pass between it and a robot.
     """
@@ -60,20 +60,20 @@ class Savable(Learner, Protocol):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any], runs: int, robot: "Robot") -> Self:
-        """The learner of so many runs that has learned nothing, from what `settings` returned."""
+        """An untrained learner for a number of runs, from its `settings`."""
 
     def settings(self) -> dict[str, Any]:
-        """What it was made with, in the types of JSON; a list, `by_run`, of what runs differ in."""
+        """Its settings, in the types of JSON; `by_run` lists those that differ between runs."""
 
     def state(self) -> list[State]:
-        """What each run has learned: enough to go on from there, whatever is learned later."""
+        """The learned state of each run, sufficient to continue training."""
 
     def restore(self, states: Sequence[State]) -> None:
-        """Take over what `state` returned, in a learner made with the same settings."""
+        """Restore a `state` in a learner with the same settings."""
 
 
 class Commandable(Protocol):
-    """What an experiment asks of its robots, one for each run: to take pose commands."""
+    """The interface of an experiment's robots, one for each run: they execute pose commands."""
 
     @property
     def workspace(self) -> "Workspace":
@@ -81,11 +81,11 @@ class Commandable(Protocol):
 
     @property
     def moves(self) -> int:
-        """How many moves were commanded in each run."""
+        """The number of moves commanded in each run."""
 
     @property
     def refused(self) -> np.ndarray | int:
-        """(run,) how many of them were not carried out; 0 before the first."""
+        """The number (run,) of moves that were not executed; 0 before the first."""
 
     def execute(self, commands: np.ndarray) -> Outcome:
         """Command poses, coordinates (run, move, 6), and measure what is achieved."""
@@ -100,7 +100,7 @@ class Commandable(Protocol):
 
 @runtime_checkable
 class ForwardKinematics(Protocol):
-    """What a simulated robot asks of its arm: where it takes the tool."""
+    """The interface of a simulated robot's arm: its forward kinematics."""
 
     def forward(self, angles: np.ndarray) -> np.ndarray:
         """Poses (n, 4, 4) of the tool in the base frame [m].

@@ -22,7 +22,7 @@ SUMMARIES: Mapping[str, Callable[[np.ndarray], np.ndarray]] = {
 
 @dataclass(frozen=True)
 class History:
-    """What was measured, and when; where one robot was trained by itself, without the run axis.
+    """Errors by iteration; without the run axis if a single robot was trained.
 
     Attributes:
         iterations, moves: (measurement,) done before each measurement, in each run.
@@ -49,7 +49,7 @@ class History:
         return self.orientation[..., 0]
 
     def of_run(self, run: int) -> Self:
-        """That of one of several runs."""
+        """The history of one run."""
         parts = {name: getattr(self, name)[run] for name in ("refused", "position", "orientation")}
         return replace(self, **parts)
 
@@ -97,7 +97,7 @@ def train(
     progress: Callable[[int, float, float], None] = lambda *_: None,
     error: str = "norm",
 ) -> History:
-    """Train a learner, and measure it now and then.
+    """The history of a learner's training.
 
     Args:
         plant: the robots.

@@ -107,7 +107,7 @@ class _Tree:
             with caught_messages() as messages:
                 self.model = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
         except (ValueError, RecursionError):
-            reasons = [f"{path} is no URDF that Pinocchio can read", *mistakes(robot, messages)]
+            reasons = [f"{path} is not a URDF that Pinocchio can read", *mistakes(robot, messages)]
             raise UnsuitableRobot(": ".join(reasons[:2])) from None
         self._name = path.name
         self._joints = {link_of(joint, "child"): joint for joint in robot.iterfind("joint")}

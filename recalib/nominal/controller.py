@@ -111,7 +111,7 @@ class Controller:
         return Solution(*kernels.targets(*self.nominal, commands))
 
     def targets(self, commands: np.ndarray) -> Targets:
-        """What the commands, coordinates (run, move, 6), ask of the joints."""
+        """Joint targets of the commands, coordinates (run, move, 6)."""
         solution = Solution(*kernels.targets(*self.nominal, commands.reshape(-1, 6)))
         return Targets(
             solution.angles.reshape(*commands.shape[:-1], -1),
@@ -121,7 +121,7 @@ class Controller:
     def commands_for(
         self, commands: np.ndarray, needed: Callable[[np.ndarray], np.ndarray]
     ) -> np.ndarray:
-        """The commands (run, move, 6) to which it answers with the joint angles that are needed.
+        """The commands (run, move, 6) that yield the required joint angles.
 
         Of a redundant arm there are many; those are meant which are found from its own answer.
 

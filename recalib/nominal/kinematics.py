@@ -35,7 +35,7 @@ class Arm:
         self._frame = tool_frame(model, tool)
 
     def copy(self) -> Self:
-        """The same with a model of its own."""
+        """A copy with its own Pinocchio model."""
         return type(self)(pin.Model(self.model), self.tool, self.base, self._coupling)
 
     @cached_property
@@ -86,7 +86,7 @@ class Arm:
 
     @property
     def massless(self) -> bool:
-        """Whether its links have no masses, so that nobody knows what gravity does to it."""
+        """Whether its links lack masses, so that the effect of gravity is unknown."""
         return not any(inertia.mass for inertia in list(self.model.inertias)[1:])
 
     def forward(self, angles: ArrayLike) -> np.ndarray:

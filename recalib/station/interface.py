@@ -10,11 +10,11 @@ from recalib.errors import RecalibError
 
 
 class StationFailed(RecalibError):
-    """A station cannot go on: no further move may be asked of it."""
+    """A failed station, to which no further move may be sent."""
 
 
 class Station(Protocol):
-    """An arm with its untouched controller, and an instrument.
+    """An arm with its controller and a measuring instrument.
 
     All but `stop` is called from one thread, which also makes the station. If it has a method
     `close`, that is called at the end.
@@ -22,16 +22,16 @@ class Station(Protocol):
 
     @property
     def joints(self) -> Sequence[str]:
-        """Names of the joints, as the URDF has them, in the order of all angles below."""
+        """Names of the joints as in the URDF, in the order of all angles below."""
         ...
 
     @property
     def limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """The lowest and highest angles (joints,) that it allows [rad], m where a joint slides."""
+        """The lowest and highest angles (joints,) [rad; m if prismatic]."""
         ...
 
     def move(self, angles: np.ndarray, speed: float) -> None:
-        """Go to joint angles (joints,) [rad, m], and return once it stands there.
+        """Move to joint angles (joints,) [rad, m] and return when the arm stands still.
 
         Args:
             speed: of the fastest joint, as a part of what the joint allows, in (0, 1].
@@ -41,11 +41,11 @@ class Station(Protocol):
         ...
 
     def angles(self) -> np.ndarray:
-        """Where its encoders say it is now: (joints,) rad, m."""
+        """The encoders' joint angles (joints,) [rad, m]."""
         ...
 
     def measure(self) -> Mapping[str, float | str] | None:
-        """What the instrument sees, as cells of a row of measurements by their column's header.
+        """A measurement, as cells of a row by their column's heading.
 
         For instance `x [m]`, `y [m]`, `z [m]` and `qx`, `qy`, `qz`, `qw`, or `picture`, the path of
         a file. None where it does not see the target. Raises StationFailed.
@@ -53,7 +53,7 @@ class Station(Protocol):
         ...
 
     def stop(self) -> None:
-        """Stand still, now. It raises nothing, and may be called at any time, also twice."""
+        """Stop at once. It raises nothing and may be called repeatedly at any time."""
         ...
 
 

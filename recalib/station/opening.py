@@ -29,7 +29,7 @@ def open_station(text: str) -> Station:
         try:
             command = shlex.split(text)
         except ValueError as error:
-            raise StationFailed(f"{text!r} is no command line: {error}") from None
+            raise StationFailed(f"{text!r} is not a command line: {error}") from None
         if not command:
             raise StationFailed("STATION is empty; expected: FILE.py:NAME, or a command line")
         if len(command) == 1 and _lacks_a_name(command[0]):

@@ -112,7 +112,7 @@ class PicturesOfABoard:
     def measure(self) -> Mapping[str, float | str] | None:
         """See `Station.measure`: the picture and the pose; None if the board is not found.
 
-        Raises InvalidFile: it is no picture of this camera.
+        Raises InvalidFile: it is not a picture of this camera.
         """
         cells = self._station.measure()
         if cells is None:

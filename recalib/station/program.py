@@ -16,7 +16,7 @@ PATIENCE = 5.0  # s that a program has to end by itself
 
 
 class ProgramStation:
-    """A station behind a program, to which each request is a line and which answers with a line.
+    """A station in another program, with a line for each request and answer.
 
     Requests are `{"do": "describe"}`, `{"do": "move", "angles": [...], "speed": 0.2}`,
     `{"do": "angles"}` and `{"do": "measure"}`; docs/live.md has the answers. `{"do": "stop"}` comes

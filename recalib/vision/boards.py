@@ -47,7 +47,7 @@ class Board:
             if not isinstance(getattr(self, name), int) or not 2 <= getattr(self, name) <= 50:
                 raise InvalidSetting(name, getattr(self, name), "a whole number from 2 to 50")
         if not SMALLEST <= self.square <= LARGEST:
-            valid = f"from {1e3 * SMALLEST:g} mm, which a camera can tell, to {LARGEST:g} m"
+            valid = f"from {1e3 * SMALLEST:g} mm to {LARGEST:g} m"
             raise InvalidSetting("square", f"{1e3 * self.square:g} mm", valid)
         if not 0 < self.marker < self.square:
             raise InvalidSetting("marker", f"{1e3 * self.marker:g} mm", "less than the square")

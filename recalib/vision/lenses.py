@@ -80,12 +80,12 @@ def read_lens(path: str | PathLike[str]) -> Lens:
     except (ValueError, RecursionError, yaml.YAMLError):
         tree = None
     if not isinstance(tree, dict):
-        raise InvalidFile(path, "it is no YAML of OpenCV or ROS")
+        raise InvalidFile(path, "it is not a YAML file of OpenCV or ROS")
     matrix, distortion = (_numbers(tree, names) for names in (MATRICES, DISTORTIONS))
     sides = next((names for names in SIZES if tree.keys() >= {*names}), SIZES[0])
     size = np.concatenate([_numbers(tree, [side]) for side in sides])
     if len(size) != 2 or not ((size > 0) & (size < MOST) & (size % 1 == 0)).all():
-        raise InvalidFile(path, f"{' and '.join(sides)} are no numbers of pixels")
+        raise InvalidFile(path, f"{' and '.join(sides)} are not numbers of pixels")
     width, height = size.astype(int).tolist()
     if len(matrix) != 9 or not np.isfinite(matrix).all():
         raise InvalidFile(path, f"{MATRICES[0]} has no 9 numbers")

@@ -20,7 +20,7 @@ OTHER_LINK, OTHER_ARM, OTHER_CROSSING = 0.2, 0.05, 0.02
 
 
 class Untrustworthy(RecalibError):
-    """An identification whose accuracy cannot be known, or that has none.
+    """An identification of unknown or insufficient accuracy.
 
     Args:
         problem: what is wrong, in words.

@@ -31,7 +31,7 @@ DIGITS = 6  # of an effect over the largest: where several targets tie, rounding
 
 @dataclass(frozen=True)
 class Unidentifiable:
-    """A parameter that is not told from others.
+    """A parameter that is not identifiable.
 
     Attributes:
         parameter: its number.
@@ -48,7 +48,7 @@ class Unidentifiable:
 def unidentifiable_parameters(
     calibration: Calibration, observations: Observations
 ) -> list[Unidentifiable]:
-    """The parameters of geometry that observations leave open, in the order above."""
+    """The parameters of geometry that are not identifiable, in the order above."""
     model, estimate = calibration.model, calibration.estimate
     order = _order(model)
     root = Unseen(model, observations).left_out(_root(calibration, observations, estimate.weights))

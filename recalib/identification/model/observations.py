@@ -15,7 +15,7 @@ from recalib.identification.model.optics import Optics
 
 
 class Distance(NamedTuple):
-    """How far apart [m] two sockets are, by their numbers, and its standard deviation [m]."""
+    """A distance between two sockets, by their numbers, and its standard deviation [m]."""
 
     one: int
     other: int
@@ -25,7 +25,7 @@ class Distance(NamedTuple):
 
 @dataclass(frozen=True)
 class Observations:
-    """What was measured of an arm.
+    """Measurements of an arm.
 
     Attributes:
         joints: (n, joints) rad, or m where a joint slides, that the controller reported.
@@ -60,20 +60,20 @@ class Observations:
         return replace(self, **{name: its[rows] for name, its in by_row.items() if its is not None})
 
     def whitened(self, columns: np.ndarray) -> np.ndarray:
-        """Displacements (n, 6, ...) of poses as their optics weigh them, or as they are."""
+        """Displacements (n, 6, ...) of poses, weighted by their optics if there are any."""
         if self.optics is None:
             return columns
         return np.einsum("nij,nj...->ni...", self.optics.whitening, columns)
 
     @property
     def positions(self) -> np.ndarray:
-        """What was measured (n, 3) [m], without orientations; not of balls in sockets."""
+        """Measured positions (n, 3) [m]; not for balls in sockets."""
         assert self.measured is not None
         return self.measured if self.kinds == 1 else self.measured[:, :3, 3]
 
     @property
     def rotations(self) -> np.ndarray:
-        """Orientations (n, 3, 3) that were measured, where kinds are 2."""
+        """Measured orientations (n, 3, 3), if kinds are 2."""
         assert self.measured is not None
         return self.measured[:, :3, :3]
 

@@ -25,7 +25,7 @@ _RANGE = re.compile(r"\s*(.+?)\s+to\s+(.+?)\s*")
 
 @dataclass(frozen=True)
 class Box:
-    """Where the tool link's origin may be, in the arm's base: low and high (3,) m."""
+    """Allowed range of the tool link's origin in the arm's base: low and high (3,) m."""
 
     low: np.ndarray
     high: np.ndarray
@@ -106,13 +106,13 @@ class AllowedPostures:
         if len(found) < FEWEST:
             raise InvalidSetting(
                 "--span",
-                f"{np.degrees(span):.3g} deg, of which {len(found)} of {DRAWN} postures are free",
+                f"{np.degrees(span):.3g} deg, with {len(found)} of {DRAWN} postures allowed",
                 f"at least {FEWEST}; try: more room, such as a wider --box or a lower --floor",
             )
         self.joints = np.array(found)
 
     def tool(self, joints: np.ndarray) -> np.ndarray:
-        """Where the nominal tool is (3,) [m] in the arm's base."""
+        """The nominal tool's position (3,) [m] in the arm's base."""
         place: np.ndarray = self._arm.forward(joints[None])[0, :3, 3]
         return place
 
@@ -176,5 +176,5 @@ class AllowedPostures:
         if self._clearance and (pair := self._clearance.touching(joints, MARGIN - slack)):
             option = "--floor" if FLOOR in pair else "--no-self-collision"
             found = f"{pair[0]} nearer than {1e3 * MARGIN:.0f} mm to {pair[1]}"
-            return Problem(found, f"more room, or another {option} if that is not so")
+            return Problem(found, f"more room, or another {option} if this is wrong")
         return None

@@ -35,7 +35,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     """
     arm, settings = load_arm(given.urdf, given.tool, given.base), _settings(given)
     if given.board is None and (given.lens or given.camera):
-        raise InvalidSetting("--board", None, "a board, which --lens and --camera are for")
+        raise InvalidSetting("--board", None, "a board for --lens and --camera")
     opening: Callable[[], Station] = partial(open_station, given.station)
     pictures: Pictures | None = None
     if given.board is not None:
@@ -44,7 +44,7 @@ def measure_live(given: argparse.Namespace, on_progress: Callable[[str], None]) 
     shapes, missing = load_shapes(arm, given.urdf) if checked else (None, [])
     if missing:
         names = ", ".join(missing)
-        on_progress(f"not checked for floor and self-collision, as no file has its shape: {names}")
+        on_progress(f"links without a shape, not checked for floor and self-collision: {names}")
     ask = (lambda move: Answer.MOVE) if given.yes else partial(ask_to_move, arm)
     with _signals_that_stop():
         return calibrate_live(
@@ -100,7 +100,7 @@ def _with_board(
 
 
 def ask_to_move(arm: Arm, move: Move) -> Answer:
-    """What a person at the terminal says to a move of an arm.
+    """The answer of a person at the terminal to a proposed move.
 
     What was typed before the question appeared is no answer to it, and is thrown away.
     """

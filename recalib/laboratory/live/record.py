@@ -26,7 +26,7 @@ from recalib.nominal.kinematics import Arm
 
 
 class Pictures(Protocol):
-    """What pictures say beyond the poses that are measured in them.
+    """Information in pictures beyond the measured poses.
 
     Attributes:
         tool_radius: m about the tool link's origin that a board there may take.
@@ -109,11 +109,11 @@ class Record:
             needed = [*self._joints, *[PICTURE] * (self.pictures is not None)]
             if missing := [name for name in needed if name not in header]:
                 raise InvalidFile(
-                    self.path, f"it has no column {missing[0]!r}, so that no row can be added"
+                    self.path, f"column {missing[0]!r} is missing, so rows cannot be added"
                 )
             self._header, self.observations = header, self._read(self._content)
         elif not (content.startswith(start) or start.startswith(content)):
-            raise InvalidFile(self.path, "it is no table that recalib live began")
+            raise InvalidFile(self.path, "it was not started by recalib live")
         os.ftruncate(self._file, len(self._content))
         self.skipped = self._read_skipped()
 
@@ -173,7 +173,7 @@ class Record:
         try:
             os.lseek(self._file, len(self._content), os.SEEK_SET)
             if os.write(self._file, line) < len(line):
-                raise OSError(None, "there is no room for a row")
+                raise OSError(None, "there is not enough space for a row")
             os.fsync(self._file)
         except OSError as error:
             os.ftruncate(self._file, len(self._content))

@@ -92,7 +92,7 @@ class RunningCalibration:
         return replace(observations, optics=optics)
 
     def error(self, observations: Observations) -> float:
-        """The mean error of position [m] that is to be expected in allowed postures.
+        """The predicted mean position error [m] in allowed postures.
 
         It holds the noise, since nobody can tell from it what no parameter describes. What is not
         known of the parameters counts as much more as the last rows surprised those before them;
@@ -105,7 +105,7 @@ class RunningCalibration:
         return float(self._expected(calibration, self._probes, optics, surprise).mean())
 
     def gain(self, observations: Observations, avoided: list[np.ndarray]) -> float:
-        """The part of the predicted error that the next postures would take away.
+        """The fraction by which the next postures would reduce the predicted error.
 
         These are the most informative ones, without `avoided` as in `next_posture`.
         """
@@ -128,7 +128,7 @@ class RunningCalibration:
     def next_posture(
         self, observations: Observations, avoided: list[np.ndarray]
     ) -> np.ndarray | None:
-        """What to measure next (joints,) [rad, m]; None where all was measured.
+        """The next posture (joints,) [rad, m]; None if all were measured.
 
         The one farthest from those measured while there is no calibration, then the most
         informative one. Candidates nearer to an avoided posture than to a measured one are left
@@ -184,7 +184,7 @@ class RunningCalibration:
             yield int(numbers[best]), covariance
 
     def check(self, observations: Observations) -> str | None:
-        """What is wrong with the last row or rows, in words, if those before exclude them."""
+        """A message if the last rows contradict those before; otherwise None."""
         for count, gate, far in ((1, WILD, FAR), (ROW, GATE, 0.0)):
             before = len(observations) - count
             # the first calibrations are poor, and do not know it
@@ -200,9 +200,9 @@ class RunningCalibration:
                 measured = ", ".join(f"{1e3 * gap:.2g}" for gap in off)
                 rows = f"row {before + 1}" if count == 1 else f"rows {before + 1} to {before + ROW}"
                 return (
-                    f"in {rows} the target was measured {measured} mm from where the {before} rows"
-                    f" before put it; expected: about {expected:.2g} mm. Instrument or target seems"
-                    " to have moved; try: put it back, or begin a new table"
+                    f"in {rows} the target was measured {measured} mm from its prediction by the"
+                    f" {before} rows before; expected: about {expected:.2g} mm. The instrument or"
+                    " the target may have moved; try: put it back, or begin a new table"
                 )
         return None
 

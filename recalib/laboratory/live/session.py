@@ -30,7 +30,7 @@ LOST = 10  # postures in a row in which the target is not seen: it is lost, or t
 
 @dataclass(frozen=True)
 class LiveSettings:
-    """How to calibrate.
+    """Settings of a live calibration.
 
     Attributes:
         error: m that the predicted mean error should have; None to go on while it is of use.
@@ -67,17 +67,17 @@ class LiveSettings:
 
 
 class Interrupted(RecalibError):
-    """A person has stopped it."""
+    """The calibration was interrupted by a person."""
 
 
 class Answer(Enum):
-    """What a person says to a move of an arm, before it is made."""
+    """A person's answer to a proposed move."""
 
     MOVE, SKIP, END = "move", "skip the posture for good", "end"
 
 
 class Move(NamedTuple):
-    """A command before it is sent.
+    """A proposed move.
 
     Attributes:
         start, goal: (joints,) rad, m where the arm stands, and where it is to go.
@@ -109,7 +109,7 @@ def calibrate_live(
     pictures: Pictures | None = None,
     shapes: pin.GeometryModel | None = None,
 ) -> Ended:
-    """Move, measure and add rows to a table until it is enough.
+    """Let an arm move and measure until its calibration is accurate enough.
 
     It begins where the arm stands, or goes on with the rows that are there. Whatever goes wrong,
     the station is stopped and nothing moves any more.
@@ -150,8 +150,8 @@ def calibrate_live(
         on_progress(_where_it_will_be(postures))
         if not (shapes and shapes.ngeoms) and (settings.floor is not None or checks[1]):
             on_progress(
-                "the URDF has no shapes of links that can be read: neither floor nor self-collision"
-                " is checked for links"
+                "the URDF has no readable link shapes: floor and self-collision are not checked for"
+                " links"
             )
         running = RunningCalibration(arm, description, postures, pictures)
         going = station, record, settings, postures, running, on_progress
@@ -161,7 +161,9 @@ def calibrate_live(
         if station is not None:
             station.stop()
         if len(record):
-            on_progress(f"stopped; {len(record)} rows are in {record.path}: the same call goes on")
+            on_progress(
+                f"stopped; {len(record)} rows are in {record.path}; to continue, repeat the command"
+            )
         if isinstance(error, KeyboardInterrupt):
             which = "was not open yet" if station is None else "was told to stop"
             raise Interrupted(f"interrupted; the station {which}") from None
@@ -177,7 +179,7 @@ def _where_it_will_be(postures: AllowedPostures) -> str:
     places = 1e3 * np.array([postures.tool(joints) for joints in postures.joints])
     ends = zip("xyz", places.min(axis=0), places.max(axis=0), strict=True)
     ranges = ", ".join(f"{axis} from {low:.0f} to {high:.0f} mm" for axis, low, high in ends)
-    return f"in all postures to choose from, the tool is at {ranges} in the arm's base"
+    return f"the tool's range in all candidate postures, in the arm's base: {ranges}"
 
 
 @dataclass(frozen=True)
@@ -205,8 +207,8 @@ class _Session:
         rows, unseen = self.record.observations or self._measured(), 0
         if rows is None:
             raise StationFailed(
-                "the instrument does not see the target where the arm stands; try: begin where it"
-                " does"
+                "the target is out of sight in the first posture; try: start where the instrument"
+                " sees it"
             )
         while True:
             reason = self._enough(rows)
@@ -227,11 +229,11 @@ class _Session:
             rows, unseen = measured or rows, 0 if measured else unseen + 1
             if measured is None:
                 self.avoided.append(goal)
-                self.on_progress("the instrument does not see the target there")
+                self.on_progress("the target is out of sight there")
             if unseen == LOST:
                 raise StationFailed(
-                    f"the instrument has not seen the target in {LOST} postures, one after the"
-                    " other; if it is still there, try: a smaller --span"
+                    f"the target was out of sight in {LOST} postures in a row; if it is still in"
+                    " place, try: a smaller --span"
                 )
 
     def _go_to(self, goal: np.ndarray, ask: Callable[[Move], Answer]) -> Answer:
@@ -264,7 +266,7 @@ class _Session:
         try:
             rows, line = self.record.read(angles, cells)
         except InvalidFile as error:
-            raise StationFailed(f"what the station measured is no row: {error.reason}") from None
+            raise StationFailed(f"the station's measurement is invalid: {error.reason}") from None
         if (wrong := self.running.check(rows)) is not None:
             raise StationFailed(wrong)
         self.record.write(rows, line)
@@ -273,7 +275,7 @@ class _Session:
     def _enough(self, rows: Observations) -> str | None:
         """Why the rows are enough; None if they are not."""
         count, settings = len(rows), self.settings
-        most = f"{count} rows are as many as allowed" if count >= settings.most else None
+        most = f"the limit of {count} rows is reached" if count >= settings.most else None
         if not self.running.is_ready(rows):
             self.on_progress(f"row {count}")
             return most
@@ -286,7 +288,7 @@ class _Session:
         # few pictures say nothing of postures that the camera does not see
         trusted = rows.optics is None or count >= SOON
         if settings.error is not None and error <= settings.error and trusted:
-            return f"{total}; {1e3 * settings.error:g} mm was asked for"
+            return f"{total}; {1e3 * settings.error:g} mm was requested"
         if count >= SOON and self.running.gain(rows, self.avoided) < USELESS:
-            return f"{total}, and {AHEAD} further postures would hardly make it smaller"
+            return f"{total}; {AHEAD} more rows would reduce it by less than {100 * USELESS:g} %"
         return most and f"{total}; {most}"

@@ -32,7 +32,7 @@ LEAST = 0.5  # px: a reprojection error as small is never a reason
 SIMILAR, OTHER = 1.1, 5.0
 CHANCE = 10.0  # how much more a given lens leaves by chance, to a parameter, over the noise
 UNSETTLED = (
-    "the search for the lens was still going on when it was stopped; try: pictures that"
+    "the estimation of the lens did not converge; try: pictures that"
     " show the board tilted, near and far, and in all parts of the picture"
 )
 FIXED, IN_HAND = CAMERAS = "fixed", "hand"  # where a camera is
@@ -71,7 +71,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Observed:
-    """What was found in pictures.
+    """Corners, lens and refusals of a folder of pictures.
 
     Attributes:
         table: the joints of each picture.
@@ -112,7 +112,7 @@ class Observed:
 
     @property
     def doubt(self) -> str | None:
-        """What is doubtful about the lens, in a sentence without its full stop."""
+        """A warning about the lens, without its full stop."""
         return doubt_of(self.given, self.own, views_of(self.board, self.used))
 
     def summary(self) -> str:
@@ -121,7 +121,7 @@ class Observed:
         (fx, _, cx), (_, fy, cy) = lens.matrix[:2]
         source = "from these pictures"
         if self.given is not None:
-            source = f"as given (one {source} would leave {self.own.error:.3f} px)"
+            source = f"as given (one {source} has an error of {self.own.error:.3f} px)"
         lines = [
             f"{len(used)} of {len(self.pictures)} pictures are used;"
             f" reprojection error {self.error:.3f} px along an axis",
@@ -195,12 +195,12 @@ def doubt_of(given: Lens | None, own: FoundLens, views: Sequence[View]) -> str |
     if left <= SIMILAR * own.error or surplus < CHANCE:
         return None
     found = (
-        f"the lens as given leaves {left:.3g} px in these pictures; one from them,"
-        f" {own.lens.model}, leaves {own.error:.3g} px"
+        f"the given lens has a reprojection error of {left:.3g} px in these pictures; one estimated"
+        f" from them, {own.lens.model}, has {own.error:.3g} px"
     )
     if left > max(OTHER * own.error, LEAST):
         raise RecalibError(f"{found}: it is not this camera's; try: without --lens")
-    return f"{found}; check that it is this camera's, and that focus and zoom are as they were"
+    return f"{found}; check that it belongs to this camera and that focus and zoom are unchanged"
 
 
 def views_of(board: Board, pictures: Sequence[Picture]) -> list[View]:

@@ -23,9 +23,9 @@ def in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
     where = f"in {data.tables[sight].parent}, " if len(data.tables) > 1 else ""
     instrument, target = frames.sights[sight]
     stands, moves = data.instruments[instrument], data.target_names[target]
-    steady = "an instrument that is warm"
+    steady = "a warmed-up instrument"
     if len(frames.sockets):  # there is no instrument
-        stands, moves, steady = "the sockets", "the ball", "sockets that are fastened"
+        stands, moves, steady = "the sockets", "the ball", "tighter sockets"
     series = observations.series
     rows = np.count_nonzero(series == series[observations.targets == sight][0])
     seem = "seem" if len(frames.sockets) else "seems"
@@ -46,7 +46,7 @@ def in_words(fault: Fault, data: DataSet, frames: Frames) -> str:
         DRIFT: f"{stands} {seem} to drift by {size} from the first row to the last; try a"
         f" shorter session, or {steady}",
         GROWTH: f"the arm seems to grow by {_short(100 * fault.size)} % from the first row to the"
-        " last, as one that warms up; try to move it for a while before, and use it as warm",
+        " last, as if warming up; try to warm it up before measuring and before use",
         JUMP: f"{between} {stands.removeprefix('the ')} or base seem to have moved by {moved};"
         f" {parts}",
         SLIP: f"{between} {moves} seems to have slipped on the tool by {moved}; {parts}",
@@ -59,10 +59,10 @@ def gain_in_words(wrong: WrongGain, joints: Sequence[str]) -> str:
     joint, by, percent = joints[wrong.joint], joints[wrong.by], 100 * wrong.share
     if joint == by:
         much = f"{_short(abs(percent))} % {'more' if percent > 0 else 'less'}"
-        return f"{joint} seems to move {much} than its column says; try its gear ratio"
+        return f"{joint} seems to move {much} than reported; check its gear ratio"
     return (
-        f"{joint} seems to turn by {_short(percent)} % of {by} in addition to what its column says;"
-        " check whether they are coupled"
+        f"{joint} seems to turn by {_short(percent)} % of {by} in addition; check whether they are"
+        " coupled"
     )
 
 

@@ -39,7 +39,7 @@ def checked_frames(
     instrument: np.ndarray | None = None,
     target: np.ndarray | None = None,
 ) -> Frames:
-    """The frames at both ends of the nominal arm, to start an identification from.
+    """Initial estimates of the frames at both ends of the nominal arm.
 
     Args:
         instrument: (4, 4) m in the arm's base frame, if known.
@@ -71,7 +71,7 @@ def checked_frames(
     parts = " and ".join("[instrument]" if name == "base" else f"[{name}]" for name in wrong)
     where = " and ".join(_gap(stated[name], there[name]) for name in wrong)
     raise WrongKnowledge(
-        f"the description's {parts} {where}; try: a description without it, for it to be estimated"
+        f"the description's {parts} {where}; try: omit it, so that it is estimated"
     )
 
 
@@ -99,7 +99,7 @@ def _of_rotations(arm: Arm, observations: Observations) -> str | None:
         return None
     with suppress(NoInitialEstimate):
         initial_frames(arm, replace(observations, measured=observations.positions))
-        return "rotations of something else, or written otherwise: positions alone are explained"
+        return "rotations of another frame or in another notation: positions alone fit"
     return None
 
 
@@ -124,8 +124,8 @@ def frames_of(arm: Arm, data: DataSet) -> Frames:
         off = median_error(frames, arm.forward(rows.joints), rows)
         if off > FARTHEST:
             raise WrongKnowledge(
-                f"{name} is {1e3 * off:.0f} mm from where the other pictures put it; expected: a"
-                " camera or a board of one name in one place; try: another name"
+                f"{name} is {1e3 * off:.0f} mm from its place by the other pictures; expected: one"
+                " place for each name; try: another name"
             )
     return frames
 
@@ -143,9 +143,8 @@ def check_distances(arm: Arm, data: DataSet, frames: Frames) -> None:
         if abs(length - nominal) > STRETCHED * nominal + median_error(frames, tool, observations):
             raise WrongKnowledge(
                 f"the description's distance between {names[one]} and {names[other]}"
-                f" is {1e3 * length:.5g} mm; by the arm's description they are"
-                f" {1e3 * nominal:.5g} mm apart; expected that, but for"
-                f" {100 * STRETCHED:.0f} percent"
+                f" is {1e3 * length:.5g} mm; in the URDF they are {1e3 * nominal:.5g} mm apart;"
+                f" expected: at most {100 * STRETCHED:.0f} percent off"
             )
 
 
@@ -158,6 +157,6 @@ def _gap(given: np.ndarray, found: np.ndarray) -> str:
     angles = Rotation.from_matrix(found[:3, :3]).as_euler("xyz", degrees=True)
     turn = ", ".join(f'"{angle:.0f} deg"' for angle in angles)
     return (
-        f"is {shift:.0f} mm and {angle:.0f} deg from where the measurements put it; expected about"
-        f" position = [{place}], roll_pitch_yaw = [{turn}]"
+        f"is {shift:.0f} mm and {angle:.0f} deg from its estimate by the measurements; expected:"
+        f" about position = [{place}], roll_pitch_yaw = [{turn}]"
     )

@@ -22,16 +22,16 @@ from recalib.nominal.kinematics import Arm
 from recalib.spelling import listed
 
 ALIKE = 0.01  # m: nominal positions that differ by less are of the same arm
-SHIFTED = "joints that are those of the row"
+SHIFTED = "joints of the row"
 EXPLAINED = 0.2  # the part of a difference that may remain without the mistake
 UNITS = {  # wrong units of positions, by the factor that corrects them
-    1e-3: "in millimetres that say m",
-    1e-2: "in centimetres that say m",
+    1e-3: "in millimetres labelled m",
+    1e-2: "in centimetres labelled m",
     1e-1: "in millimetres that say cm",
-    1e1: "in centimetres that say mm",
-    25.4: "in inches that say mm",
-    1e2: "in metres that say cm",
-    1e3: "in metres that say mm",
+    1e1: "in centimetres labelled mm",
+    25.4: "in inches labelled mm",
+    1e2: "in metres labelled cm",
+    1e3: "in metres labelled mm",
 }
 SAME = 1e-6  # a difference of such parts below which two mistakes explain the same
 ENOUGH = 40  # rows to try mistakes on
@@ -90,7 +90,7 @@ def check_nominal(
     if remaining.max() <= ALIKE:
         point = frames.targets[0, :3, 3] - place[:3, 3]
         words = _words(frames.base @ np.linalg.inv(known), point)
-        raise WrongNominal(gaps.max(), f"{words}, which the description does not say")
+        raise WrongNominal(gaps.max(), f"{words}, missing in the description")
     raise WrongNominal(gaps.max(), likely_mistake(arm, coordinates, nominal))
 
 
@@ -153,15 +153,15 @@ class Step(NamedTuple):
 def _steps(arm: Arm) -> Iterator[Step]:
     count, each = len(arm.joints), np.eye(len(arm.joints))
     for words, factor in (
-        ("degrees that say rad", np.pi / 180),
-        ("radians that say deg", 180 / np.pi),
+        ("degrees labelled rad", np.pi / 180),
+        ("radians labelled deg", 180 / np.pi),
     ):
         scale = np.where(arm.slides, 1.0, factor)
         yield Step(f"joint columns in {words}", partial(np.multiply, scale))
     for factor, words in UNITS.items():
         yield Step(f"positions {words}", measured=partial(_scaled, factor))
     mirror = partial(_scaled, -1.0)
-    yield Step("positions of which an axis points the other way", measured=mirror)
+    yield Step("positions with a reversed axis", measured=mirror)
     for joint, name in enumerate(arm.joints):
         yield Step(f"the sign of {name}", partial(np.multiply, 1 - 2 * each[joint]))
     for joint, name in enumerate(arm.joints):
@@ -197,13 +197,11 @@ def _steps_of_rotations() -> Iterator[Step]:
             "a quaternion in the order qw, qx, qy, qz": (
                 lambda turns: Rotation.from_quat(np.roll(turns.as_quat(), -1, axis=1))
             ),
-            "roll, pitch and yaw about axes that turn along": lambda turns: euler(
-                "XYZ", _angles(turns)
-            ),
-            "roll, pitch and yaw in radians that say deg": (
+            "roll, pitch and yaw about moving axes": lambda turns: euler("XYZ", _angles(turns)),
+            "roll, pitch and yaw in radians labelled deg": (
                 lambda turns: euler("xyz", np.degrees(_angles(turns)))
             ),
-            "a rotation vector in radians that says deg": (
+            "a rotation vector in radians labelled deg": (
                 lambda turns: Rotation.from_rotvec(np.degrees(turns.as_rotvec()))
             ),
             "roll, pitch and yaw in reverse order": lambda turns: euler(

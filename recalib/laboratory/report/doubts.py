@@ -21,10 +21,10 @@ CONTRADICTED = 2.0  # times the error at random: more in both others is a contra
 
 
 def doubts(result: Results) -> Iterator[str]:
-    """Sentences, the gravest first; none if rows and errors agree."""
+    """Warnings, the gravest first."""
     if result.mistake:
         yield (
-            "Careful: the table likely has a mistake, without which the URDF explains it far"
+            "Careful: the table probably contains a mistake, without which the URDF fits far"
             f" better: {result.mistake}."
         )
     for doubt in result.data.cameras.doubts if result.data.cameras else ():
@@ -45,8 +45,9 @@ def doubts(result: Results) -> Iterator[str]:
     whole, away, geometry = (1e3 * validation.mean_error(*one) for one in compared)
     if min(away, geometry) > CONTRADICTED * whole:
         yield (
-            f"Careful: expect {away:.3g} mm on other postures, not {whole:.3g} mm. Geometry alone"
-            f" leaves {geometry:.3g} mm, so most of the gain is a pattern of these rows only."
+            f"Careful: expect {away:.3g} mm away from the measured postures, not {whole:.3g} mm."
+            f" The error of geometry alone is {geometry:.3g} mm, so most of the improvement is"
+            " specific to these rows."
         )
 
 
@@ -59,9 +60,9 @@ def _worn(result: Results) -> Iterator[str]:
     if ratios.max() > WORN:
         largest = named_parameters(result)[int(ratios.argmax())]
         yield (
-            f"Careful: the {largest.name} would be {largest.value:.3g} {largest.unit}, and wear is"
-            f" expected to do {1 / ratios.max() * abs(largest.value):.2g} {largest.unit}; is each"
-            " column of the table that of its joint, and its zero that of the URDF?"
+            f"Careful: the {largest.name} would be {largest.value:.3g} {largest.unit}; expected"
+            f" from wear: {1 / ratios.max() * abs(largest.value):.2g} {largest.unit}. Check that"
+            " each column belongs to its joint and has the URDF's zero."
         )
 
 
@@ -73,14 +74,14 @@ def _open(result: Results) -> Iterator[str]:
     words = [words for one, words in pairs if not one.lasting]
     words.sort(key=lambda text: not any(end in text for end in ENDS))
     axes = turned_axes(result.arm.forward(result.data.observations.joints))
-    turns = ["never turned", "turned about one axis alone", "turned about two axes alone"]
+    turns = ["never turned", "turned about only one axis", "turned about only two axes"]
     about = " and ".join(f"({', '.join(f'{x + 0.0:.2g}' for x in axis.round(2))})" for axis in axes)
     where = f", {about} of {result.arm.base}" * (0 < len(axes) < 3)
     tool = f"{result.arm.tool} {turns[len(axes)]}{where}" if len(axes) < 3 else "postures are alike"
     rest = len(words) - MOST
     more = f"; and {counted(rest, 'further direction')}" if rest > 0 else ""
-    named = f" These rows do not determine {'; '.join(words[:MOST])}{more}: these stay as given."
-    only = f"Careful: {tool}, so all that is said here holds for such postures only."
+    named = f" Not identifiable, and kept nominal: {'; '.join(words[:MOST])}{more}."
+    only = f"Careful: {tool}, so these results hold only for such postures."
     yield only + named * bool(words)
 
 
@@ -98,7 +99,7 @@ def _resized(result: Results) -> Iterator[str]:
         else:
             off = f"{what} is {percent} {'larger' if large else 'smaller'} than its description"
             advice = "measure it again" if optics is None else "measure its squares"
-        yield f"Careful: if links are as long as the URDF has them, {off}; {advice}."
+        yield f"Careful: if the URDF's link lengths are right, {off}; {advice}."
 
 
 def _outvoted(result: Results) -> Iterator[str]:
@@ -108,6 +109,6 @@ def _outvoted(result: Results) -> Iterator[str]:
         doubted = np.count_nonzero(series[result.doubted - 1] == number)
         if doubted > OUTVOTED * (rows := np.count_nonzero(series == number)):
             yield (
-                f"Careful: {doubted} of {rows} pictures of {name} contradict the others; are camera"
-                " and board where the others have them, and the joints those of the pictures?"
+                f"Careful: {doubted} of {rows} pictures of {name} contradict the others; check the"
+                " places of camera and board, and the joints of these pictures."
             )

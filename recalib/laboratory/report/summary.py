@@ -24,7 +24,7 @@ from recalib.spelling import counted
 DOING = {
     NOTHING: "nothing",
     GEOMETRIC: "geometry, as in arm.urdf",
-    HYBRID: "all of it, as in correction.npz",
+    HYBRID: "everything, as in correction.npz",
 }
 MOST = 12  # doubted rows, and directions, that are listed
 BEYOND = 0.5  # deg, mm: limits are rounded
@@ -90,7 +90,7 @@ def errors_table(result: Results) -> list[ErrorRow]:
 
 
 def verdict(result: Results) -> str:
-    """In one sentence what the calibration is worth, then what makes that doubtful."""
+    """The headline of a calibration, then its warnings."""
     return " ".join([_worth(result), *doubts(result)])
 
 
@@ -101,7 +101,7 @@ def _worth(result: Results) -> str:
     before, after, at_random = (1e3 * result.validation.mean_error(*one) for one in compared)
     if not result.worthwhile:
         return (
-            "Correcting is no better than doing nothing: on postures that were not learned from,"
+            "The correction does not reduce the error: on held-out postures,"
             f" the nominal arm's mean error of {before:.3g} mm does not fall{without}."
         )
     return (

@@ -22,7 +22,7 @@ ORIGIN = {"position": ["0 m"] * 3, "roll_pitch_yaw": ["0 deg"] * 3}
 
 @dataclass(frozen=True)
 class Description:
-    """What a table cannot express.
+    """Frames, distances and columns that a table of measurements cannot express.
 
     Attributes:
         columns: by a heading of the table the heading that it should have, or "ignored".

@@ -172,7 +172,7 @@ def _check_copies(table: Table) -> None:
         raise InvalidFile(
             table.path,
             f"{len(copies)} of its {len(table)} rows are copies of others, such as row {row} of row"
-            f" {other}; expected: rows that were measured one by one",
+            f" {other}; expected: independent measurements",
         )
 
 

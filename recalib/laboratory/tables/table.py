@@ -124,7 +124,7 @@ class Table:
             if label != (other := first.setdefault(label.casefold(), label)):
                 raise InvalidFile(
                     self.path,
-                    f"{other!r} and {label!r} of column {column!r} differ in capitals alone;"
+                    f"{other!r} and {label!r} of column {column!r} differ only in capitals;"
                     " expected: one spelling",
                 )
         return np.array(self.cells[column])
