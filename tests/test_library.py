@@ -93,7 +93,7 @@ def test_an_example_ends_with_small_errors(name, monkeypatch, capsys):
     errors = [float(number) for number in re.findall(r"([\d.]+) (?:mm|cm)", told)]
     assert 0 <= errors[-1] < 0.1 * errors[0]
     if name == "save_and_load":
-        assert "is of another robot: its home differs by up to 0.1" in told
+        assert "belongs to another robot: its home differs by up to 0.1" in told
 
 
 @pytest.fixture(scope="module")

@@ -99,8 +99,8 @@ INVERTED = INSTRUMENT.replace('"1 m"', '"-1 m"')
     ("text", "said"),
     [
         (TURNED + TARGET, r"\[instrument\] is \d\d mm and 9\d deg .* position = \[\"999 mm\", "),
-        (INVERTED + TARGET, r"\[instrument\] is 1999 mm and 1 deg from where the measurements put"),
-        (INSTRUMENT + ELSEWHERE, r"\[target\] is 396 mm and 0 deg from where the measurements put"),
+        (INVERTED + TARGET, r"\[instrument\] is 1999 mm and 1 deg from its estimate"),
+        (INSTRUMENT + ELSEWHERE, r"\[target\] is 396 mm and 0 deg from its estimate"),
         (TURNED, r"\[instrument\] is \d\d mm and 9\d deg from"),
         (TARGET.replace('"0 mm"', '"700 mm"'), r"\[target\] is 9\d\d mm and 0 deg from"),
         (TURNED + ELSEWHERE, r"\[instrument\] and \[target\] is .* and is "),
@@ -118,7 +118,7 @@ def test_a_ball_in_sockets_needs_no_instrument(in_sockets):
     assert np.linalg.norm(one - other) == pytest.approx(0.3, abs=1e-3)
     assert result.worthwhile and result.data.sockets == ("left", "right")
     text = summary(result)
-    assert "a ball in sockets shows errors there" in text and "the instrument" not in text
+    assert "errors are those in the sockets" in text and "the instrument" not in text
     assert [place.name for place in result.places] == ["the target", "socket left", "socket right"]
     names = [row["name"] for row in identified_parameters(result)]
     assert "x of socket left, from its initial estimate" in names and "socket 1" not in str(names)
@@ -192,7 +192,7 @@ def test_a_ball_whose_place_is_known_is_taken_to_be_there(in_sockets):
         (
             DISTANCE.format("left", 400),
             WrongKnowledge,
-            r"between left and right is 400 mm; by the arm's description they are 29\d",
+            r"between left and right is 400 mm; in the URDF they are 29\d",
         ),
     ],
     ids=["instrument", "no socket", "another arm"],

@@ -106,7 +106,10 @@ def test_without_a_known_instrument_commands_are_right_in_its_frame_and_refused_
     assert main(arguments) == REFUSED
     assert "measured positions do not determine a target's rotation" in capsys.readouterr().err
     assert main([*arguments, "--frame=base"]) == REFUSED
-    assert "arm's base is not identifiable from the measurements; try: a cal" in capsys.readouterr().err
+    assert (
+        "arm's base is not identifiable from the measurements; try: a cal"
+        in capsys.readouterr().err
+    )
     assert not (folder / "no.csv").exists()
 
 
@@ -143,7 +146,7 @@ def test_a_table_whose_joints_reach_its_poses_in_the_other_frame_is_refused(
         code = main([*arguments, f"--out={tmp_path}/{frame}.csv"])
         assert code == (DONE if frame == given else REFUSED)
     (other,) = places.keys() - {given}
-    message = f"recalib: frame is '{given}'; expected: {other}, in which the joints take the arm"
+    message = f"recalib: frame is '{given}'; expected: {other}, because the joints reach"
     assert message in capsys.readouterr().err
 
 

@@ -57,7 +57,11 @@ def result(
 @pytest.mark.parametrize(
     ("away", "geometry", "said"),
     [
-        (1.48e-3, 1.72e-3, "Careful: expect 1.48 mm on other postures, not 0.405 mm. Geometry"),
+        (
+            1.48e-3,
+            1.72e-3,
+            "Careful: expect 1.48 mm away from the measured postures, not 0.405 mm. The error",
+        ),
         (0.7e-3, 1.72e-3, ""),
         (1.48e-3, 0.7e-3, ""),
     ],
@@ -72,10 +76,10 @@ def test_what_geometry_and_blocks_contradict_is_warned_of(away, geometry, said):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("offset of wrist_1_joint", "would be {} deg, and wear is expected to do 4 deg"),
-        ("turn z behind elbow_joint", "would be {} deg, and wear is expected to do 0.5 deg"),
-        ("shift x of tool", "would be {} mm, and wear is expected to do 20 mm"),
-        ("shift z of base", "would be {} mm, and wear is expected to do 50 mm"),
+        ("offset of wrist_1_joint", "would be {} deg; expected from wear: 4 deg"),
+        ("turn z behind elbow_joint", "would be {} deg; expected from wear: 0.5 deg"),
+        ("shift x of tool", "would be {} mm; expected from wear: 20 mm"),
+        ("shift z of base", "would be {} mm; expected from wear: 50 mm"),
     ],
 )
 @pytest.mark.parametrize("deviations", [-4.0, 2.9])
@@ -101,7 +105,7 @@ def test_what_wear_does_not_do_is_doubted_by_name(name, said, deviations):
             Fault(DRIFT, 1e-3),
             None,
             "the instrument seems to drift by 1 mm from the first row to the last; try a shorter"
-            " session, or an instrument that is warm",
+            " session, or a warmed-up instrument",
         ),
         (
             Fault(JUMP, 1e-3, 21),
@@ -142,8 +146,8 @@ def test_another_scale_is_told_where_it_explains_what_is_off(scale, said):
 @pytest.mark.parametrize(
     ("mirrored", "said"),
     [
-        (False, "mistake, without which the URDF explains it far better: the zero of elbow_joint"),
-        (True, "residuals of the best fit are .*; likely: positions of which an axis points the"),
+        (False, "mistake, without which the URDF fits far better: the zero of elbow_joint"),
+        (True, "residuals of the best fit are .*; likely: positions with a reversed"),
     ],
 )
 def test_a_mistake_that_a_fit_takes_for_errors_of_the_arm_is_named(mirrored, said, tmp_path):
@@ -171,7 +175,7 @@ def test_rows_that_are_shifted_by_one_are_told_once(arm, folder):
     positions = true_positions(arm, joints)
     positions += NOISE * np.random.default_rng(4).standard_normal((ROWS, 3))
     write(folder / "shifted.csv", table(arm, joints[1:], positions[:-1]))
-    with pytest.raises(Untrustworthy, match="likely: joints that are those of the row") as told:
+    with pytest.raises(Untrustworthy, match="likely: joints of the row") as told:
         calibrate_arm(folder / "arm.urdf", folder / "shifted.csv")
     assert "of a step" not in str(told.value)
 

@@ -51,5 +51,5 @@ def test_a_part_without_which_a_direction_is_open_does_not_count(arm, folder):
     result = calibrate_arm(folder / "arm.urdf", folder / "rows.csv")
     lost = {way: int(result.validation.lost[way].sum()) for way in WAYS}
     assert 0 < lost[BLOCKWISE] < ROWS
-    assert f"errors {BLOCKWISE} leave out {lost[BLOCKWISE]} rows" in summary(result)
+    assert f"errors {BLOCKWISE} exclude {lost[BLOCKWISE]} rows" in summary(result)
     assert len(result.counted) == ROWS - lost[BLOCKWISE]

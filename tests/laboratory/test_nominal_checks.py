@@ -69,23 +69,23 @@ MISTAKES = {
     ),
     "degrees for radians": (
         lambda q, p: (np.degrees(q), p),
-        "joint columns in degrees that say rad",
+        "joint columns in degrees labelled rad",
     ),
     "radians for degrees": (
         lambda q, p: (np.radians(q), p),
-        "joint columns in radians that say deg",
+        "joint columns in radians labelled deg",
     ),
-    "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres that say mm"),
-    "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres that say"),
-    "inches": (lambda q, p: (q, p / 25.4), "positions in inches that say mm"),
-    "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres that say cm"),
-    "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres that say m"),
+    "metres for millimetres": (lambda q, p: (q, p * 1e-3), "positions in metres labelled mm"),
+    "centimetres for millimetres": (lambda q, p: (q, p * 0.1), "positions in centimetres labelled"),
+    "inches": (lambda q, p: (q, p / 25.4), "positions in inches labelled mm"),
+    "a hundredth": (lambda q, p: (q, p * 0.01), "positions in metres labelled cm"),
+    "a hundredfold": (lambda q, p: (q, p * 100), "positions in centimetres labelled m"),
     "a left-handed frame": (
         lambda q, p: (q, p * [1, -1, 1]),
-        "positions of which an axis points the other way",
+        "positions with a reversed axis",
     ),
-    "the row before": (lambda q, p: (q[:-1], p[1:]), "joints that are those of the row before"),
-    "the row after": (lambda q, p: (q[1:], p[:-1]), "joints that are those of the row after"),
+    "the row before": (lambda q, p: (q[:-1], p[1:]), "joints of the row before"),
+    "the row after": (lambda q, p: (q[1:], p[:-1]), "joints of the row after"),
     "two at once": (
         lambda q, p: (changed(changed(q, 2, np.negative), 3, lambda c: c - np.pi / 2), p),
         "the sign of elbow_joint and the zero of wrist_1_joint, off by -90 deg",
@@ -153,7 +153,7 @@ def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
         (lambda poses: np.linalg.inv(poses), "poses of the instrument in the target's frame"),
         (
             lambda poses: with_turns(poses, poses[::-1]),
-            "rotations of something else, or written otherwise: pos",
+            "rotations of another frame or in another notation: pos",
         ),
         (
             lambda poses: with_turns(poses, poses.swapaxes(1, 2)),
@@ -165,23 +165,23 @@ def test_a_pitch_of_a_right_angle_is_no_reason_for_a_warning(arm, joints):
         ),
         (
             lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("XYZ"))),
-            "roll, pitch and yaw about axes that turn along",
+            "roll, pitch and yaw about moving axes",
         ),
         (
             lambda poses: reread(poses, lambda its: euler("xyz", np.radians(its.as_euler("xyz")))),
-            "roll, pitch and yaw in radians that say deg",
+            "roll, pitch and yaw in radians labelled deg",
         ),
         (
             lambda poses: reread(
                 poses, lambda its: Rotation.from_rotvec(np.radians(its.as_rotvec()))
             ),
-            "a rotation vector in radians that says deg",
+            "a rotation vector in radians labelled deg",
         ),
         (
             lambda poses: reread(poses, lambda its: euler("xyz", its.as_euler("xyz")[:, ::-1])),
             "roll, pitch and yaw in reverse order",
         ),
-        (lambda poses: with_turns(MIRROR @ poses, poses), "positions of which an axis points"),
+        (lambda poses: with_turns(MIRROR @ poses, poses), "positions with a reversed axis"),
     ],
     ids=[
         *("inverse", "other rows", "transposed", "quaternion", "moving axes"),

@@ -90,7 +90,7 @@ def test_the_summary_says_what_was_gained_what_is_doubted_and_what_is_open(made)
     before, after = map(float, re.search(r"falls from ([\d.]+) mm to ([\d.]+) mm", first).groups())
     assert 2 < before < 4 and 0.3 < after < 0.8
     assert first.endswith("1 of 26 rows left out as outliers.")
-    assert "outliers, rows with almost no weight: 7" in others
+    assert "outliers (rows with almost no weight): 7" in others
     # what slides along a line and turns about it at the end of the arm moves the target as well
     for pair in ("offset of reach or shift x of target", "offset of turn or turn x of target"):
         assert f"not identifiable from any posture: {pair}" in others

@@ -111,7 +111,7 @@ def test_postures_are_within_the_limits_of_both():
         ({"box": Box(np.zeros(3), np.full(3, 0.5))}, "the tool at .* expected: within --box"),
         (
             {"box": Box.read(["77 cm to 78 cm", "16 cm to 17 cm", "23 cm to 25 cm"])},
-            "postures are free",
+            "postures allowed",
         ),
         ({"clearance": low}, "nearer than 20 mm to the floor'; expected: .* --floor"),
     ):

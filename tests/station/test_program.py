@@ -108,7 +108,7 @@ def test_a_program_that_does_not_end_is_ended(monkeypatch):
     ("text", "says"),
     [
         ("nowhere --at all", "nowhere does not start: No such file or directory"),
-        ("'unclosed", "is no command line: No closing quotation"),
+        ("'unclosed", "is not a command line: No closing quotation"),
         ("", "STATION is empty"),
         ("nowhere.py:Mine", "there is no file nowhere.py; expected: FILE.py:NAME"),
         ("no_such_module:Mine", "cannot be made: ModuleNotFoundError: No module named"),
@@ -143,7 +143,7 @@ def test_the_example_in_python_is_a_station(tmp_path, capsys):
     with few_folds():
         words = [f"{example}:BentUR10", "ur10_robot.urdf", "--tool=tool0", "--yes", *out]
         assert main(["live", *words]) == DONE
-    assert "further postures would hardly make it smaller" in capsys.readouterr().err
+    assert "more rows would reduce it by less than 5 %" in capsys.readouterr().err
     station = runpy.run_path(str(example))["BentUR10"]()
     fresh = station.angles() + np.random.default_rng(0).uniform(-0.7, 0.7, (50, 6))
     found = load_correction(tmp_path / "new" / "correction.npz").calibration.predict(fresh)

@@ -118,7 +118,7 @@ def test_a_given_lens_that_leaves_much_more_than_another_is_doubted_before_the_a
     near = replace(cell.lens, distortion=cell.lens.distortion * [1, 1, 1, 1, 0.9])
     cameras = Cameras.read([observed(near)], arm)
     (doubt,) = cameras.doubts
-    assert doubt.startswith("the lens as given leaves")
+    assert doubt.startswith("the given lens has a reprojection error of")
     assert not Cameras.read([observed(cell.lens)], arm).doubts
     result = SimpleNamespace(mistake=None, data=SimpleNamespace(cameras=cameras))
     assert next(doubts(result)) == f"Careful: {doubt}."

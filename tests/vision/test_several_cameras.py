@@ -138,7 +138,7 @@ def test_each_camera_is_written_by_its_name(in_one_fit, tmp_path, capsys):
         assert main(["calibrate", *arguments]) == DONE
     told = capsys.readouterr().out
     assert f"rows {PICTURES + 1} to {2 * PICTURES}: the board by camera right" in told
-    assert "corners in pictures of the board by camera left that were not learned" in told
+    assert "corner error in held-out pictures of the board by camera left" in told
     assert "lens_left.yaml, lens_right.yaml" in told and not (made / "lens.yaml").exists()
     for name, lens in (("left", LENS), ("right", LONGER)):
         its = read_lens(made / f"lens_{name}.yaml")
@@ -251,7 +251,10 @@ NEAR = frame([0, 0, 0], [0.05, 0, 0]) @ Cell(SEED).sheet
         ((on_the_hand(), "right"), "its board 'board' differs from that in "),
         ((changed(1, board=SMALL), "right"), "its board 'board' differs from that in "),
         ((Cell(SEED), "left", "b", None, LENS), "camera 'left' has another lens than in .*/left/"),
-        ((changed(1, sheet=FAR), "right"), "the board by camera right is 825 mm from where the o"),
+        (
+            (changed(1, sheet=FAR), "right"),
+            "the board by camera right is 825 mm from its place by the o",
+        ),
         ((changed(1, sheet=NEAR), "right"), "rows 31 to 60: the board by camera right"),
     ],
     ids=["camera and board", "places", "sides", "boards", "lenses", "far", "near"],
