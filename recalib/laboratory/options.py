@@ -78,7 +78,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own = add("live", text, "calibration")
     own.add("station", "FILE.py:NAME, MODULE:NAME, or a quoted command line", _name)
     own.add("urdf", URDF, _name)
-    own.add("--error", "end at this predicted error, such as '0.3 mm'")
+    own.add("--error", "end at this predicted error (default: when more rows would not help)")
     own.add("--most", "maximum number of rows", int, 60)
     own.add("--span", "largest distance of each joint from the first posture", str, "45 deg")
     own.add_argument(
@@ -90,7 +90,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     own.add("--speed", "fraction of the fastest joint's limit", float, 0.1)
     own.add("--floor", "height of the floor in the arm's base, or none", str, "0 mm")
     own.add_argument("--no-self-collision", action="store_true", help="allow links near each other")
-    own.add("--board", "board in the station's pictures (TOML)", _path)
+    own.add("--board", "board (TOML) in the pictures that the station measures", _path)
     own.add("--lens", "lens calibration (YAML), with --board", _path)
     own.add_argument("--camera", choices=CAMERAS, help="where the camera is (default: fixed)")
     own.add_argument("--yes", action="store_true", help="move without asking")

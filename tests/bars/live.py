@@ -12,7 +12,6 @@ import sys
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
 
 import tempfile
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -63,7 +62,7 @@ class Live:
         pictures: Pictures | None = None,
     ):
         self.station = station
-        home, began = station.angles(), time.process_time()
+        home = station.angles()
         settings = LiveSettings(ERROR)
         if pictures is not None:  # in some of these cells the board begins near the base plane
             settings = LiveSettings(FINER, span=SPAN, floor=None)
@@ -72,7 +71,6 @@ class Live:
             table = Path(folder) / "table.csv"
             ended = calibrate_live(lambda: station, arm, table, settings, pictures=pictures)
             self.reason = ended.reason
-            self.seconds = time.process_time() - began
             record = Record(table, arm, Description(), pictures)
             self.rows = record.observations
             record.close()
@@ -134,13 +132,13 @@ def pictured(seed: int, in_hand: bool) -> Live:
 
 def outcomes(kind: str, live: Sequence[Live]) -> None:
     """A row of the table."""
-    rows, seconds = [len(its.rows) for its in live], [its.seconds for its in live]
+    rows = [len(its.rows) for its in live]
     before, after = ([getattr(its, what) for its in live] for what in ("before", "after"))
     ratio = [its.predicted / its.after for its in live]
     print(
         f"| {kind} | {np.median(rows):.0f} ({max(rows)})"
         f" | {np.median(before):.1f} mm | {np.median(after):.2f} mm ({max(after):.2f})"
-        f" | {np.median(ratio):.1f} ({min(ratio):.1f}) | {max(seconds):.0f} s |",
+        f" | {np.median(ratio):.1f} ({min(ratio):.1f}) |",
         flush=True,
     )
 
@@ -160,7 +158,7 @@ if __name__ == "__main__":
         sys.exit()
     print(f"{DRAWS} draws each, until the predicted error is {1e3 * ERROR:g} mm or more is no use")
     heads = "arm", "rows (most)", "before", "after (largest)", "predicted over true (least)"
-    print(f"| {' | '.join(heads)} | processor time (most) |")
+    print(f"| {' | '.join(heads)} |")
     seeds = range(DRAWS)
     for name in ARMS:
         for gears in (0.0, GEARS):
